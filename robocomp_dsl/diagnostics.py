@@ -1,0 +1,136 @@
+"""Findings: data that every stage adds to a report, and only the command line or an editor shows.
+
+In: spans and words. Out: `Diagnostic` values collected in a `Report`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from enum import StrEnum
+
+from robocomp_dsl.source import Span
+
+
+class Severity(StrEnum):
+    """How bad a finding is; only errors stop the stages behind the one that found them."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """What a kind of finding is: the text that `rcgen explain` prints.
+
+    `explanation` says why it is wrong and shows a wrong and a right example.
+    """
+
+    id: str
+    severity: Severity
+    title: str
+    explanation: str
+
+
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A second place that explains a finding, often in another file."""
+
+    span: Span
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """Put `text` in the place of `span`."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Edits that remove a finding; applied together or not at all."""
+
+    title: str
+    edits: tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding at one place. `label` stands beside the carets, `help` below the excerpt."""
+
+    code: Code
+    span: Span
+    message: str
+    label: str = ""
+    notes: tuple[Note, ...] = ()
+    help: str = ""
+    fix: Fix | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """That of its code."""
+        return self.code.severity
+
+
+@dataclass(slots=True)
+class Report:
+    """The findings of a run, in the order they were made; duplicates are dropped."""
+
+    _found: dict[tuple[str, Span, str], Diagnostic] = field(default_factory=dict)
+
+    def add(
+        self,
+        code: Code,
+        span: Span,
+        message: str,
+        *,
+        label: str = "",
+        notes: Iterable[Note] = (),
+        help: str = "",
+        fix: Fix | None = None,
+    ) -> None:
+        """Add one finding."""
+        made = Diagnostic(code, span, message, label, tuple(notes), help, fix)
+        self._found.setdefault((code.id, span, message), made)
+
+    def extend(self, findings: Iterable[Diagnostic]) -> None:
+        """Add findings made elsewhere."""
+        for one in findings:
+            self._found.setdefault((one.code.id, one.span, one.message), one)
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        return iter(self._found.values())
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    @property
+    def failed(self) -> bool:
+        """Whether anything in it is an error."""
+        return any(one.severity is Severity.ERROR for one in self)
+
+    def sorted(self) -> list[Diagnostic]:
+        """By file, place and code: the order in which they are shown."""
+        return sorted(
+            self, key=lambda d: (str(d.span.source.path), d.span.start, d.span.end, d.code.id)
+        )
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known name that `word` most likely means, or None; a wrong case always counts as near."""
+    names = list(known)
+    for name in names:
+        if name.lower() == word.lower():
+            return name
+    found = get_close_matches(word, names, n=1, cutoff=0.7)
+    return found[0] if found else None
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The label ``did you mean `x`?``, or an empty text."""
+    guess = nearest(word, known)
+    return f"did you mean `{guess}`?" if guess else ""

@@ -1,0 +1,13 @@
+"""Where grammars, templates and the standard interfaces are: in a wheel or in a checkout alike."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+_INSTALLED = _PACKAGE / "share"
+_ROOT = _INSTALLED if _INSTALLED.is_dir() else _PACKAGE.parent
+
+GRAMMARS = _ROOT / "grammars"
+TEMPLATES = _ROOT / "templates"
+INTERFACES = _ROOT / "interfaces"

@@ -1,0 +1,119 @@
+"""Source texts and spans: what every stage points at when it speaks of the user's files.
+
+In: a path and its text. Out: `Source` (immutable text that can turn an offset into a line and a
+column) and `Span` (a range of characters in one source). Lines and columns count from 1 and
+columns count characters; they are computed only when somebody looks.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+MAX_BYTES = 4 * 1024 * 1024
+"""Larger inputs are refused: no description of a component comes near it."""
+
+
+class UnreadableSource(Exception):
+    """The file cannot be used as a text; the message says why, in words for the user."""
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """One text as the user wrote it; `path` is how the user named it."""
+
+    path: Path
+    text: str
+
+    @classmethod
+    def read(cls, path: Path) -> Source:
+        """The file at `path`, decoded as UTF-8 (a BOM is dropped).
+
+        Raises `UnreadableSource` when it is missing, a folder, too large or not a text.
+        """
+        try:
+            with path.open("rb") as stream:
+                data = stream.read(MAX_BYTES + 1)
+        except FileNotFoundError:
+            raise UnreadableSource("there is no such file") from None
+        except IsADirectoryError:
+            raise UnreadableSource("this is a folder, not a file") from None
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise UnreadableSource(f"the file cannot be read: {reason}") from None
+        return cls(path, decode(data))
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of every line."""
+        starts = [0]
+        find = self.text.find
+        at = find("\n")
+        while at >= 0:
+            starts.append(at + 1)
+            at = find("\n", at + 1)
+        return starts
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column, both from 1, of the character at `offset`."""
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """Text of line `number` (from 1) without its line end."""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r\n")
+
+    def span(self, start: int, end: int) -> Span:
+        """The range [start, end) of this source."""
+        return Span(self, start, end)
+
+    @property
+    def whole(self) -> Span:
+        """An empty span at the very start, for findings about the file as such."""
+        return Span(self, 0, 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The characters [start, end) of a source."""
+
+    source: Source
+    start: int
+    end: int
+
+    @property
+    def text(self) -> str:
+        """The characters themselves."""
+        return self.source.text[self.start : self.end]
+
+    @property
+    def begin(self) -> tuple[int, int]:
+        """Line and column of the first character, from 1."""
+        return self.source.position(self.start)
+
+    @property
+    def finish(self) -> tuple[int, int]:
+        """Line and column just behind the last character, from 1."""
+        return self.source.position(self.end)
+
+    def to(self, other: Span) -> Span:
+        """From the start of this span to the end of `other`."""
+        return Span(self.source, self.start, max(self.end, other.end))
+
+
+def decode(data: bytes) -> str:
+    """`data` as text. Raises `UnreadableSource` for what no editor would show as one."""
+    if len(data) > MAX_BYTES:
+        raise UnreadableSource(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
+    if b"\0" in data:
+        raise UnreadableSource("this is a binary file, not a text")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnreadableSource(
+            f"the text is not UTF-8: byte 0x{data[error.start]:02x} at offset {error.start}"
+        ) from None
