@@ -1,0 +1,81 @@
+"""Components of CDSL, resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
+from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.source import Span
+
+
+class Role(StrEnum):
+    """What a component does with an interface."""
+
+    IMPLEMENTS = "implements"
+    REQUIRES = "requires"
+    SUBSCRIBES = "subscribesTo"
+    PUBLISHES = "publishes"
+
+    @property
+    def is_topic(self) -> bool:
+        """Whether it is one side of publish and subscribe."""
+        return self in (Role.SUBSCRIBES, Role.PUBLISHES)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Port:
+    """One use of an interface.
+
+    `name` identifies the port in the component: the instance name (`requires Laser as front`), else
+    the interface's name, with the suffix 1, 2, … for a repeated one. `middleware` is empty for the
+    component's own.
+    """
+
+    role: Role
+    interface: Interface
+    name: str
+    span: Span
+    middleware: str = ""
+
+    def pattern(self, operation: Operation) -> Pattern:
+        """How `operation` travels through this port."""
+        return operation.as_topic() if self.role.is_topic else operation.as_service()
+
+
+@dataclass(frozen=True, slots=True)
+class StateMachineRef:
+    """`statemachine "path"`; the path as written, resolved beside the CDSL file."""
+
+    path: Path
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Component:
+    """One CDSL file.
+
+    `language` is as written (`Python`, `Cpp`, `Cpp11`); `period` in ms, 0 for only on events;
+    `threads` 1 for serialised execution. `modules` are the imported IDSL modules (direct imports).
+    """
+
+    name: str
+    path: Path
+    span: Span
+    language: str
+    modules: tuple[Module, ...]
+    ports: tuple[Port, ...]
+    parameters: ParameterSet | None = None
+    statemachine: StateMachineRef | None = None
+    middleware: str = "zenoh"
+    period: int = 100
+    threads: int = 1
+    gui: str = ""
+    options: tuple[str, ...] = ()
+    doc: str = ""
+
+    def with_role(self, role: Role) -> tuple[Port, ...]:
+        """The ports of one role, in order of writing."""
+        return tuple(p for p in self.ports if p.role is role)

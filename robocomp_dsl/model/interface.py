@@ -1,0 +1,100 @@
+"""Interfaces of IDSL, resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from robocomp_dsl.model.types import Declaration, ExceptionType, Type
+from robocomp_dsl.source import Span
+
+
+class Pattern(StrEnum):
+    """How an operation travels (paper "Progress in RoboComp", section V).
+
+    `COMMAND`: one way, one to one. `QUERY`: request and reply. `PUBLISH`: one way, one to many.
+    `UNMARKED` (a void operation without outputs or exceptions): publish where the interface is a
+    topic, otherwise a query with an empty reply.
+    """
+
+    COMMAND = "command"
+    QUERY = "query"
+    PUBLISH = "publish"
+    UNMARKED = "unmarked"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Param:
+    """A parameter of an operation."""
+
+    name: str
+    type: Type
+    span: Span
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Operation:
+    """An operation. `outputs` are its `out` parameters in order; `result` is None for void.
+
+    `marked` says whether the pattern was written or inferred.
+    """
+
+    name: str
+    span: Span
+    pattern: Pattern
+    inputs: tuple[Param, ...]
+    outputs: tuple[Param, ...]
+    result: Type | None
+    throws: tuple[ExceptionType, ...]
+    idempotent: bool
+    marked: bool
+    doc: str = ""
+
+    def as_topic(self) -> Pattern:
+        """The pattern where the interface is published or subscribed to."""
+        return Pattern.PUBLISH if self.pattern is Pattern.UNMARKED else self.pattern
+
+    def as_service(self) -> Pattern:
+        """The pattern where the interface is implemented or required."""
+        return Pattern.QUERY if self.pattern is Pattern.UNMARKED else self.pattern
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Interface(Declaration):
+    """An interface of a module."""
+
+    operations: tuple[Operation, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Module:
+    """One IDSL file, resolved. `declarations` holds types, exceptions and interfaces in order.
+
+    `imports` are the modules it imports, resolved, in order of writing.
+    """
+
+    name: str
+    path: Path
+    span: Span
+    doc: str
+    imports: tuple[Module, ...]
+    declarations: tuple[Declaration, ...]
+
+    @property
+    def interfaces(self) -> tuple[Interface, ...]:
+        """Its interfaces."""
+        return tuple(d for d in self.declarations if isinstance(d, Interface))
+
+    def closure(self) -> tuple[Module, ...]:
+        """Every module it imports, directly or not, imported ones first, itself last."""
+        seen: dict[int, Module] = {}
+
+        def visit(module: Module) -> None:
+            for one in module.imports:
+                visit(one)
+            seen.setdefault(id(module), module)
+
+        visit(self)
+        return tuple(seen.values())

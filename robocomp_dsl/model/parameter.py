@@ -1,0 +1,55 @@
+"""Parameters of PDSL, resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from robocomp_dsl.model.types import Literal
+from robocomp_dsl.source import Span
+
+
+class Kind(StrEnum):
+    """What values a parameter takes. `CHOICE` is an enumeration, `GROUP` a list of groups."""
+
+    STRING = "string"
+    INT = "int"
+    FLOAT = "float"
+    BOOL = "bool"
+    CHOICE = "choice"
+    GROUP = "group"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Parameter:
+    """One parameter. `default` None: it must be given.
+
+    `low` and `high` bound a number (inclusive) or the length of a group list; either may be None.
+    `choices` only for CHOICE, `members` only for GROUP. A group with `single` is one nested group
+    and no list.
+    """
+
+    name: str
+    kind: Kind
+    span: Span
+    default: Literal | None = None
+    low: float | None = None
+    high: float | None = None
+    unit: str = ""
+    live: bool = False
+    choices: tuple[str, ...] = ()
+    members: tuple[Parameter, ...] = ()
+    single: bool = False
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ParameterSet:
+    """One PDSL file."""
+
+    name: str
+    path: Path
+    span: Span
+    parameters: tuple[Parameter, ...]
+    doc: str = ""

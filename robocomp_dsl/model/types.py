@@ -1,0 +1,125 @@
+"""Data types of IDSL, resolved: a field holds its type, not the name of it.
+
+Recursive structs are refused by the checks, so a type is always a finite tree.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from robocomp_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Primitive:
+    """A built-in type; `bits` is its width on the wire, 0 for a string."""
+
+    name: str
+    bits: int
+
+
+BOOL = Primitive("bool", 8)
+BYTE = Primitive("byte", 8)
+SHORT = Primitive("short", 16)
+INT = Primitive("int", 32)
+LONG = Primitive("long", 64)
+FLOAT = Primitive("float", 32)
+DOUBLE = Primitive("double", 64)
+STRING = Primitive("string", 0)
+
+PRIMITIVES = {t.name: t for t in (BOOL, BYTE, SHORT, INT, LONG, FLOAT, DOUBLE, STRING)}
+NUMBERS = (BYTE, SHORT, INT, LONG, FLOAT, DOUBLE)
+
+Literal: TypeAlias = bool | int | float | str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Declaration:
+    """What every named thing of an IDSL module has; `span` covers the name where it is declared."""
+
+    module: str
+    name: str
+    span: Span
+    doc: str
+
+    @property
+    def qualified(self) -> str:
+        """`Module::Name`, as users write it."""
+        return f"{self.module}::{self.name}"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """A field of a struct or exception. An enum default is the name of the enumerator."""
+
+    name: str
+    type: Type
+    span: Span
+    default: Literal | None = None
+    unit: str = ""
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Struct(Declaration):
+    """A record."""
+
+    fields: tuple[Field, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ExceptionType(Declaration):
+    """A declared failure; it carries data as a struct does."""
+
+    fields: tuple[Field, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Enumerator:
+    """One value of an enumeration."""
+
+    name: str
+    value: int
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Enum(Declaration):
+    """An enumeration, 32 bits on the wire."""
+
+    enumerators: tuple[Enumerator, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sequence(Declaration):
+    """`sequence<element> name`."""
+
+    element: Type
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Dictionary(Declaration):
+    """`dictionary<key, value> name`; on the wire a sequence of pairs."""
+
+    key: Type
+    value: Type
+
+
+Type: TypeAlias = Primitive | Struct | Enum | Sequence | Dictionary
+
+
+def is_fixed(type_: Type) -> bool:
+    """Whether every value has the same layout: numbers, bools, enums and structs of them.
+
+    A sequence of such structs becomes one numpy structured array.
+    """
+    match type_:
+        case Primitive():
+            return type_ is not STRING
+        case Enum():
+            return True
+        case Struct():
+            return bool(type_.fields) and all(is_fixed(f.type) for f in type_.fields)
+    return False
