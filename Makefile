@@ -1,0 +1,46 @@
+# make demo   see it work: a simulated robot wanders through a room, deployed from one file
+# make test   run the tests
+# Both set up everything they need in .venv; only Python (3.11 or newer) and make must be there.
+
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+WORKERS ?= 2
+
+# Without bytecode every start of a command would compile this project again.
+unexport PYTHONDONTWRITEBYTECODE
+# What a test starts finds the commands that belong to this checkout.
+export PATH := $(CURDIR)/$(BIN):$(PATH)
+
+.PHONY: demo test lint format bench golden clean
+
+demo: $(READY)
+	$(BIN)/python components/wander/demo.py
+
+test: $(READY)
+	$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal $(TESTS)
+
+lint: $(READY)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(READY)
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(READY)
+	$(BIN)/python -m benchmarks $(ONLY)
+
+golden: $(READY)
+	$(BIN)/python -m pytest -q --update-golden
+
+clean:
+	rm -rf .venv build dist
+
+$(READY): pyproject.toml
+	@echo "setting up .venv (once, some minutes) ..."
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install -q --disable-pip-version-check -e '.[dev]'
+	@touch $@
