@@ -1,0 +1,56 @@
+"""From text to tree, one parser per language.
+
+In: a `Source` and the `Report` to add findings to. Out: a tree, always, holding what could be
+understood; its `complete` is False when there were form errors. Nothing of a parser is loaded
+before the first call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, TypeAlias
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.source import Source
+
+if TYPE_CHECKING:
+    from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_pdsl
+
+    AnyFile: TypeAlias = ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File
+
+
+def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of an interface description."""
+    from robocomp_dsl.syntax import idsl  # noqa: PLC0415 - loaded on first use
+
+    return idsl.parse(source, report)
+
+
+def parse_cdsl(source: Source, report: Report) -> ast_cdsl.File:
+    """The tree of a component description."""
+    from robocomp_dsl.syntax import cdsl  # noqa: PLC0415 - loaded on first use
+
+    return cdsl.parse(source, report)
+
+
+def parse_pdsl(source: Source, report: Report) -> ast_pdsl.File:
+    """The tree of a parameter description."""
+    from robocomp_dsl.syntax import pdsl  # noqa: PLC0415 - loaded on first use
+
+    return pdsl.parse(source, report)
+
+
+def parse_ddsl(source: Source, report: Report) -> ast_ddsl.File:
+    """The tree of a deployment description."""
+    from robocomp_dsl.syntax import ddsl  # noqa: PLC0415 - loaded on first use
+
+    return ddsl.parse(source, report)
+
+
+LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
+    ".idsl": parse_idsl,
+    ".cdsl": parse_cdsl,
+    ".pdsl": parse_pdsl,
+    ".ddsl": parse_ddsl,
+}
+"""File suffix (lower case) to parser."""

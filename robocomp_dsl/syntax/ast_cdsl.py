@@ -1,0 +1,72 @@
+"""The tree of a CDSL file: one component with its ports and settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from robocomp_dsl.syntax.ast_base import Import, Name, Node, Number, QualifiedName, Text
+
+Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
+
+
+@dataclass(frozen=True, slots=True)
+class Port(Node):
+    """One interface of a list: `requires Laser(ice) as front` gives a port.
+
+    `role` is spelled as in `Role` however the user wrote it.
+    """
+
+    role: Role
+    interface: QualifiedName
+    alias: Name | None = None
+    middleware: Name | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Gui(Node):
+    """`gui Qt(QWidget);`; the legacy `gui QWidget;` has no toolkit."""
+
+    widget: Name
+    toolkit: Name | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class StateMachine(Node):
+    """`statemachine "path";`, with `visual` where it was asked for."""
+
+    path: Text
+    visual: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Component(Node):
+    """`Component Name { … };`; None where the user wrote nothing.
+
+    `parameters` is the path of the PDSL file; `period` in ms. Of a setting written twice the first
+    is kept (the second was reported).
+    """
+
+    name: Name
+    ports: tuple[Port, ...]
+    language: Name | None = None
+    gui: Gui | None = None
+    options: tuple[Name, ...] = ()
+    statemachine: StateMachine | None = None
+    parameters: Text | None = None
+    period: Number | None = None
+    threads: Number | None = None
+    middleware: Name | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class File(Node):
+    """One CDSL file; `component` is None when there is none to be seen.
+
+    `complete` is False when form errors were reported, so that something may be missing here.
+    """
+
+    imports: tuple[Import, ...]
+    component: Component | None
+    complete: bool = True

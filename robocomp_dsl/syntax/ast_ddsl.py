@@ -1,0 +1,143 @@
+"""The tree of a DDSL file: which components run where, with what, wired how."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_dsl.syntax.ast_base import Duration, Import, Literal, Name, Node, Number, Text
+
+
+@dataclass(frozen=True, slots=True)
+class Host(Node):
+    """`host robot { address "10.0.0.2"; user robot; labels arm, gpu; };`."""
+
+    name: Name
+    address: Text | None = None
+    user: Name | Text | None = None
+    labels: tuple[Name, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Setting(Node):
+    """`set motors[2].min = -1.5;`; `key.text` is the dotted key without spaces."""
+
+    key: Name
+    value: Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Environment(Node):
+    """`env LOG_LEVEL = debug;`; `value` as the process gets it."""
+
+    name: Name
+    value: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Restart(Node):
+    """`restart on-failure max 5 in 60 s;`; `policy.text` is `on-failure`, `always` or `never`."""
+
+    policy: Name
+    max: Number | None = None
+    window: Duration | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Instance(Node):
+    """`component reflex : reflex on robot { … };`.
+
+    `component` is None where it has the instance's own name; `host` None: this machine. Of a
+    setting written twice the first is kept (the second was reported).
+    """
+
+    name: Name
+    component: Name | None = None
+    host: Name | None = None
+    config: Text | None = None
+    settings: tuple[Setting, ...] = ()
+    environment: tuple[Environment, ...] = ()
+    executable: Text | None = None
+    port: Number | None = None
+    after: tuple[Name, ...] = ()
+    restart: Restart | None = None
+    ready: Duration | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PortRef(Node):
+    """`body.SkinFrame`: a port of an instance or of a group."""
+
+    instance: Name
+    port: Name
+
+
+@dataclass(frozen=True, slots=True)
+class Qos(Node):
+    """`{ best_effort; depth 1; deadline 40 ms; priority high; }`; None where nothing was written.
+
+    `reliability.text` is `reliable` or `best_effort`.
+    """
+
+    reliability: Name | None = None
+    priority: Name | None = None
+    depth: Number | None = None
+    deadline: Duration | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Connection(Node):
+    """`connect reflex.Skin -> body.Skin { … };`; `qos` is None without braces."""
+
+    source: PortRef
+    target: PortRef
+    qos: Qos | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Export(Node):
+    """`export JointMotor from motor;`: port of the group that is a port of an instance inside.
+
+    `export JointMotor from motor as Left;` gives it another name outside.
+    """
+
+    port: Name
+    target: PortRef
+
+
+@dataclass(frozen=True, slots=True)
+class Group(Node):
+    """`group arm { … };`: several components that appear as one outside."""
+
+    name: Name
+    instances: tuple[Instance, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    exports: tuple[Export, ...] = ()
+    groups: tuple[Group, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Deployment(Node):
+    """`Deployment name { … };`."""
+
+    name: Name
+    middleware: Name | None = None
+    hosts: tuple[Host, ...] = ()
+    instances: tuple[Instance, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    groups: tuple[Group, ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class File(Node):
+    """One DDSL file; `deployment` is None when there is none to be seen.
+
+    `complete` is False when form errors were reported, so that something may be missing here.
+    """
+
+    imports: tuple[Import, ...]
+    deployment: Deployment | None
+    complete: bool = True

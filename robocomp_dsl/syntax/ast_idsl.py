@@ -1,0 +1,138 @@
+"""The tree of an IDSL file: modules with their types, exceptions and interfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from robocomp_dsl.syntax.ast_base import Import, Literal, Name, Node, Number, QualifiedName, Unit
+
+
+@dataclass(frozen=True, slots=True)
+class Field(Node):
+    """A field of a struct or exception: `float x = 0 [mm];`."""
+
+    type: QualifiedName
+    name: Name
+    default: Literal | None = None
+    unit: Unit | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Struct(Node):
+    """`struct Name { fields };`."""
+
+    name: Name
+    fields: tuple[Field, ...]
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ExceptionDecl(Node):
+    """`exception Name { fields };`."""
+
+    name: Name
+    fields: tuple[Field, ...]
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Enumerator(Node):
+    """One name of an enumeration, with its value where one is written."""
+
+    name: Name
+    value: Number | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Enum(Node):
+    """`enum Name { A, B = 2 };`."""
+
+    name: Name
+    enumerators: tuple[Enumerator, ...]
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence(Node):
+    """`sequence<element> Name;`."""
+
+    name: Name
+    element: QualifiedName
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Dictionary(Node):
+    """`dictionary<key, value> Name;`."""
+
+    name: Name
+    key: QualifiedName
+    value: QualifiedName
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Param(Node):
+    """A parameter of an operation.
+
+    One without a name (a legacy form) is called `arg1`, `arg2`, … by its place, and its name's span
+    is that of the type.
+    """
+
+    type: QualifiedName
+    name: Name
+    out: bool = False
+    unit: Unit | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Operation(Node):
+    """`[query] idempotent float distance(int sensor, out State state) throws Failed;`.
+
+    `pattern` is the word in brackets in front (`command`, `query` or `publish`) where one is
+    written; `result` is None for `void`.
+    """
+
+    name: Name
+    result: QualifiedName | None
+    params: tuple[Param, ...] = ()
+    throws: tuple[QualifiedName, ...] = ()
+    idempotent: bool = False
+    pattern: Name | None = None
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Interface(Node):
+    """`interface Name { operations };`."""
+
+    name: Name
+    operations: tuple[Operation, ...]
+    doc: str = ""
+
+
+Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary | Interface
+
+
+@dataclass(frozen=True, slots=True)
+class Module(Node):
+    """`module Name { declarations };`."""
+
+    name: Name
+    declarations: tuple[Declaration, ...]
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class File(Node):
+    """One IDSL file. There may be no module (an empty file) or, as legacy, several.
+
+    `complete` is False when form errors were reported, so that something may be missing here.
+    """
+
+    imports: tuple[Import, ...]
+    modules: tuple[Module, ...]
+    complete: bool = True

@@ -1,0 +1,76 @@
+"""The tree of a PDSL file: the parameters of one component, in nested groups."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from robocomp_dsl.syntax.ast_base import Literal, Name, Node, Number, Unit
+
+
+@dataclass(frozen=True, slots=True)
+class Range(Node):
+    """`low:high`, both inclusive; one side may be left open (`0:`, `:100`)."""
+
+    low: Number | None
+    high: Number | None
+
+
+@dataclass(frozen=True, slots=True)
+class Enumeration(Node):
+    """`{position, velocity}` in the place of a type."""
+
+    choices: tuple[Name, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter(Node):
+    """`rate float 50 [Hz] 1:1000 live;`.
+
+    `type` is the word as written (`string`, `int`, `float`, `bool` or a mistake) or an enumeration.
+    `default` is a `Name` for an enumeration. The historical flag `T` is accepted and means nothing.
+    """
+
+    name: Name
+    type: Name | Enumeration
+    default: Literal | None = None
+    unit: Unit | None = None
+    range: Range | None = None
+    live: bool = False
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Group(Node):
+    """`motors[1:32] { … };` is a list of groups, `pid { … };` (no `count`) a single one.
+
+    `motors[3]` is a range from 3 to 3, `motors[]` a range open on both sides.
+    """
+
+    name: Name
+    members: tuple[Member, ...]
+    count: Range | None = None
+    doc: str = ""
+
+
+Member: TypeAlias = Parameter | Group
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterSet(Node):
+    """`ComponentParams name { … };`."""
+
+    name: Name
+    members: tuple[Member, ...]
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class File(Node):
+    """One PDSL file; `parameters` is None when there is no block to be seen.
+
+    `complete` is False when form errors were reported, so that something may be missing here.
+    """
+
+    parameters: ParameterSet | None
+    complete: bool = True
