@@ -1,0 +1,146 @@
+"""Generic servos and device joints (equations 1 and 2 of Ma and Dahl, 2016).
+
+In: gamma, sigma and limits per generic index. Out: readings, commands, displacements, speeds,
+torques and limits carried from one side to the other. A generic value is gamma * device + sigma;
+displacements leave sigma out, speeds divide by |gamma|, torques follow from equal power.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Bools, Floats, Ints
+from robocomp_dsl.tactile.errors import InvalidCommand
+
+
+@dataclass(frozen=True)
+class DeviceCommand:
+    """What goes to the device: values of the present joints, in generic order.
+
+    `clipped` and `dropped` have one entry per generic index: the value was moved into its limits;
+    the value was meant for a degree of freedom that the robot lacks.
+    """
+
+    values: Floats
+    clipped: Bools
+    dropped: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class PartMapping:
+    """The n generic servos of one part, over the m <= n device joints that exist.
+
+    All arrays have n entries, in the device's unit; `to_si` turns that unit into radians or metres.
+    Where `available` is false the generic value is fixed to sigma and commands are dropped.
+    """
+
+    gamma: Floats
+    sigma: Floats
+    low: Floats
+    high: Floats
+    available: Bools
+    to_si: Floats
+
+    def __post_init__(self) -> None:
+        if np.any(self.gamma == 0.0):
+            raise ValueError("gamma must not be zero")
+        if np.any(self.low > self.high):
+            raise ValueError("a lower limit lies above its upper limit")
+
+    @property
+    def size(self) -> int:
+        """Number of generic indices, n."""
+        return len(self.gamma)
+
+    @cached_property
+    def present(self) -> Ints:
+        """Generic indices that have a device joint, shape (m,)."""
+        return np.flatnonzero(self.available)
+
+    def read(self, device: Floats) -> Floats:
+        """Generic values (n,) of the readings (m,) of the present joints."""
+        self._expect(device, len(self.present))
+        generic = self.sigma.copy()
+        generic[self.present] += self.gamma[self.present] * device
+        return generic
+
+    def read_speed(self, device: Floats) -> Floats:
+        """Generic velocities (n,) of device velocities (m,); zero where there is no joint."""
+        self._expect(device, len(self.present))
+        generic = np.zeros(self.size)
+        generic[self.present] = self.gamma[self.present] * device
+        return generic
+
+    def command(self, generic: Floats) -> DeviceCommand:
+        """Device positions for generic positions (n,), clipped in device units."""
+        self._expect(generic, self.size)
+        wanted = (generic - self.sigma) / self.gamma
+        kept = np.clip(wanted, self.low, self.high)
+        changed = (kept != wanted) & self.available
+        return DeviceCommand(kept[self.present], changed, self._dropped(generic - self.sigma))
+
+    def displacement(self, generic: Floats) -> DeviceCommand:
+        """Device displacements for generic displacements (n,): no sigma, nothing to clip."""
+        self._expect(generic, self.size)
+        moved = (generic / self.gamma)[self.present]
+        return DeviceCommand(moved, np.zeros(self.size, bool), self._dropped(generic))
+
+    def speed(self, generic: Floats) -> DeviceCommand:
+        """Device reference speeds, never negative, for generic reference speeds (n,)."""
+        self._expect(generic, self.size)
+        speed = (np.abs(generic) / np.abs(self.gamma))[self.present]
+        return DeviceCommand(speed, np.zeros(self.size, bool), self._dropped(generic))
+
+    def velocity(self, generic: Floats) -> DeviceCommand:
+        """Signed device velocities for generic velocities (n,)."""
+        return self.displacement(generic)
+
+    def torque(self, generic: Floats) -> DeviceCommand:
+        """Device torques [N m] that do the same work as generic torques [N m] (n,)."""
+        self._expect(generic, self.size)
+        torque = (generic * self.gamma_si)[self.present]
+        return DeviceCommand(torque, np.zeros(self.size, bool), self._dropped(generic))
+
+    def read_torque(self, device: Floats) -> Floats:
+        """Generic torques (n,) of device torques (m,); zero where there is no joint."""
+        self._expect(device, len(self.present))
+        generic = np.zeros(self.size)
+        generic[self.present] = device / self.gamma_si[self.present]
+        return generic
+
+    def stiffness(self, generic: Floats) -> DeviceCommand:
+        """Device stiffness [N m/rad] or damping [N m s/rad] of a generic one (n,)."""
+        self._expect(generic, self.size)
+        value = (generic * self.gamma_si**2)[self.present]
+        return DeviceCommand(value, np.zeros(self.size, bool), self._dropped(generic))
+
+    @cached_property
+    def gamma_si(self) -> Floats:
+        """Gamma as if the device spoke in radians and metres, (n,)."""
+        return self.gamma / self.to_si
+
+    @cached_property
+    def limits(self) -> tuple[Floats, Floats]:
+        """Lower and upper generic limits, each (n,); swapped where gamma is negative."""
+        ends = np.stack((self.gamma * self.low, self.gamma * self.high)) + self.sigma
+        ends[:, ~self.available] = self.sigma[~self.available]
+        return ends.min(axis=0), ends.max(axis=0)
+
+    def speed_limit(self, device: Floats) -> Floats:
+        """Generic speed limits (n,) of device speed limits (n,)."""
+        limit: Floats = np.where(self.available, np.abs(self.gamma) * device, 0.0)
+        return limit
+
+    def _dropped(self, effect: Floats) -> Bools:
+        """Indices without a joint for which the command asked anything."""
+        dropped: Bools = ~self.available & (effect != 0.0)
+        return dropped
+
+    def _expect(self, values: Floats, size: int) -> None:
+        if values.shape != (size,):
+            raise InvalidCommand(f"{size} values are needed, {values.size} were given")
+        if not np.isfinite(values).all():
+            raise InvalidCommand("the values hold NaN or infinity")
