@@ -5,6 +5,8 @@ TactileError
     InvalidCommand       a command holds NaN, or has the wrong number of values
     Unreachable          no joint angles within the limits reach the pose
     RejectedFrame        a taxel frame cannot be used; says why
+    NotCalibrated        the skin has no baseline yet
+    BadFit               points describe no cone
 """
 
 from __future__ import annotations
@@ -39,6 +41,14 @@ class DescriptionError(TactileError):
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(sorted(findings, key=lambda one: (one.file, one.line, one.column)))
         super().__init__("\n".join(str(one) for one in self.findings))
+
+
+class NotCalibrated(TactileError):
+    """The baseline of the skin is not known yet."""
+
+
+class BadFit(TactileError):
+    """The points do not describe a cone; the message says why."""
 
 
 class InvalidCommand(TactileError):

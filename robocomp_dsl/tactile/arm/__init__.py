@@ -1,0 +1,1 @@
+"""The generic arm: servo mapping, kinematic chain, inverse kinematics, its state and commands."""

@@ -1,0 +1,1 @@
+"""A robot's generic parts and skin as data: files in, checked dataclasses out."""

@@ -1,0 +1,89 @@
+"""Taxel position files of the iCub, read as they are.
+
+In: the text of a file. Out: positions and normals by taxel index. Two forms: header words and a
+[calibration] section, or (older) plain rows. A row has six numbers, `x y z nx ny nz` in metres in
+the frame of its link; six zeros mean that no taxel is there, and the index still counts.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.errors import DescriptionError, Finding
+
+_SECTION = re.compile(r"\[\s*(\w+)\s*\]")
+_HEADER = ("name", "spatial_sampling", "taxel2Repr")
+
+
+@dataclass(frozen=True, eq=False)
+class TaxelPositions:
+    """Row i belongs to taxel i of the published vector.
+
+    `positions` and `normals` are (n, 3); normals have unit length, or are zero where the file has
+    none. `used` (n,) is false where no taxel is.
+    """
+
+    name: str
+    positions: Floats
+    normals: Floats
+    used: Bools
+
+
+def read_positions(text: str, file: Path) -> TaxelPositions:
+    """The content of a position file. Raises `DescriptionError` with every faulty row."""
+    lines = text.splitlines()
+    sections = [m.group(1) for line in lines if (m := _SECTION.fullmatch(line.strip()))]
+    findings: list[Finding] = []
+    rows: list[tuple[float, ...]] = []
+    name, section = file.stem, "" if sections else "calibration"
+    for number, line in enumerate(lines, 1):
+        stripped = line.strip()
+        if match := _SECTION.fullmatch(stripped):
+            section = match.group(1)
+        elif stripped.startswith("name") and len(stripped.split()) == 2:
+            name = stripped.split()[1]
+        elif section == "calibration" and stripped and not stripped.startswith(("#", *_HEADER)):
+            rows.append(_row(line, number, file, findings))
+    if sections and "calibration" not in sections:
+        findings.append(Finding(str(file), 1, 1, "the file has no [calibration] section"))
+    elif not rows:
+        findings.append(Finding(str(file), max(len(lines), 1), 1, "the file holds no taxel"))
+    if findings:
+        raise DescriptionError(findings)
+    return _positions(name, np.array(rows))
+
+
+def _row(line: str, number: int, file: Path, findings: list[Finding]) -> tuple[float, ...]:
+    """Six numbers of one line; what is wrong with it goes to `findings`."""
+    words = list(re.finditer(r"\S+", line))
+    if len(words) != 6:
+        said = f"a row has six numbers, x y z nx ny nz; this one has {len(words)}"
+        findings.append(Finding(str(file), number, words[0].start() + 1, said))
+        return (0.0,) * 6
+    return tuple(_number(word, number, file, findings) for word in words)
+
+
+def _number(word: re.Match[str], line: int, file: Path, findings: list[Finding]) -> float:
+    try:
+        value = float(word.group())
+    except ValueError:
+        value = math.nan
+    if math.isfinite(value):
+        return value
+    said = f"`{word.group()}` is not a number"
+    findings.append(Finding(str(file), line, word.start() + 1, said))
+    return 0.0
+
+
+def _positions(name: str, rows: Floats) -> TaxelPositions:
+    positions, normals = rows[:, :3].copy(), rows[:, 3:].copy()
+    used = np.linalg.norm(positions, axis=1) > 0.0
+    length = np.linalg.norm(normals, axis=1, keepdims=True)
+    np.divide(normals, length, out=normals, where=length > 0.0)
+    return TaxelPositions(name, positions, normals, used)
