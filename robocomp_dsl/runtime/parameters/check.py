@@ -1,0 +1,130 @@
+"""A tree against a schema: every problem in one go.
+
+In: the root mapping and the schema. Out: the values by name (groups as dictionaries, lists of
+groups as lists of them), complete only when no finding was added.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.runtime.parameters import scalar as scalars
+from robocomp_dsl.runtime.parameters.findings import Finding, Place, did_you_mean
+from robocomp_dsl.runtime.parameters.scalar import Unfit
+from robocomp_dsl.runtime.parameters.schema import ARTICLE, Entry, Group, Parameter, Schema
+from robocomp_dsl.runtime.parameters.tree import CALLED, Items, Mapping, Member, Node, Scalar
+
+_MOST_NODES = 100_000
+_MOST_FINDINGS = 100
+
+
+def check(root: Mapping, schema: Schema, findings: list[Finding]) -> dict[str, Any]:
+    """The value of every parameter of `schema`. Adds to `findings`, at most 100 in all."""
+    checker = _Checker(findings)
+    try:
+        return checker.group(root, schema, "")
+    except _Enough as enough:
+        findings.append(Finding(enough.place, str(enough)))
+        return {}
+
+
+class _Enough(Exception):
+    def __init__(self, place: Place, said: str) -> None:
+        self.place = place
+        super().__init__(said)
+
+
+class _Checker:
+    """Walks a tree as its schema leads; aliases can make a short file a huge one, so it counts."""
+
+    def __init__(self, findings: list[Finding]) -> None:
+        self.findings = findings
+        self.visited = 0
+
+    def add(self, place: Place, message: str, label: str = "", help: str = "") -> None:
+        if len(self.findings) >= _MOST_FINDINGS:
+            raise _Enough(place, "too many errors, the rest is not shown")
+        self.findings.append(Finding(place, message, label, help))
+
+    def group(self, found: Mapping, schema: Schema, prefix: str) -> dict[str, Any]:
+        known = {entry.name: entry for entry in schema}
+        for name, member in found.members.items():
+            if name not in known:
+                self.unknown(name, member, known, prefix)
+        made = {}
+        for name, entry in known.items():
+            self.visited += 1
+            if self.visited > _MOST_NODES:
+                raise _Enough(found.place, "the configuration has too many entries")
+            given = found.members.get(name)
+            path = f"{prefix}.{name}" if prefix else name
+            if given is None:
+                made[name] = self.absent(found, entry, path)
+            elif isinstance(entry, Parameter):
+                made[name] = self.parameter(given.value, entry, path)
+            elif entry.single:
+                made[name] = self.single(given.value, entry, path)
+            else:
+                made[name] = self.list_of(given.value, entry, path)
+        return made
+
+    def unknown(self, name: str, member: Member, known: dict[str, Entry], prefix: str) -> None:
+        owner = f"`{prefix}` has" if prefix else "there is"
+        label = did_you_mean(name, known)
+        listed = f"known: {', '.join(known):.300}" if known else "nothing can be given here"
+        said = f"{owner} no parameter `{name:.80}`"
+        self.add(member.place, said, label, "" if label else listed)
+
+    def absent(self, owner: Mapping, entry: Entry, path: str) -> Any:
+        if isinstance(entry, Parameter):
+            if entry.default is None:
+                said = f"`{path}` is not given and has no default"
+                self.add(owner.place, said, help=f"add `{_sample(entry)}`")
+            return entry.default
+        if entry.single:
+            return self.group(Mapping(owner.place), entry.type.SCHEMA, path)
+        if entry.low:
+            said = f"`{path}` is not given, it must have {_entries(entry)}"
+            self.add(owner.place, said, help=f"add `{entry.name}:` and its entries below it")
+        return []
+
+    def parameter(self, node: Node, entry: Parameter, path: str) -> Any:
+        if not isinstance(node, Scalar):
+            said = f"`{path}` must be {ARTICLE[entry.kind]}, not {CALLED[type(node)]}"
+            self.add(node.place, said, f"expected {entry.kind}")
+            return None
+        try:
+            return scalars.of_scalar(entry, path, node)
+        except Unfit as unfit:
+            self.add(node.place, str(unfit), unfit.label, unfit.help)
+            return None
+
+    def single(self, node: Node, entry: Group, path: str) -> Any:
+        if isinstance(node, Mapping):
+            return self.group(node, entry.type.SCHEMA, path)
+        said = f"`{path}` must be a group of `key: value` lines, not {CALLED[type(node)]}"
+        self.add(node.place, said)
+        return {}
+
+    def list_of(self, node: Node, entry: Group, path: str) -> list[Any]:
+        if not isinstance(node, Items):
+            said = f"`{path}` must be a list, not {CALLED[type(node)]}"
+            self.add(node.place, said, help=f"begin each of the {entry.name} with `- `")
+            return []
+        count = len(node.items)
+        if count < (entry.low or 0) or (entry.high is not None and count > entry.high):
+            self.add(node.place, f"`{path}` has {count} entries, it must have {_entries(entry)}")
+        return [self.single(item, entry, f"{path}[{i}]") for i, item in enumerate(node.items)]
+
+
+def _entries(entry: Group) -> str:
+    low, high = entry.low or 0, entry.high
+    if high is None:
+        return f"{low} or more"
+    return f"{low}" if low == high else f"{low} to {high}"
+
+
+def _sample(entry: Parameter) -> str:
+    unit = f" [{entry.unit}]" if entry.unit else ""
+    value = "|".join(entry.choices) if entry.choices else f"<{entry.kind}{unit}>"
+    return f"{entry.name}: {value}"

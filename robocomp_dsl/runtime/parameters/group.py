@@ -1,0 +1,66 @@
+"""Groups of parameters: typed attributes that are plain reads (no descriptor, no lock).
+
+In: checked values. Out: objects of the generated classes, and a walk over all they hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar, TypeVar
+
+from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema
+
+Made = TypeVar("Made", bound="ParameterGroup")
+
+
+class ParameterGroup:
+    """Base of the generated class of one group; its attributes are the parameters of `SCHEMA`."""
+
+    __slots__ = ()
+    SCHEMA: ClassVar[Schema] = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(
+            f"`{name}` cannot be assigned: parameters change through `set`, "
+            f'as in self.params.set({{"{name}": {value!r:.40}}})'
+        )
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"`{name}` cannot be deleted, it is a parameter")
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{e.attribute}={getattr(self, e.attribute)!r}" for e in self.SCHEMA)
+        return f"{type(self).__name__}({shown})"
+
+
+def filled(kind: type[Made], values: Mapping[str, Any]) -> Made:
+    """An object of `kind` with `values`, which `check` has made."""
+    made = kind.__new__(kind)
+    for entry in kind.SCHEMA:
+        object.__setattr__(made, entry.attribute, _attribute(entry, values[entry.name]))
+    return made
+
+
+def _attribute(entry: Parameter | Group, value: Any) -> Any:
+    if isinstance(entry, Parameter):
+        return value
+    if entry.single:
+        return filled(entry.type, value)
+    return [filled(entry.type, one) for one in value]
+
+
+def walk(
+    owner: ParameterGroup, prefix: str = ""
+) -> Iterator[tuple[str, ParameterGroup, Parameter]]:
+    """Every parameter below `owner` with its path and the group that holds its value."""
+    for entry in owner.SCHEMA:
+        path = f"{prefix}{entry.name}"
+        if isinstance(entry, Parameter):
+            yield path, owner, entry
+            continue
+        below = getattr(owner, entry.attribute)
+        if entry.single:
+            yield from walk(below, f"{path}.")
+        else:
+            for i, one in enumerate(below):
+                yield from walk(one, f"{path}[{i}].")

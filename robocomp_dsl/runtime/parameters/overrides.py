@@ -1,0 +1,101 @@
+"""`--set motors[2].min=-1`: values of the command line put into the tree of the file.
+
+In: texts `path=value`. Out: the same tree with raw scalars at these paths, and findings that point
+into the text on the command line.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from robocomp_dsl.runtime.parameters.findings import Finding, Place, Text
+from robocomp_dsl.runtime.parameters.tree import CALLED, Items, Mapping, Member, Node, Scalar, Style
+
+NAME = "--set"
+"""What findings call the text of an override."""
+_STEP = re.compile(r"\.?([A-Za-z_][A-Za-z0-9_-]*)|\[([0-9]{1,6})\]")
+
+
+def steps(path: str) -> list[str | int] | None:
+    """`a.b[2].c` as `["a", "b", 2, "c"]`; None when it is no such path."""
+    made: list[str | int] = []
+    at = 0
+    while at < len(path):
+        step = _STEP.match(path, at)
+        if step is None or (at == 0 and path[0] in ".["):
+            return None
+        made.append(step[1] if step[1] is not None else int(step[2]))
+        at = step.end()
+        if at < len(path) and path[at] not in ".[":
+            return None
+    return made or None
+
+
+def dotted(path: Iterable[str | int]) -> str:
+    """The inverse of `steps`."""
+    made = ""
+    for step in path:
+        made += f"[{step}]" if isinstance(step, int) else f".{step}" if made else step
+    return made
+
+
+def apply(root: Mapping, overrides: Iterable[str], findings: list[Finding]) -> Mapping:
+    """`root` with every override in its place, later ones over earlier ones."""
+    for written in overrides:
+        path, equals, value = written.partition("=")
+        text = Text(NAME, (written,))
+        key = Place(text, 1, 1, max(1, len(path)))
+        found = steps(path.strip()) if equals else None
+        if found is None:
+            said = f"`--set {written:.80}` is not of the form `key=value`"
+            findings.append(Finding(key, said, help="write for instance `--set motors[2].min=-1`"))
+            continue
+        leaf = Scalar(Place(text, 1, len(path) + 2, max(1, len(value))), value, Style.RAW)
+        try:
+            changed = _with(root, found, 0, key, leaf)
+        except _Misplaced as error:
+            findings.append(Finding(key, str(error)))
+        else:
+            assert isinstance(changed, Mapping)  # noqa: S101 - a root stays what it is
+            root = changed
+    return root
+
+
+class _Misplaced(Exception):
+    """A step that does not lead into the node it is applied to."""
+
+
+def _with(node: Node | None, path: list[str | int], depth: int, key: Place, leaf: Scalar) -> Node:
+    """A copy of `node` with `leaf` at `path[depth:]`; aliases elsewhere keep what they have."""
+    if depth == len(path):
+        return leaf
+    step = path[depth]
+    if isinstance(step, int):
+        items = _items(node, step, path[:depth])
+        entry = items[step] if step < len(items) else None
+        items[step:] = [_with(entry, path, depth + 1, key, leaf), *items[step + 1 :]]
+        return Items(node.place if node else key, items)
+    members = _members(node, step, path[:depth])
+    member = members.get(step)
+    old = member.value if member else None
+    below = _with(old, path, depth + 1, key, leaf)
+    members[step] = Member(key if below is leaf or member is None else member.place, below)
+    return Mapping(node.place if node else key, members)
+
+
+def _items(node: Node | None, step: int, above: list[str | int]) -> list[Node]:
+    if not isinstance(node, Items | None):
+        raise _Misplaced(f"`{dotted(above)}` is {CALLED[type(node)]}, it has no entry [{step}]")
+    items = list(node.items) if node else []
+    if step > len(items):
+        raise _Misplaced(
+            f"`{dotted(above)}` has {len(items)} entries, there is no [{step}] (they count from 0)"
+        )
+    return items
+
+
+def _members(node: Node | None, step: str, above: list[str | int]) -> dict[str, Member]:
+    if not isinstance(node, Mapping | None):
+        raise _Misplaced(f"`{dotted(above)}` is {CALLED[type(node)]}, it has no member `{step}`")
+    return dict(node.members) if node else {}

@@ -1,0 +1,102 @@
+"""TOML to a tree with places.
+
+In: a text. Out: its root mapping and the findings. `tomllib` keeps no places, so a key is searched
+in the text: exact for the usual one key a line, else the nearest line above.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from typing import Any
+
+from robocomp_dsl.runtime.parameters.findings import Finding, Place, Text
+from robocomp_dsl.runtime.parameters.tree import Items, Mapping, Member, Node, Scalar, Style
+
+_PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
+_NAME = rf"{_PART}(?:\s*\.\s*{_PART})*"
+_HEADER = re.compile(rf"\s*\[(\[)?\s*({_NAME})\s*\]")
+_KEY = re.compile(rf"\s*({_NAME})\s*=\s*")
+_MESSAGE = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
+
+
+def read_toml(text: Text, source: str, findings: list[Finding]) -> Mapping | None:
+    """The root mapping of `source`; None when it is not TOML. Adds to `findings`."""
+    root = Place(text, 1, 1)
+    try:
+        data = tomllib.loads(source)
+    except tomllib.TOMLDecodeError as error:
+        findings.append(_syntax(text, error))
+        return None
+    except RecursionError:
+        findings.append(Finding(root, "the file is nested too deeply"))
+        return None
+    return Mapping(root, _members(data, "", dict(_places(text)), root))
+
+
+def _syntax(text: Text, error: tomllib.TOMLDecodeError) -> Finding:
+    told = _MESSAGE.fullmatch(str(error))
+    said, line, column = told.groups() if told else (str(error), None, None)
+    at = (int(line), int(column)) if line and column else (max(1, len(text.lines)), 1)
+    return Finding(Place(text, *at), f"this is not TOML: {said[:1].lower()}{said[1:]}")
+
+
+def _places(text: Text) -> Iterator[tuple[str, tuple[Place, Place]]]:
+    """Path of every key at the begin of a line, with the places of key and value."""
+    prefix = ""
+    counts: dict[str, int] = {}
+    for number, line in enumerate(text.lines, start=1):
+        if header := _HEADER.match(line):
+            prefix = _resolve(_dotted(header[2]), counts)
+            if header[1]:
+                counts[prefix] = counts.get(prefix, -1) + 1
+                prefix = f"{prefix}[{counts[prefix]}]"
+            place = Place(text, number, header.start(2) + 1, len(header[2]))
+            yield prefix, (place, place)
+        elif key := _KEY.match(line):
+            path = f"{prefix}.{_dotted(key[1])}" if prefix else _dotted(key[1])
+            width = len(line[key.end() :].split("#")[0].rstrip())
+            value = Place(text, number, key.end() + 1, max(1, width))
+            yield path, (Place(text, number, key.start(1) + 1, len(key[1])), value)
+
+
+def _dotted(name: str) -> str:
+    return ".".join(part.strip("\"' \t") for part in re.findall(_PART, name))
+
+
+def _resolve(path: str, counts: dict[str, int]) -> str:
+    """`a.b` below the newest element of the table array `a`: `a[2].b`."""
+    for array, last in counts.items():
+        if path.startswith(f"{array}."):
+            return f"{array}[{last}]{path[len(array) :]}"
+    return path
+
+
+def _members(
+    data: dict[str, Any], path: str, places: dict[str, tuple[Place, Place]], above: Place
+) -> dict[str, Member]:
+    made = {}
+    for name, value in data.items():
+        below = f"{path}.{name}" if path else name
+        key_place, value_place = places.get(below, (above, above))
+        made[name] = Member(key_place, _node(value, below, places, value_place))
+    return made
+
+
+def _node(value: Any, path: str, places: dict[str, tuple[Place, Place]], place: Place) -> Node:
+    match value:
+        case dict():
+            return Mapping(place, _members(value, path, places, place))
+        case list():
+            below = [f"{path}[{i}]" for i in range(len(value))]
+            here = [places.get(one, (place, place))[1] for one in below]
+            return Items(
+                place,
+                [_node(v, b, places, p) for v, b, p in zip(value, below, here, strict=True)],
+            )
+        case str():
+            return Scalar(place, value, Style.QUOTED)
+        case bool():
+            return Scalar(place, str(value).lower())
+    return Scalar(place, str(value))
