@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robocomp_dsl.tactile.errors import InvalidCommand
 from robocomp_dsl.tactile.arm.mapping import PartMapping
+from robocomp_dsl.tactile.errors import InvalidCommand
 
 HALF_PI = np.pi / 2
 FULL = np.full(5, -10.0), np.full(5, 10.0)

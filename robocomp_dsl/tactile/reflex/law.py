@@ -1,0 +1,120 @@
+"""The force and distance law of the withdrawal reflex (equations 5 to 7 of Ma and Dahl, 2016).
+
+In: the taxels of one touch and a receptive field, both in the frame of the field's limb. Out: the
+gain and the displacements of the generic joints. As printed, equation 5 grows with the distance,
+against its own text; here force and distance discount the base motion, each from 1 down to 0:
+
+    theta = phi(F) psi(d) Theta,   phi = clip((F - threshold) / (full - threshold), 0, 1),
+    psi = 1 - d / radius,          0 where d >= radius or F <= threshold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """Forces [N] at which the reflex begins and at which it is as strong as it gets."""
+
+    threshold: float = 1.0
+    full: float = 10.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.threshold < self.full:
+            raise ValueError("0 <= threshold < full force is needed")
+
+    def force_factor(self, force: float) -> float:
+        """Phi: 0 at the threshold, 1 from the full force on."""
+        return min(max((force - self.threshold) / (self.full - self.threshold), 0.0), 1.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Field:
+    """A receptive field on one limb: centre (3,) and radius [m], base motion Theta (n,) [rad]."""
+
+    name: str
+    limb: str
+    centre: Floats
+    radius: float
+    motion: Floats
+
+    def distance_factor(self, distance: float) -> float:
+        """Psi: 1 at the centre, 0 at the edge and beyond."""
+        return max(1.0 - distance / self.radius, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stimulus:
+    """One touch as one field feels it: weighted centre (3,) [m] and weighted mean force [N]."""
+
+    centre: Floats
+    force: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Response:
+    """What one field answers to one touch; `motion` (n,) are displacements, not angles."""
+
+    field: Field
+    stimulus: Stimulus
+    distance: float
+    gain: float
+
+    @property
+    def motion(self) -> Floats:
+        """Displacements of the generic joints [rad]."""
+        return self.gain * self.field.motion
+
+
+def stimulus(points: Floats, forces: Floats, radius: float) -> Stimulus | None:
+    """Equation 7 for the taxels `points` (n, 3) with `forces` (n,), or None without any force.
+
+    The weights 2 radius - |P - centre| turn negative beyond a field's diameter and would make the
+    mean meaningless, so such taxels are left out and the centre is taken once more.
+    """
+    felt = forces > 0.0
+    points, forces = points[felt], forces[felt]
+    if not len(forces):
+        return None
+    near = _weights(points, _centre(points, forces), radius) > 0.0
+    if not near.any():
+        return None
+    points, forces = points[near], forces[near]
+    centre = _centre(points, forces)
+    weights = np.maximum(_weights(points, centre, radius), 0.0)
+    total = float(weights.sum())
+    return Stimulus(centre, float(forces @ weights) / total) if total > 0.0 else None
+
+
+def respond(law: Law, field: Field, points: Floats, forces: Floats) -> Response | None:
+    """Equations 5 and 6: the answer of `field` to one touch, or None where there is none."""
+    felt = stimulus(points, forces, field.radius)
+    if felt is None:
+        return None
+    distance = float(np.linalg.norm(felt.centre - field.centre))
+    gain = law.force_factor(felt.force) * field.distance_factor(distance)
+    return Response(field, felt, distance, gain) if gain > 0.0 else None
+
+
+def total_motion(responses: Iterable[Response], size: int) -> Floats:
+    """The displacements (size,) of several fields and touches together: their sum."""
+    motion = np.zeros(size)
+    for one in responses:
+        motion += one.motion
+    return motion
+
+
+def _centre(points: Floats, forces: Floats) -> Floats:
+    centre: Floats = forces @ points / forces.sum()
+    return centre
+
+
+def _weights(points: Floats, centre: Floats, radius: float) -> Floats:
+    weights: Floats = 2.0 * radius - np.linalg.norm(points - centre, axis=1)
+    return weights

@@ -1,0 +1,122 @@
+"""Denavit-Hartenberg chains, their generic form, Jacobians and inverse kinematics."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from robocomp_dsl.tactile.arm.chain import Chain, Row, generic_chain, link
+from robocomp_dsl.tactile.arm.inverse import Solver, Tolerance, rotation_vector
+from robocomp_dsl.tactile.errors import Unreachable
+
+Q = np.pi / 2
+ARM = Chain(  # five joints: shoulder with three crossing axes, elbow, forearm
+    (
+        Row(0, 0, Q, 0, 0),
+        Row(0.015, 0, Q, Q, 1),
+        Row(0, 0.105, -Q, 0, 2),
+        Row(0, 0, Q, 0, 3),
+        Row(0.012, 0.114, 0, -Q, 4),
+    ),
+    5,
+    base=link(0, 0.1, -Q, 0),
+)
+LOW, HIGH = np.array([-2.0, -0.3, -2.0, -1.5, -1.8]), np.array([2.0, 1.3, 2.0, 0.0, 1.8])
+angles = st.tuples(*(st.floats(a, b) for a, b in zip(LOW, HIGH, strict=True))).map(np.array)
+
+
+def test_a_planar_arm_stands_where_trigonometry_puts_it():
+    planar = Chain((Row(0.3, 0, 0, 0, 0), Row(0.2, 0, 0, 0, 1)), 2)
+    one, two = 0.4, -1.1
+    expected = [
+        0.3 * np.cos(one) + 0.2 * np.cos(one + two),
+        0.3 * np.sin(one) + 0.2 * np.sin(one + two),
+        0,
+    ]
+    assert planar.pose(np.array([one, two]))[:3, 3] == pytest.approx(expected)
+
+
+@given(angles)
+def test_the_jacobian_is_the_derivative(q):
+    jacobian, step = ARM.jacobian(q), 1e-6
+    for joint in range(5):
+        move = np.eye(5)[joint] * step
+        before, after = ARM.pose(q - move), ARM.pose(q + move)
+        velocity = (after[:3, 3] - before[:3, 3]) / (2 * step)
+        turned = rotation_vector(after[:3, :3] @ before[:3, :3].T) / (2 * step)
+        assert jacobian[:3, joint] == pytest.approx(velocity, abs=1e-8)
+        assert jacobian[3:, joint] == pytest.approx(turned, abs=1e-8)
+
+
+@given(angles, st.integers(0, 31), st.integers(0, 31))
+def test_the_generic_chain_is_the_same_arm(generic, signs, missing):
+    gamma = np.array([1.0 if signs >> i & 1 else -1.0 for i in range(5)])
+    available = np.array([not missing >> i & 1 for i in range(5)])
+    sigma = np.array([Q, 0.1, -0.4, 0.0, 0.3])
+    device = np.where(available, (generic - sigma) / gamma, 0.0)
+    made = generic_chain(ARM, gamma, sigma, available)
+    assert made.pose(generic) == pytest.approx(ARM.pose(device), abs=1e-12)
+    dead = made.jacobian(generic)[:, ~available]
+    assert not dead.any()
+
+
+def test_a_generic_chain_needs_radians():
+    with pytest.raises(ValueError, match="gamma"):
+        generic_chain(ARM, np.full(5, 0.0175), np.zeros(5), np.ones(5, bool))
+
+
+@pytest.mark.parametrize("joints", [(0, 0), (0, 2), (-1, 0)])
+def test_chains_with_impossible_joints_are_refused(joints):
+    with pytest.raises(ValueError, match="joint index"):
+        Chain(tuple(Row(0, 0, 0, 0, joint) for joint in joints), 2)
+
+
+@settings(max_examples=60, deadline=None)
+@given(angles, angles)
+def test_every_reachable_point_is_found_within_the_limits(goal, start):
+    found = Solver(ARM, LOW, HIGH).solve(ARM.pose(goal)[:3, 3], start)
+    assert ARM.pose(found)[:3, 3] == pytest.approx(ARM.pose(goal)[:3, 3], abs=1.1e-4)
+    assert (found >= LOW).all()
+    assert (found <= HIGH).all()
+
+
+@settings(max_examples=40, deadline=None)
+@given(angles)
+def test_a_whole_pose_is_found_from_nearby(goal):
+    pose = ARM.pose(goal)
+    start = np.clip(goal + 0.1, LOW, HIGH)
+    found = Solver(ARM, LOW, HIGH).solve(pose[:3, 3], start, pose[:3, :3])
+    assert rotation_vector(ARM.pose(found)[:3, :3] @ pose[:3, :3].T) == pytest.approx(
+        np.zeros(3), abs=1.1e-3
+    )
+
+
+def test_what_is_out_of_reach_says_how_far():
+    with pytest.raises(Unreachable) as caught:
+        Solver(ARM, LOW, HIGH, Tolerance(iterations=60)).solve(np.array([1.0, 0, 0]), np.zeros(5))
+    reach = 0.22
+    assert caught.value.distance == pytest.approx(1.0 - reach, abs=0.02)
+
+
+def test_the_same_question_has_the_same_answer():
+    goal = ARM.pose(np.full(5, -0.2))[:3, 3]
+    solver = Solver(ARM, LOW, HIGH)
+    assert (solver.solve(goal, np.zeros(5)) == solver.solve(goal, np.zeros(5))).all()
+
+
+def rotation_about(axis, angle):
+    axis = np.asarray(axis, float) / np.linalg.norm(axis)
+    cross = np.cross(np.eye(3), axis)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+@pytest.mark.parametrize("axis", [(1, 0, 0), (0, -1, 0), (1, 2, 3), (-1, 1, 0.2)])
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.5, 3.0, np.pi - 1e-9])
+def test_rotation_vectors(axis, angle):
+    expected = angle * np.asarray(axis) / np.linalg.norm(axis)
+    assert rotation_vector(rotation_about(axis, angle)) == pytest.approx(expected, abs=1e-6) or (
+        angle > 3.1
+        and rotation_vector(rotation_about(axis, angle)) == pytest.approx(-expected, abs=1e-6)
+    )
