@@ -1,0 +1,141 @@
+"""A simulated planar range finder: rays of MuJoCo from a site on the body that carries it.
+
+In: the settings and where it is mounted. Out: scans at fixed moments of simulated time, whoever
+asks for them, so that noise does not depend on the callers.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.laser import LaserSettings, Scan
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.axes import MM
+
+_PAST = 1e-4  # m behind a surface of the carrier from which a ray goes on
+_OWN_SURFACES = 8  # of the carrier that one ray may pass
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    """Where a device sits: a body of the model, and the place in its frame in mm and rad."""
+
+    body: str = "base"
+    x: float = 0.0
+    y: float = 250.0
+    z: float = 150.0
+    alpha: float = 0.0
+
+
+class Laser:
+    """The device. `name` names its site in the MuJoCo model."""
+
+    def __init__(
+        self, settings: LaserSettings, mount: Mount = Mount(), *, name: str = "laser"
+    ) -> None:
+        self._settings = settings
+        self._mount = mount
+        self.name = name
+        self._angles = settings.angles()
+        self._angles.flags.writeable = False
+        wide = self._angles.astype(np.float64)
+        self._rays = np.stack([np.sin(wide), np.cos(wide), np.zeros_like(wide)], axis=1)
+
+    # -- as a part of the world ---------------------------------------------------------------
+
+    def build(self, spec: Any) -> None:
+        """Put the site on the carrier. Raises `SceneError` when there is no such body."""
+        at = self._mount
+        carrier = spec.body(at.body)
+        if carrier is None:
+            raise SceneError(f"the laser `{self.name}` is mounted on `{at.body}`, which is no body")
+        carrier.add_site(
+            name=self.name, pos=axes.point(at.x, at.y, at.z), quat=axes.heading(at.alpha)
+        )
+
+    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
+        """Find the site again and take the first scan."""
+        self._model, self._data, self._random = model, data, random
+        self._site = int(model.site(self.name).id)
+        self._body = int(model.site_bodyid[self._site])
+        root = model.body_rootid[self._body]
+        self._own = np.asarray(model.body_rootid[model.geom_bodyid] == root)
+        self._due = self._settings.period
+        self._scan = self._measure()
+
+    def before_step(self, dt: float) -> None:
+        """Nothing: a laser has no motor that matters."""
+
+    def after_step(self, dt: float) -> None:
+        """Take a scan when it is due."""
+        if self._data.time >= self._due - dt / 2:
+            self._due += self._settings.period
+            self._scan = self._measure()
+
+    def _measure(self) -> Scan:
+        it = self._settings
+        distances = self._cast() / MM
+        if it.noise:
+            hit = distances < it.max_range
+            noise = self._random.standard_normal(it.measures) * it.noise
+            distances = np.where(hit, distances + noise, distances)
+        found = np.clip(distances, it.min_range, it.max_range).astype(np.float32)
+        found.flags.writeable = False
+        return Scan(float(self._data.time), self._angles, found)
+
+    def _cast(self) -> NDArray[np.float64]:
+        """Distance of every ray in m; infinite where it hits nothing."""
+        count = self._settings.measures
+        rotation = self._data.site_xmat[self._site].reshape(3, 3)
+        rays = self._rays @ rotation.T
+        geoms = np.empty(count, np.int32)
+        distances = np.empty(count)
+        mujoco.mj_multiRay(
+            self._model,
+            self._data,
+            self._data.site_xpos[self._site],
+            rays.ravel(),
+            None,
+            True,
+            self._body,
+            geoms,
+            distances,
+            None,
+            count,
+            self._settings.max_range * MM,
+        )
+        own = (geoms >= 0) & self._own[np.maximum(geoms, 0)]
+        for i in np.flatnonzero(own):
+            distances[i] = self._behind(rays[i], float(distances[i]))
+        return np.where(distances < 0, np.inf, distances)
+
+    def _behind(self, ray: NDArray[np.float64], reached: float) -> float:
+        """Distance in m of what lies behind the carrier's own parts on one ray; -1: nothing."""
+        origin = self._data.site_xpos[self._site]
+        geom = np.empty(1, np.int32)
+        for _ in range(_OWN_SURFACES):
+            start = origin + ray * (reached + _PAST)
+            more = mujoco.mj_ray(self._model, self._data, start, ray, None, True, self._body, geom)
+            if more < 0:
+                return -1.0
+            reached += _PAST + more
+            if not self._own[geom[0]]:
+                return reached
+        return -1.0
+
+    # -- as a device --------------------------------------------------------------------------
+
+    @property
+    def settings(self) -> LaserSettings:
+        """How the laser scans."""
+        return self._settings
+
+    def scan(self) -> Scan:
+        """The latest scan."""
+        return self._scan

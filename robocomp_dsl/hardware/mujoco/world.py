@@ -1,0 +1,90 @@
+"""A simulated world: physics, time and the devices in it.
+
+In: a scene as `MjSpec` and devices that put their bodies into it. Out: `advance(seconds)`, after
+which the devices have new states. The same scene, devices, seed and commands give the same numbers,
+bit for bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Protocol
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.errors import Diverged, SceneError
+
+_BAD = (
+    mujoco.mjtWarning.mjWARN_BADQPOS,
+    mujoco.mjtWarning.mjWARN_BADQVEL,
+    mujoco.mjtWarning.mjWARN_BADQACC,
+)
+
+
+class Part(Protocol):
+    """A device as the world sees it: first `build`, then `bind`, then the two for every step."""
+
+    def build(self, spec: Any) -> None:
+        """Put bodies, joints and motors into `spec` (an `MjSpec`)."""
+
+    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
+        """Find them again in the compiled `MjModel` and `MjData`, at rest at time 0."""
+
+    def before_step(self, dt: float) -> None:
+        """Drive the motors for the next `dt` seconds."""
+
+    def after_step(self, dt: float) -> None:
+        """Read the sensors; `dt` seconds have passed."""
+
+
+class World:
+    """Bodies under physics. Not thread-safe: one thread, or one lock, drives it."""
+
+    def __init__(self, spec: Any, parts: Iterable[Part] = (), *, seed: int = 0) -> None:
+        self._parts = tuple(parts)
+        for part in self._parts:
+            part.build(spec)
+        try:
+            self.model = spec.compile()
+        except ValueError as error:
+            raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+        self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+        self.data = mujoco.MjData(self.model)
+        mujoco.mj_forward(self.model, self.data)
+        for i, part in enumerate(self._parts):
+            # a stream of its own for each, so that one device's noise does not shift another's
+            part.bind(self.model, self.data, np.random.default_rng([seed, i]))
+        self._owed = 0.0
+
+    @property
+    def step(self) -> float:
+        """Length of one step of the physics in s."""
+        return float(self.model.opt.timestep)
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+        return float(self.data.time)
+
+    def advance(self, seconds: float) -> None:
+        """Let `seconds` pass; what is less than a step is kept for the next call.
+
+        Raises `Diverged` when the state is no longer made of finite numbers.
+        """
+        self._owed += seconds
+        dt = self.step
+        steps = int(self._owed / dt + 1e-9)
+        self._owed -= steps * dt
+        for _ in range(steps):
+            for part in self._parts:
+                part.before_step(dt)
+            mujoco.mj_step(self.model, self.data)
+            for part in self._parts:
+                part.after_step(dt)
+        self._check()
+
+    def _check(self) -> None:
+        for kind in _BAD:
+            if self.data.warning[kind].number:
+                raise Diverged(f"the simulation diverged before {self.time:.3f} s ({kind.name})")
