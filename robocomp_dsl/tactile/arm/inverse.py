@@ -131,9 +131,10 @@ def rotation_vector(rotation: Floats) -> Floats:
         return np.asarray(twice * (angle / (2 * sine)))
     if cosine > 0:
         return twice / 2
-    axis = np.sqrt(np.maximum(np.diag(rotation) + 1, 0) / 2)  # half turn: signs from the first row
-    signs = np.where(rotation[int(np.argmax(axis))] < 0, -1.0, 1.0)
-    return np.asarray(axis * signs * angle)
+    # a half turn: rotation + 1 = 2 axis axis^T, so its largest row is along the axis
+    square = rotation + np.eye(3)
+    axis = square[int(np.argmax(np.diag(square)))]
+    return np.asarray(axis / np.linalg.norm(axis) * angle)
 
 
 def _golden(size: int) -> Floats:
