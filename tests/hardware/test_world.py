@@ -1,4 +1,5 @@
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -38,12 +39,17 @@ def test_how_time_is_cut_makes_no_difference() -> None:
     assert np.array_equal(run(5, 1)[0], run(5, 3)[0])
 
 
-def test_a_diverging_simulation_is_told() -> None:
+def test_a_diverging_simulation_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.chdir(tmp_path)
     world = World(ROOM.spec(), (DifferentialRobot(Mechanics()),))
     world.advance(0.1)
     world.data.qvel[:] = np.nan
     with pytest.raises(Diverged, match=r"diverged before 0\.2"):
         world.advance(0.1)
+    assert "unstable" in caplog.text
+    assert not list(tmp_path.iterdir())  # left alone, MuJoCo would write a log file here
 
 
 def test_a_world_that_mujoco_refuses_is_told() -> None:
