@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.arrays import Bools, Floats
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ def link(a: float, d: float, alpha: float, turn: float) -> Floats:
     )
 
 
-def generic_chain(chain: Chain, gamma: Floats, sigma: Floats, available: Floats) -> Chain:
+def generic_chain(chain: Chain, gamma: Floats, sigma: Floats, available: Bools) -> Chain:
     """The same arm, driven by generic angles: device = (generic - sigma) / gamma, |gamma| = 1.
 
     A negative gamma turns the joint's axis round: the half turn about x that this takes is put

@@ -1,0 +1,154 @@
+"""What a robot's description says: generic parts with servos, chain, limbs, skin and fields.
+
+Frozen data; lengths in metres, angles in radians, except device values of a servo, which are in
+its own unit. `place` is where an item stands in its file, for complaints made later.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from robocomp_dsl.tactile.arm.chain import Chain, generic_chain
+from robocomp_dsl.tactile.arm.mapping import PartMapping
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.description.located import NOWHERE, UNITS, Place
+from robocomp_dsl.tactile.reflex.law import Field
+from robocomp_dsl.tactile.skin.cone import Cone
+from robocomp_dsl.tactile.skin.normalise import Sensitivity
+
+GENERIC_ARM = ("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow_pitch", "elbow_yaw")
+"""The five generic indices of every arm, 0 to 4."""
+
+
+@dataclass(frozen=True, slots=True)
+class Servo:
+    """One generic index. `joint` is empty where the robot lacks it: then it reads sigma.
+
+    `low`, `high`, `speed` and `start` are in `unit` of the device; stiffness and damping are
+    those of its interaction mode [N m/rad, N m s/rad].
+    """
+
+    joint: str
+    part: str
+    gamma: float
+    sigma: float
+    low: float
+    high: float
+    speed: float
+    stiffness: float
+    damping: float
+    start: float
+    unit: str = "rad"
+    place: Place = NOWHERE
+
+    @property
+    def qualified(self) -> str:
+        """Part and joint as one name; one generic part may use several device parts."""
+        return f"{self.part}/{self.joint}" if self.part else self.joint
+
+
+@dataclass(frozen=True, eq=False)
+class Limb:
+    """A limb on the robot's body `body`; `origin` (3,) and `axes` (3, 3) place its frame there.
+
+    The frame has its origin on the proximal joint, x along the limb, and theta = 0 at +z, which
+    points away from the trunk when all generic angles are zero.
+    """
+
+    name: str
+    body: str
+    origin: Floats
+    axes: Floats
+    cone: Cone
+    place: Place = NOWHERE
+
+    def to_body(self, points: Floats) -> Floats:
+        """Points (..., 3) of the limb frame in the frame of its body."""
+        carried: Floats = points @ self.axes.T + self.origin
+        return carried
+
+    def to_limb(self, points: Floats) -> Floats:
+        """Points (..., 3) of the body in the limb frame."""
+        carried: Floats = (points - self.origin) @ self.axes
+        return carried
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Taxels `ids` (n,) at `points` (n, 3) with `normals` (n, 3), in the frame of `limb`."""
+
+    name: str
+    limb: str
+    ids: tuple[int, ...]
+    points: Floats
+    normals: Floats
+    sensitivity: Sensitivity
+    place: Place = NOWHERE
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A generic part: for an arm the five indices of `GENERIC_ARM`, whatever the robot has."""
+
+    name: str
+    servos: tuple[Servo, ...]
+    chain: Chain | None = None
+    limbs: tuple[Limb, ...] = ()
+    patches: tuple[Patch, ...] = ()
+    fields: tuple[Field, ...] = ()
+    place: Place = NOWHERE
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Qualified names of the joints that exist, in generic order."""
+        return tuple(servo.qualified for servo in self.servos if servo.joint)
+
+    @property
+    def mapping(self) -> PartMapping:
+        """Equations 1 and 2 for this part."""
+        return PartMapping(
+            gamma=np.array([servo.gamma for servo in self.servos]),
+            sigma=np.array([servo.sigma for servo in self.servos]),
+            low=np.array([servo.low for servo in self.servos]),
+            high=np.array([servo.high for servo in self.servos]),
+            available=np.array([bool(servo.joint) for servo in self.servos]),
+            to_si=np.array([UNITS[servo.unit] for servo in self.servos]),
+        )
+
+    @property
+    def generic_chain(self) -> Chain | None:
+        """The chain as generic angles drive it; None where the description gives none."""
+        if self.chain is None:
+            return None
+        mapping = self.mapping
+        return generic_chain(self.chain, mapping.gamma_si, mapping.sigma, mapping.available)
+
+    @property
+    def start(self) -> Floats:
+        """Generic start pose, (n,)."""
+        return np.array([s.gamma * s.start + s.sigma if s.joint else s.sigma for s in self.servos])
+
+    @property
+    def speed_limits(self) -> Floats:
+        """Largest generic speeds, (n,); 0 where there is no joint."""
+        return self.mapping.speed_limit(np.array([s.speed for s in self.servos]))
+
+    def limb(self, name: str) -> Limb:
+        """The limb of that name; `KeyError` without one."""
+        return {limb.name: limb for limb in self.limbs}[name]
+
+
+@dataclass(frozen=True, eq=False)
+class Robot:
+    """All generic parts of a robot."""
+
+    name: str
+    parts: tuple[Part, ...] = field(default=())
+    file: Path = Path()
+
+    def part(self, name: str) -> Part:
+        """The part of that name; `KeyError` without one."""
+        return {part.name: part for part in self.parts}[name]

@@ -1,0 +1,170 @@
+"""Read a robot's description from YAML.
+
+In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every finding. The form:
+
+    robot: name
+    parts:
+      left_arm:
+        servos: [{joint, part, gamma, sigma, limits, speed, stiffness, damping, start, unit}, ...]
+        chain: {base: {position, rpy}, tool: {...}, rows: [{servo | fixed, a, d, alpha, offset}]}
+        limbs: {upper_arm: {body, position, rpy, cone: {x: [x0, x1], r: [r0, r1]}}}
+        skin: [{patch, limb, first_id, rings | points | file, sensitivity}]
+        fields: [{name, limb, x, theta, rho, radius, motion}]
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from robocomp_dsl.tactile.arm.chain import Chain, Row
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.description.check import check
+from robocomp_dsl.tactile.description.located import UNITS, Entry, Reading, Table
+from robocomp_dsl.tactile.description.model import Limb, Part, Robot, Servo
+from robocomp_dsl.tactile.description.skin import read_fields, read_patches
+from robocomp_dsl.tactile.skin.cone import Cone
+
+_NO_TURN = (0.0, 0.0, 0.0)
+
+
+def read_robot(text: str, file: Path) -> Robot:
+    """The robot that `text` describes. Raises `DescriptionError` with every finding."""
+    reading = Reading(file)
+    top = reading.root(text).table()
+    name, parts = top.text("robot"), top.need("parts")
+    top.finish()
+    rows = parts.table().rows if parts else {}
+    robot = Robot(name, tuple(_part(key, entry) for key, entry in rows.items()), file)
+    reading.finish()
+    check(robot, reading)
+    reading.finish()
+    return robot
+
+
+def load_robot(file: Path) -> Robot:
+    """The robot that the file describes; see `read_robot`."""
+    return read_robot(file.read_text(encoding="utf-8"), file)
+
+
+def _part(name: str, entry: Entry) -> Part:
+    table = entry.table()
+    listed, limb_table = table.need("servos"), table.get("limbs")
+    servos = tuple(_servo(one) for one in listed.items()) if listed else ()
+    chain = table.get("chain")
+    rows = limb_table.table().rows if limb_table else {}
+    limbs = {key: _limb(key, one) for key, one in rows.items()}
+    patches = read_patches(table.get("skin"), limbs)
+    fields = read_fields(table.get("fields"), limbs, len(servos))
+    table.finish()
+    made = _chain(chain, len(servos)) if chain else None
+    return Part(name, servos, made, tuple(limbs.values()), patches, fields, entry.place)
+
+
+def _servo(entry: Entry) -> Servo:
+    table = entry.table()
+    joint = table.text("joint", "")
+    low, high = table.numbers("limits", 2, () if joint else (-np.inf, np.inf))
+    unit = table.text("unit", "rad")
+    if unit not in UNITS:
+        entry.complain(f"`{unit}` is no unit of a joint", "use one of " + ", ".join(UNITS))
+        unit = "rad"
+    gamma = table.number("gamma", None if joint else 1.0)
+    if gamma == 0.0:
+        entry.complain("gamma must not be 0: a command could not be carried to the device")
+        gamma = 1.0
+    servo = Servo(
+        joint=joint,
+        part=table.text("part", ""),
+        gamma=gamma,
+        sigma=table.number("sigma"),
+        low=min(low, high),
+        high=max(low, high),
+        speed=table.number("speed", None if joint else 0.0),
+        stiffness=table.number("stiffness", 0.0),
+        damping=table.number("damping", 0.0),
+        start=table.number("start", 0.0),
+        unit=unit,
+        place=entry.place,
+    )
+    if low > high:
+        entry.complain(f"the lower limit {low:g} lies above the upper limit {high:g}")
+    table.finish()
+    return servo
+
+
+def _limb(name: str, entry: Entry) -> Limb:
+    table = entry.table()
+    body, pose, shape = table.text("body"), _pose(table), table.need("cone")
+    table.finish()
+    cone = _cone(shape) if shape else Cone(0, 1, 1, 1)
+    return Limb(name, body, pose[:3, 3], pose[:3, :3], cone, entry.place)
+
+
+def _cone(entry: Entry) -> Cone:
+    table = entry.table()
+    (x0, x1), (r0, r1) = table.numbers("x", 2), table.numbers("r", 2)
+    table.finish()
+    try:
+        return Cone(x0, x1, r0, r1)
+    except ValueError as error:
+        entry.complain(str(error))
+        return Cone(0, 1, 1, 1)
+
+
+def _chain(entry: Entry, size: int) -> Chain:
+    table = entry.table()
+    base, tool = (_pose_at(table, key) for key in ("base", "tool"))
+    listed = table.need("rows")
+    table.finish()
+    rows = tuple(_row(one, size) for one in listed.items()) if listed else ()
+    try:
+        return Chain(rows, size, base, tool)
+    except ValueError as error:
+        entry.complain(str(error))
+        return Chain((), size)
+
+
+def _row(entry: Entry, size: int) -> Row:
+    table = entry.table()
+    servo, fixed = table.get("servo"), table.number("fixed", 0.0)
+    joint = servo.integer() if servo else None
+    if servo and not 0 <= (joint or 0) < size:
+        servo.complain(f"there is no servo {joint}: the part has 0 to {size - 1}")
+        joint = None
+    a, d, alpha = (table.number(key, 0.0) for key in ("a", "d", "alpha"))
+    offset = table.number("offset", 0.0)
+    table.finish()
+    return Row(a, d, alpha, offset + (fixed if joint is None else 0.0), joint)
+
+
+def _pose_at(table: Table, key: str) -> Floats:
+    found = table.get(key)
+    if found is None:
+        return np.eye(4)
+    inner = found.table()
+    pose = _pose(inner)
+    inner.finish()
+    return pose
+
+
+def _pose(table: Table) -> Floats:
+    """4 x 4 from `position` and `rpy` (turns about the fixed x, y, z, in this order)."""
+    pose = np.eye(4)
+    pose[:3, 3] = table.numbers("position", 3, _NO_TURN)
+    roll, pitch, yaw = table.numbers("rpy", 3, _NO_TURN)
+    pose[:3, :3] = rotation(roll, pitch, yaw)
+    return pose
+
+
+def rotation(roll: float, pitch: float, yaw: float) -> Floats:
+    """Rz(yaw) Ry(pitch) Rx(roll), 3 x 3."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos((roll, pitch, yaw)), np.sin((roll, pitch, yaw))
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )

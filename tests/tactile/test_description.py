@@ -1,0 +1,233 @@
+"""Robot descriptions in YAML, and the paper's XML listing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.tactile.description.check import check_bodies, check_joints
+from robocomp_dsl.tactile.description.listing import read_listing
+from robocomp_dsl.tactile.description.read import read_robot, rotation
+from robocomp_dsl.tactile.errors import DescriptionError
+from robocomp_dsl.tactile.skin.cone import cartesian
+
+GOOD = """\
+robot: two_link
+parts:
+  left_arm:
+    servos:
+      - {joint: Pitch, part: LArm, gamma: -1, sigma: 90 deg, limits: [-120 deg, 2.0],
+         speed: 4.0, stiffness: 0.8, damping: 0.1, start: 1.2}
+      - {joint: roll, gamma: 0.017453292519943295, sigma: 0,
+         limits: [0, 160], speed: 100, unit: deg}
+      - {sigma: 0.1}
+    chain:
+      base: {position: [0, 98 mm, 0.1], rpy: [-90 deg, 0, 0]}
+      rows:
+        - {servo: 0, alpha: 90 deg}
+        - {servo: 1, a: 15 mm, d: 0.1, alpha: 0, offset: 1}
+        - {fixed: 0.5, a: 0.1}
+    limbs:
+      lower: {body: LForeArm, position: [0, 0, 10 mm], rpy: [0, 0, 90 deg],
+              cone: {x: [0.02, 0.10], r: [32 mm, 26 mm]}}
+    skin:
+      - {patch: rings, limb: lower, first_id: 100, rings: {x: [0.03, 0.06, 0.09], count: 8},
+         sensitivity: {gain: 0.05, floor: 2, saturation: 240}}
+      - {patch: dots, limb: lower, points: [[0.05, 0], [0.06, 1]]}
+    fields:
+      - {name: back, limb: lower, x: 0.05, theta: 0, radius: 30 mm, motion: [-0.2, 0.3, 0]}
+"""
+
+
+def test_a_description_is_read_in_si_units():
+    arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
+    assert arm.joints == ("LArm/Pitch", "roll")
+    assert arm.mapping.available.tolist() == [True, True, False]
+    assert arm.mapping.sigma == pytest.approx([np.pi / 2, 0, 0.1])
+    assert arm.mapping.low[0] == pytest.approx(np.deg2rad(-120))
+    assert arm.start == pytest.approx([np.pi / 2 - 1.2, 0, 0.1])
+    assert arm.speed_limits == pytest.approx([4.0, np.deg2rad(100), 0])
+    assert arm.chain.base[:3, 3] == pytest.approx([0, 0.098, 0.1])
+    assert arm.chain.base[:3, 2] == pytest.approx([0, 1, 0])
+    assert [row.joint for row in arm.chain.rows] == [0, 1, None]
+    assert arm.chain.rows[2].offset == 0.5
+
+
+def test_limbs_skin_and_fields_lie_in_the_frame_of_the_limb():
+    arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
+    limb = arm.limb("lower")
+    assert limb.to_body(np.array([0.05, 0, 0])) == pytest.approx([0, 0.05, 0.01])
+    assert limb.to_limb(limb.to_body(np.array([1.0, 2, 3]))) == pytest.approx([1, 2, 3])
+    ring, dots = arm.patches
+    assert len(ring.ids) == 240
+    assert ring.ids[0] == 100
+    assert ring.ids[-1] == 100 + 23 * 12 + 11
+    rho = np.hypot(ring.points[:, 1], ring.points[:, 2])
+    assert rho == pytest.approx(limb.cone.radius(ring.points[:, 0]))
+    assert dots.ids == (0, 1)
+    assert dots.points[1] == pytest.approx(cartesian(0.06, 1, 0.029))
+    assert ring.sensitivity.gain == 0.05
+    assert arm.fields[0].centre == pytest.approx([0.05, 0, 0.02975])
+
+
+def test_generic_chain_of_a_description():
+    arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
+    generic = np.array([0.3, 0.2, 0.1])
+    pitch, roll = arm.mapping.command(generic).values
+    there = arm.chain.pose(np.array([pitch, np.deg2rad(roll), 0.0]))
+    assert arm.generic_chain.pose(generic) == pytest.approx(there)
+
+
+def faults(text: str) -> list[str]:
+    with pytest.raises(DescriptionError) as caught:
+        read_robot(text, Path("r.yaml"))
+    return [str(one) for one in caught.value.findings]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("gamma: -1,", "gamma: 0,", "r.yaml:5:9: gamma must not be 0"),
+        ("gamma: -1,", "gamma: .inf,", "r.yaml:5:43: a number is needed here"),
+        ("gamma: -1,", "gama: -1,", "r.yaml:5:9: `gamma` is missing here"),
+        ("gamma: -1,", "gama: -1,", "`gama` means nothing here (did you mean `gamma`?)"),
+        ("start: 1.2", "start: 2.5", "r.yaml:5:9: the start pose 2.5 of `Pitch` leaves"),
+        ("2.0]", "-3.0]", "the lower limit -2.0944 lies above the upper limit -3"),
+        ("sigma: 90 deg", "sigma: 700 deg", "leave the limits of a turning joint"),
+        ("{sigma: 0.1}", "{sigma: 0.1, limits: [1, 2]}", "sigma 0.1 of the missing joint leaves"),
+        ("speed: 4.0", "speed: 0", "the speed of `Pitch` must be positive"),
+        ("unit: deg", "unit: turns", "`turns` is no unit of a joint"),
+        ("joint: roll", "joint: Pitch, part: LArm", "`LArm/Pitch` is mapped twice"),
+        ("servo: 1, a", "servo: 7, a", "r.yaml:14:19: there is no servo 7"),
+        ("servo: 1, a", "servo: 0, a", "occurs at most once"),
+        ("[0.02, 0.10]", "[0.10, 0.02]", "a cone must end behind its start"),
+        ("limb: lower, points", "limb: upper, points", "no limb `upper` (limbs: lower)"),
+        ("count: 8", "count: 0", "at least one x and one module"),
+        ("first_id: 100", "first_id: 1", "taxel id 1 of `dots` is also in `rings`"),
+        ("[0.05, 0], [", "[0.15, 0], [", "1 taxels of `dots` are off their body (taxel 0 is 50 mm"),
+        ("floor: 2", "floor: 300", "0 <= floor < saturation"),
+        ("radius: 30 mm", "radius: 0", "radius of a field must be positive"),
+        ("[-0.2, 0.3, 0]", "[-0.2, 0.3]", "3 entries are needed, there are 2"),
+        ("points: [[0.05, 0], [0.06, 1]]", "file: none.txt", "taxel positions cannot be read"),
+        ("sensitivity: {", "file: x, sensitivity: {", "exactly one of rings, points, file"),
+        ("robot: two_link", "", "`robot` is missing here"),
+        ("position: [0, 98 mm", "position: [0, 98 miles", "a number is needed here (a unit may"),
+        ("    limbs:", "    servos: []\n    limbs:", "`servos` is given twice"),
+    ],
+)
+def test_faults_are_found_with_their_place(old, new, expected):
+    assert old in GOOD
+    assert any(expected in told for told in faults(GOOD.replace(old, new, 1)))
+
+
+@pytest.mark.parametrize(
+    "text", ["", "- a\n- b", "a: [", "robot: x\nparts: 3", "\x01", "a: &x [*x]"]
+)
+def test_texts_that_are_no_description(text):
+    assert faults(text)
+
+
+def test_all_faults_are_told_at_once():
+    text = GOOD.replace("speed: 4.0", "speed: 0").replace("first_id: 100", "first_id: 1")
+    assert len(faults(text)) == 2
+
+
+def test_positions_come_from_a_file_beside_the_description(tmp_path):
+    points = cartesian(np.array([0.03, 0.05]), np.array([0.0, 1.0]), 0.03)
+    body = read_robot(GOOD, Path("r.yaml")).part("left_arm").limb("lower").to_body(points)
+    rows = ["0 0 0 0 0 0", *(f"{x} {y} {z} 0 0 1" for x, y, z in body)]
+    (tmp_path / "taxels.txt").write_text("[calibration]\n" + "\n".join(rows) + "\n")
+    text = GOOD.replace("points: [[0.05, 0], [0.06, 1]]", "file: taxels.txt")
+    patch = read_robot(text, tmp_path / "r.yaml").part("left_arm").patches[1]
+    assert patch.ids == (1, 2)
+    assert patch.points == pytest.approx(points)
+    (tmp_path / "taxels.txt").write_text("[calibration]\n1 2 3\n")
+    with pytest.raises(DescriptionError, match=r"taxels\.txt:2:1"):
+        read_robot(text, tmp_path / "r.yaml")
+
+
+def test_joints_and_bodies_of_the_robot_are_compared():
+    robot = read_robot(GOOD, Path("r.yaml"))
+    check_joints(robot, {"Pitch": (-2.1, 2.0), "roll": (0, 160)})
+    check_bodies(robot, frozenset({"LForeArm"}))
+    with pytest.raises(DescriptionError) as caught:
+        check_joints(robot, {"Pitsch": (-2.1, 2.0), "roll": (0, 90)})
+    told = [str(one) for one in caught.value.findings]
+    assert told == [
+        "r.yaml:5:9: the robot has no joint `Pitch` (did you mean `Pitsch`?)",
+        "r.yaml:7:9: the limits of `roll` are wider than the robot's (the robot has 0 to 90 deg)",
+    ]
+    with pytest.raises(DescriptionError, match=r"LForeArm.*did you mean `LForearm`"):
+        check_bodies(robot, frozenset({"LForearm", "torso"}))
+
+
+def test_rotations_turn_about_fixed_axes():
+    turned = rotation(np.pi / 2, -np.pi / 2, 0)
+    assert turned == pytest.approx(np.array([[0, -1, 0], [0, 0, -1], [1, 0, 0]]), abs=1e-12)
+
+
+PRINTED = """\
+<Generic_Robot_Part>head</Generic_Robot_Part>
+  <generic_servo_number>2</generic_servo_number>
+  <generic_servo id="1">
+    <destination_servo_id>2</destination_servo_id>
+    <transform_factor>1.00</transform_factor>
+    <transform_displacement>0.00</transform_displacement>
+    <stiffness>1.00</stiffness>
+    <damping>0.00</damping>
+    <speed>20.00</speed>
+  </generic_servo>
+  .....
+<initial_positions>
+  <servo type="deg" destination_servo_id="0" pos="-2.00"/>
+  <servo type="deg" destination_servo_id="2" pos="15.00"/>
+</initial_postions>
+"""
+
+
+def test_the_printed_listing_is_read_with_its_slip():
+    part = read_listing(PRINTED, Path("l.xml"), ("neck_pitch", "neck_roll", "neck_yaw"))
+    assert part.name == "head"
+    assert part.joints == ("neck_yaw",)
+    assert part.mapping.available.tolist() == [False, True]
+    servo = part.servos[1]
+    assert (servo.gamma, servo.sigma, servo.speed, servo.start) == (1, 0, 20, 15)
+    assert servo.unit == "deg"
+
+
+def test_the_listing_with_root_limits_and_destination_part():
+    text = f"<?xml version='1.0'?><robot>{PRINTED}</robot>".replace(
+        "<speed>", '<limits min="-55" max="55"/><destination_part>neck</destination_part><speed>'
+    )
+    part = read_listing(text, Path("l.xml"))
+    assert part.joints == ("neck/2",)
+    assert (part.servos[1].low, part.servos[1].high) == (-55, 55)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("</generic_servo>", "", "l.xml:3:3: <generic_servo> is never closed"),
+        ('id="1"', 'id="2"', "l.xml:3:3: the id is not one of 0 to 1"),
+        ('id="1"', "", "not one of 0 to 1"),
+        (">1.00</transform_factor", ">0</transform_factor", "factor of 0 cannot be turned"),
+        (">20.00<", ">fast<", "l.xml:9:5: `fast` in <speed> is not a number"),
+        (">2</generic_servo_number", ">0</generic_servo_number", "must say how many"),
+        ("Generic_Robot_Part", "Part", "there is no <Generic_Robot_Part>"),
+        ('type="deg"', 'type="turns"', "`turns` is no unit"),
+        ("</initial_postions>", "", "<initial_positions> is never closed"),
+        (">2</destination", ">-2</destination", "no destination servo -2"),
+        ("<speed>", '<limits min="2" max="1"/><speed>', "lower limit 2 lies above"),
+    ],
+)
+def test_faulty_listings(old, new, expected):
+    with pytest.raises(DescriptionError) as caught:
+        read_listing(PRINTED.replace(old, new), Path("l.xml"))
+    assert expected in str(caught.value)
+
+
+def test_a_deep_listing_does_not_break():
+    with pytest.raises(DescriptionError):
+        read_listing("<a>" * 50_000, Path("l.xml"))
