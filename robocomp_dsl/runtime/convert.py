@@ -7,6 +7,7 @@ A conversion never changes a value beyond the rounding of a float; what does not
 from __future__ import annotations
 
 import operator
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -146,3 +147,12 @@ def described(value: Any) -> str:
     text = repr(value)
     text = text if len(text) <= 40 else text[:39] + "…"
     return f"{text} ({type(value).__name__})"
+
+
+def as_list(value: Any) -> list[Any]:
+    """The elements of a sequence. A text or a dict is refused, for it is given by mistake."""
+    if isinstance(value, list):
+        return value
+    if isinstance(value, str | bytes | dict) or not isinstance(value, Iterable):
+        raise EncodeError(f"takes a list, not {described(value)}")
+    return list(value)

@@ -12,6 +12,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from robocomp_dsl.runtime.codec import (
+    compile_decoder,
+    compile_encoder,
+    compile_error_decoder,
+    compile_error_encoder,
+)
 from robocomp_dsl.runtime.errors import DeclaredError
 from robocomp_dsl.runtime.schema import Fields
 from robocomp_dsl.runtime.shape import digest, interface_shape
@@ -49,30 +55,22 @@ class Operation:
     @cached_property
     def encode_request(self) -> Callable[[tuple[Any, ...]], bytes]:
         """Arguments to bytes."""
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415 - compiled where it is used only
-
-        return codec.compile_encoder(self.inputs)
+        return compile_encoder(self.inputs)
 
     @cached_property
     def decode_request(self) -> Callable[[bytes], tuple[Any, ...]]:
         """Bytes to arguments."""
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415
-
-        return codec.compile_decoder(self.inputs)
+        return compile_decoder(self.inputs)
 
     @cached_property
     def encode_reply(self) -> Callable[[Any], bytes]:
         """What a servant returns to bytes."""
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415
-
-        return codec.compile_encoder(self.outputs, result=True)
+        return compile_encoder(self.outputs, result=True)
 
     @cached_property
     def decode_reply(self) -> Callable[[bytes], Any]:
         """Bytes to what a proxy returns."""
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415
-
-        return codec.compile_decoder(self.outputs, result=True)
+        return compile_decoder(self.outputs, result=True)
 
     @cached_property
     def encode_error(self) -> Callable[[DeclaredError], bytes]:
@@ -80,16 +78,12 @@ class Operation:
 
         Raises `EncodeError` for one that the operation does not declare.
         """
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415
-
-        return codec.compile_error_encoder(self.throws)
+        return compile_error_encoder(self.throws)
 
     @cached_property
     def decode_error(self) -> Callable[[bytes], DeclaredError]:
         """Bytes to the declared exception, to be raised."""
-        from robocomp_dsl.runtime import codec  # noqa: PLC0415
-
-        return codec.compile_error_decoder(self.throws)
+        return compile_error_decoder(self.throws)
 
 
 @dataclass(frozen=True, eq=False)

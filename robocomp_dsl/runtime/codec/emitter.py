@@ -1,0 +1,150 @@
+"""What the writers of encoders and decoders share: lines of source, constants, and the position.
+
+In: the items of a message in order. Out: the source of a function and the names it uses.
+
+Numbers in a row become one call of a `struct.Struct` that has the padding between them built in.
+Where their start is only known when the message is, there is one such `Struct` for each residue.
+Positions count from behind the encapsulation header, as alignment does.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from robocomp_dsl.runtime.layout import padding
+
+SIZES = {"x": 1, "?": 1, "B": 1, "h": 2, "i": 4, "I": 4, "f": 4, "q": 8, "d": 8}
+"""Size and alignment of what a `struct` letter stands for; x is a byte without meaning."""
+
+HEADER = 0x0100
+"""The header 00 01 00 00 (CDR, little endian, no options), read as a little-endian number."""
+
+MAX_NESTED = 15  # Python refuses more than 20 blocks in each other
+
+
+def numbers(codes: Iterable[str], start: int) -> struct.Struct:
+    """These numbers in a row where the first one's padding begins at `start`."""
+    form, at = "<", start
+    for code in codes:
+        gap = padding(at, SIZES[code])
+        form += "x" * gap + code
+        at += gap + SIZES[code]
+    return struct.Struct(form)
+
+
+class Emitter:
+    """A function being written.
+
+    `at`: the position if it is known now; else the variable `variable` holds it (plus `origin`) as
+    soon as `settle` has written the increments that wait in `later`, and it is a multiple of
+    `multiple`. Subclasses say in `flush` what becomes of the numbers that wait in `run`.
+    """
+
+    variable = "p"
+    origin = 0
+
+    def __init__(self, names: dict[str, Any]) -> None:
+        self.names = names
+        self.lines: list[str] = []
+        self.depth = 2
+        self.at: int | None = -4
+        self.multiple = 1
+        self.later: list[str] = []
+        self.run: list[tuple[str, str]] = []
+        self._count = 0
+        self._loops = 0
+        self._unset = True
+
+    def line(self, text: str) -> None:
+        """Add a line."""
+        self.lines.append("    " * self.depth + text)
+
+    def name(self, letter: str) -> str:
+        """A new variable."""
+        self._count += 1
+        return f"{letter}{self._count}"
+
+    def constant(self, value: Any) -> str:
+        """A name for an object that the source cannot spell."""
+        for name, known in self.names.items():
+            if known is value:
+                return name
+        name = self.name("K")
+        self.names[name] = value
+        return name
+
+    def flush(self) -> None:
+        """Write out the numbers in `run`."""
+        raise NotImplementedError
+
+    def take_run(self) -> tuple[Callable[[Callable[..., Any]], str], int | None]:
+        """End the run: how to call its `Struct` (by a function that picks the method), and where.
+
+        The second is the position if it is known. The increment of the position is noted.
+        """
+        codes = [code for code, _ in self.run]
+        self.run = []
+        if self.at is not None:
+            here, one = self.at, numbers(codes, self.at)
+            self.at += one.size
+            return lambda pick: self.constant(pick(one)), here
+        alignment = max(SIZES[code] for code in codes)
+        known = self.multiple >= alignment
+        one = numbers(codes, 0)
+        # Behind the widest number the residue does not depend on the start any more.
+        self.multiple = min(alignment, one.size & -one.size)
+        self.settle()
+        if known:
+            self.later.append(str(one.size))
+            return lambda pick: self.constant(pick(one)), None
+        residues = [numbers(codes, (r - self.origin) % alignment) for r in range(alignment)]
+        index = f"[{self.variable} & {alignment - 1}]"
+        self.later.append(self.constant(tuple(s.size for s in residues)) + index)
+        return lambda pick: self.constant(tuple(map(pick, residues))) + index, None
+
+    def advance(self, *sizes: str) -> None:
+        """Go on by sizes that are only known when the message is; nothing is known behind them."""
+        if self.at is not None:
+            self.later = [str(self.at + self.origin)]
+            self.at = None
+            self._unset = True
+        self.later.extend(sizes)
+        self.multiple = 1
+
+    def settle(self) -> None:
+        """Bring the variable up to date."""
+        if self.at is not None:
+            self.advance()
+        if self.later:
+            operator = "=" if self._unset else "+="
+            self.line(f"{self.variable} {operator} {' + '.join(self.later)}")
+        self._unset = False
+        self.later = []
+
+    def loop(self, head: str, body: Callable[[], None]) -> None:
+        """A loop; nothing is known of the position in it and behind it."""
+        self._loops += 1
+        if self._loops > MAX_NESTED:
+            raise TypeError(f"more than {MAX_NESTED} sequences within each other")
+        self.settle()
+        self.line(head)
+        self.depth += 1
+        self.multiple = 1
+        before = len(self.lines)
+        body()
+        self.flush()
+        self.settle()
+        if len(self.lines) == before:
+            self.line("pass")
+        self.depth -= 1
+        self.multiple = 1
+        self._loops -= 1
+
+    def compiled(self, head: str, tail: str, name: str) -> Callable[..., Any]:
+        """The function `name`, its body within `try`; `tail` follows after a failure."""
+        source = "\n".join([head, "    try:", *self.lines, tail])
+        exec(compile(source, f"<{name}>", "exec"), self.names)  # noqa: S102 - from the schema only
+        function: Callable[..., Any] = self.names[name]
+        return function

@@ -1,0 +1,245 @@
+"""Writes encoders. In: a schema. Out: a Python function from values to bytes.
+
+For a pose with a text in its header the body is, but for names:
+
+    v1 = value.header
+    s1 = v1.frame_id.encode()
+    l1 = len(s1)
+    t1 = K1(256, v1.sec, v1.nanosec, l1 + 1)       # struct.Struct.pack, with the message's header
+    p = 12 + l1
+    t2 = K2[p & 7](value.x, value.y, …)            # NUL of the text, padding, 7 doubles
+    return join((t1, s1, t2))
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from struct import Struct
+from typing import Any
+
+import numpy as np
+
+from robocomp_dsl.runtime.codec.blocks import pack
+from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
+from robocomp_dsl.runtime.codec.explain import explain
+from robocomp_dsl.runtime.convert import FLAGS, as_array, as_list
+from robocomp_dsl.runtime.layout import row_layout
+from robocomp_dsl.runtime.record import Record
+from robocomp_dsl.runtime.schema import (
+    BOOL,
+    STRING,
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    Type,
+)
+
+_GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 0 or 4
+
+
+def encoder_function(fields: Fields, form: str) -> Callable[[Any], bytes]:
+    """The encoder; `form` says how the values come: `none`, `one` or `tuple`."""
+    writer = _Encoder()
+    writer.message(fields, form)
+
+    def failed(values: Any, failure: Exception) -> Exception:
+        return explain(fields, form, values, failure)
+
+    writer.names["failed"] = failed
+    tail = "    except Exception as e:\n        failure = e\n    raise failed(value, failure)"
+    return writer.compiled("def encode(value):", tail, "encode")
+
+
+def _packer(one: Struct) -> Callable[..., Any]:
+    return one.pack
+
+
+class _Encoder(Emitter):
+    """`parts` are the expressions for the pieces of the message that are not collected yet."""
+
+    def __init__(self) -> None:
+        super().__init__({"join": b"".join, "ndarray": np.ndarray, "as_array": as_array})
+        self.parts: list[str] = []
+        self.spilled = False
+
+    def message(self, fields: Fields, form: str) -> None:
+        """The whole body."""
+        self.run.append(("I", str(HEADER)))
+        names = ["value"]
+        if form == "tuple":
+            names = [self.name("a") for _ in fields]
+            self.line(f"[{', '.join(names)}] = value")
+        for name, (_, type_) in zip(names, fields, strict=False):
+            self.value(type_, name)
+        if not fields:
+            self.run.append(("x", ""))
+            if form == "none":
+                self.line("if value is not None: raise TypeError")
+        self.flush()
+        if self.spilled:
+            self.spill()
+            self.line("return join(out)")
+        elif len(self.parts) == 1:
+            self.line(f"return {self.parts[0]}")
+        else:
+            self.line(f"return join(({', '.join(self.parts)}))")
+
+    def flush(self) -> None:
+        """One `pack` for the numbers that wait."""
+        if not self.run:
+            return
+        values = ", ".join(value for _, value in self.run if value)
+        call, at = self.take_run()
+        expression = f"{call(_packer)}({values})"
+        if at is None:  # the position moves on before the pieces are joined
+            part = self.name("t")
+            self.line(f"{part} = {expression}")
+            expression = part
+        self.parts.append(expression)
+
+    def spill(self) -> None:
+        """Move the pieces so far into the list `out`, as loops need it."""
+        parts, self.parts = ", ".join(self.parts), []
+        if not self.spilled:
+            self.line(f"out = [{parts}]")
+        elif parts:
+            self.line(f"out += ({parts},)")
+        self.spilled = True
+
+    def assigned(self, letter: str, expression: str) -> str:
+        """A variable with this value."""
+        if expression.isidentifier():
+            return expression
+        name = self.name(letter)
+        self.line(f"{name} = {expression}")
+        return name
+
+    def value(self, type_: Type, expression: str) -> None:
+        """One value of any type."""
+        match type_:
+            case Primitive():
+                self.primitive(type_, expression)
+            case Array():
+                self.array(type_.element.dtype, expression)
+            case Sequence():
+                self.sequence(type_, expression)
+            case Dictionary():
+                self.dictionary(type_, expression)
+            case _ if issubclass(type_, Record):
+                self.record(type_, expression)
+            case _ if issubclass(type_, Enum):
+                values = {int(one): int(one) for one in type_}
+                self.run.append(("i", f"{self.constant(values)}[{expression}]"))
+            case _:
+                self.struct_array(type_, expression)
+
+    def primitive(self, type_: Primitive, expression: str) -> None:
+        """A number, a bool or a text."""
+        if type_ is STRING:
+            self.text(expression)
+        elif type_ is BOOL:
+            self.run.append(("?", f"{self.constant(FLAGS)}[{expression}]"))
+        else:
+            self.run.append((type_.code, expression))
+
+    def text(self, expression: str) -> None:
+        """Length with the NUL, UTF-8; the NUL is left to the next run."""
+        text, length = self.name("s"), self.name("l")
+        self.line(f"{text} = {expression}.encode()")
+        self.line(f"{length} = len({text})")
+        self.run.append(("I", f"{length} + 1"))
+        self.flush()
+        self.parts.append(text)
+        self.advance(length)
+        self.run.append(("x", ""))
+
+    def record(self, type_: type[Record], expression: str) -> None:
+        """The fields in order."""
+        if not type_._fields_:
+            self.run.append(("x", ""))
+            return
+        name = self.assigned("v", expression)
+        for attribute, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
+            self.value(inner, f"{name}.{attribute}")
+
+    def array(self, dtype: np.dtype[Any], expression: str) -> None:
+        """A numpy array; its memory is a piece of the message."""
+        name = self.assigned("a", expression)
+        kind, strides = self.constant(dtype), f"({dtype.itemsize},)"
+        self.line(
+            f"if {name}.__class__ is not ndarray or {name}.dtype is not {kind}"
+            f" or {name}.strides != {strides}: {name} = as_array({name}, {kind})"
+        )
+        self.block(name, dtype.itemsize, dtype.itemsize)
+
+    def struct_array(self, type_: Any, expression: str) -> None:
+        """A structured array, as it is in memory if that is how the wire has it."""
+        layout = row_layout(type_._element_)
+        given, name, cls = self.assigned("a", expression), self.name("a"), self.constant(type_)
+        self.line(
+            f"{name} = {given}._array if {given}.__class__ is {cls} else {cls}._rows({given})"
+        )
+        if layout.direct:
+            self.line(f"if {name}.strides != ({layout.stride},): {name} = {name}.copy()")
+            self.block(name, layout.stride, layout.alignment)
+            return
+        self.count(name)
+        self.settle()
+        piece = self.name("t")
+        names = self.constant(layout), self.constant(pack)
+        self.line(f"{piece} = {names[1]}({names[0]}, {name}, {self.variable})")
+        self.parts.append(piece)
+        self.advance(f"len({piece})")
+
+    def count(self, name: str) -> str:
+        """The number of elements."""
+        count = self.name("n")
+        self.line(f"{count} = len({name})")
+        self.run.append(("I", count))
+        self.flush()
+        return count
+
+    def block(self, name: str, size: int, alignment: int) -> None:
+        """A count and memory that is sent as it is. An empty one has no padding before it."""
+        count = self.count(name)
+        gaps = []
+        if alignment == 8 and (self.at is None or self.at % 8):
+            if self.at is None:
+                self.settle()
+            gap = self.name("g")
+            self.line(f"{gap} = {count} and {4 if self.at is not None else 'p & 4'}")
+            self.parts.append(f"{self.constant(_GAPS)}[{gap}]")
+            gaps = [gap]
+        self.parts.append(name)
+        self.advance(*gaps, f"{count} * {size}")
+        self.multiple = min(4, size & -size)
+
+    def sequence(self, type_: Sequence, expression: str) -> None:
+        """A list, element by element."""
+        name, item = self.assigned("q", expression), self.name("e")
+        items = self.constant(as_list)
+        self.line(f"if {name}.__class__ is not list: {name} = {items}({name})")
+        self.count(name)
+        self.spill()
+        self.loop(f"for {item} in {name}:", lambda: self.element(type_.element, item))
+
+    def dictionary(self, type_: Dictionary, expression: str) -> None:
+        """A dict, pair by pair."""
+        name, key, item = self.assigned("q", expression), self.name("e"), self.name("e")
+        self.count(name)
+        self.spill()
+
+        def pair() -> None:
+            self.value(type_.key, key)
+            self.element(type_.value, item)
+
+        self.loop(f"for {key}, {item} in {name}.items():", pair)
+
+    def element(self, type_: Type, name: str) -> None:
+        """The last value of a loop's body."""
+        self.value(type_, name)
+        self.flush()
+        self.spill()

@@ -1,0 +1,89 @@
+"""Why a value could not be encoded. In: the fields, the values, the failure. Out: `EncodeError`.
+
+Encoders only notice that something failed; this walks the values once more, slowly, to tell where.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.runtime.convert import as_array, as_list, as_scalar, described
+from robocomp_dsl.runtime.errors import EncodeError
+from robocomp_dsl.runtime.record import Record
+from robocomp_dsl.runtime.schema import (
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    Type,
+)
+
+
+def explain(fields: Fields, form: str, values: Any, failure: Exception) -> EncodeError:
+    """The error to raise for `values`, which an encoder of `fields` refused with `failure`."""
+    try:
+        for name, type_, value in _paired(fields, form, values):
+            _check(type_, value, name)
+    except EncodeError as error:
+        return error
+    return EncodeError(f"cannot be encoded: {failure}")
+
+
+def _paired(fields: Fields, form: str, values: Any) -> list[tuple[str, Type, Any]]:
+    """Name, type and value of each field."""
+    if form == "none":
+        if values is not None:
+            raise EncodeError(f"there is no result, so None and not {described(values)}")
+        return []
+    if form == "one":
+        values = (values,)
+    names = ", ".join(name or "result" for name, _ in fields)
+    if not isinstance(values, tuple | list):
+        raise EncodeError(f"takes a tuple of ({names}), not {described(values)}")
+    if len(values) != len(fields):
+        raise EncodeError(f"takes {len(fields)} values ({names}), not {len(values)}")
+    unnamed = "" if form == "one" else "result"
+    return [(n or unnamed, t, v) for (n, t), v in zip(fields, values, strict=True)]
+
+
+def _check(type_: Type, value: Any, path: str) -> None:
+    """Raise `EncodeError` for the first thing that is wrong with `value`."""
+    try:
+        match type_:
+            case Primitive():
+                as_scalar(type_, value)
+            case Array():
+                as_array(value, type_.element.dtype)
+            case Sequence():
+                for index, item in enumerate(as_list(value)):
+                    _check(type_.element, item, f"[{index}]")
+            case Dictionary():
+                _check_dictionary(type_, value)
+            case _ if issubclass(type_, Enum):
+                as_scalar(type_, value)
+            case _ if issubclass(type_, Record):
+                _check_record(type_, value)
+            case _:
+                type_._rows(value)
+    except EncodeError as error:
+        inner = error.path if path else error.path.removeprefix(".")
+        raise EncodeError(error.reason, path + inner) from None
+
+
+def _check_record(type_: type[Record], value: Any) -> None:
+    for name, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
+        try:
+            item = getattr(value, name)
+        except AttributeError:
+            raise EncodeError(f"takes a {type_.__name__}, not {described(value)}") from None
+        _check(inner, item, f".{name}")
+
+
+def _check_dictionary(type_: Dictionary, value: Any) -> None:
+    if not isinstance(value, dict):
+        raise EncodeError(f"takes a dict, not {described(value)}")
+    for key, item in value.items():
+        _check(type_.key, key, f"[{key!r}]")
+        _check(type_.value, item, f"[{key!r}]")

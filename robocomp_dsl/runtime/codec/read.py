@@ -1,0 +1,220 @@
+"""Reads a message step by step. In: bytes and a schema. Out: values, or `MalformedMessage`.
+
+This is for what the generated decoders give up on: it tells which field at which byte is wrong, and
+reads big-endian messages and padding announced in the options of the header (DDS-XTypes 1.3,
+section 7.6.3.1.2). It is complete, so tests hold the generated decoders against it.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import Any
+
+import numpy as np
+
+from robocomp_dsl.runtime.codec.blocks import bad_element, unpack
+from robocomp_dsl.runtime.errors import MalformedMessage
+from robocomp_dsl.runtime.layout import padding, row_layout
+from robocomp_dsl.runtime.record import Record
+from robocomp_dsl.runtime.schema import (
+    BOOL,
+    STRING,
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    Type,
+)
+
+_BIG, _LITTLE = b"\0\0", b"\0\1"
+
+
+def read(fields: Fields, form: str, message: Any) -> Any:
+    """The values of `fields`; `form` says how they are handed over: `none`, `one` or `tuple`."""
+    reader = _Reader(message)
+    several = form == "tuple"
+    values = tuple(
+        reader.value(type_, (name or "result") if several else name) for name, type_ in fields
+    )
+    if not fields:
+        reader.take(1, "")
+    reader.finish()
+    if several:
+        return values
+    return values[0] if values else None
+
+
+def read_number(message: Any, limit: int, what: str) -> int:
+    """The int that a message begins with, from 0 to below `limit`."""
+    reader = _Reader(memoryview(message))
+    number: int = reader.number("i", "")
+    if not 0 <= number < limit:
+        raise MalformedMessage(f"{number} is no {what} (below {limit})", "", 4)
+    return number
+
+
+class _Reader:
+    """The bytes and how far they are read; all offsets from the start of the message."""
+
+    def __init__(self, message: Any) -> None:
+        if len(message) < 4:
+            raise MalformedMessage(f"{len(message)} bytes, shorter than the header of 4")
+        kind, options = bytes(message[:2]), message[3] & 3
+        if kind not in (_BIG, _LITTLE):
+            raise MalformedMessage(f"encoding {kind.hex()} is not CDR (0000 or 0001)")
+        if len(message) - options < 4:
+            raise MalformedMessage(f"{options} bytes of padding announced, there are fewer", "", 3)
+        # The views of the message that arrays become must not hold it writable.
+        self.data = message[: len(message) - options] if options else message
+        self.big = kind == _BIG
+        self.at = 4
+
+    def take(self, size: int, path: str, alignment: int = 1) -> int:
+        """Go past `size` bytes behind the padding. The offset where they begin."""
+        start = self.at + padding(self.at - 4, alignment)
+        if start + size > len(self.data):
+            left = max(0, len(self.data) - start)
+            raise MalformedMessage(f"{size} bytes expected, {left} left", path, start)
+        self.at = start + size
+        return start
+
+    def finish(self) -> None:
+        """Raise for bytes behind the message."""
+        if self.at != len(self.data):
+            extra = len(self.data) - self.at
+            raise MalformedMessage(f"{extra} bytes more than the message has", "", self.at)
+
+    def number(self, code: str, path: str) -> Any:
+        """One number."""
+        form = struct.Struct((">" if self.big else "<") + code)
+        return form.unpack_from(self.data, self.take(form.size, path, form.size))[0]
+
+    def count(self, path: str, size: int) -> int:
+        """A number of elements of at least `size` bytes, for which there must be room."""
+        count: int = self.number("I", path)
+        left = len(self.data) - self.at
+        if count * size > left:
+            raise MalformedMessage(
+                f"{count} elements claimed, {left} bytes left", path, self.at - 4
+            )
+        return count
+
+    def value(self, type_: Type, path: str) -> Any:
+        """One value of any type."""
+        value: Any
+        match type_:
+            case Primitive():
+                value = self.primitive(type_, path)
+            case Array():
+                value = self.array(type_.element, path)
+            case Sequence():
+                value = self.sequence(type_, path)
+            case Dictionary():
+                value = self.dictionary(type_, path)
+            case _ if issubclass(type_, Enum):
+                value = self.member(type_, path)
+            case _ if issubclass(type_, Record):
+                value = self.record(type_, path)
+            case _:
+                value = self.struct_array(type_, path)
+        return value
+
+    def primitive(self, type_: Primitive, path: str) -> Any:
+        """A number, a bool or a text."""
+        if type_ is STRING:
+            return self.text(path)
+        if type_ is BOOL:
+            number = self.number("B", path)
+            if number > 1:
+                raise MalformedMessage(f"{number} is no bool (0 or 1)", path, self.at - 1)
+            return bool(number)
+        return self.number(type_.code, path)
+
+    def text(self, path: str) -> str:
+        """Length, UTF-8, NUL."""
+        length = self.number("I", path)
+        start = self.take(length, path)
+        if not length:
+            return ""
+        if self.data[self.at - 1]:
+            raise MalformedMessage("the text does not end with NUL", path, self.at - 1)
+        try:
+            return str(self.data[start : self.at - 1], "utf-8")
+        except UnicodeDecodeError as error:
+            raise MalformedMessage("the text is not UTF-8", path, start + error.start) from None
+
+    def member(self, type_: type[Enum], path: str) -> Enum:
+        """A member of an enumeration."""
+        number = self.number("i", path)
+        try:
+            return type_(number)
+        except ValueError:
+            raise MalformedMessage(
+                f"{number} is no value of {type_.__name__}", path, self.at - 4
+            ) from None
+
+    def record(self, type_: type[Record], path: str) -> Record:
+        """A struct or exception."""
+        value = type_.__new__(type_)
+        for attribute, (name, inner) in zip(type_._names_, type_._fields_, strict=True):
+            setattr(value, attribute, self.value(inner, f"{path}.{name}" if path else name))
+        if not type_._fields_:
+            self.take(1, path)
+        return value
+
+    def sequence(self, type_: Sequence, path: str) -> list[Any]:
+        """A list; every element has one byte at least."""
+        count = self.count(path, 1)
+        return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
+
+    def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
+        """Pairs; of equal keys the last one counts."""
+        pairs = {}
+        for index in range(self.count(path, 2)):
+            key = self.value(type_.key, f"{path}[{index}].key")
+            pairs[key] = self.value(type_.value, f"{path}[{index}].value")
+        return pairs
+
+    def array(self, primitive: Primitive, path: str) -> Any:
+        """Numbers: a view of the message, a copy where the byte order is the other one."""
+        count = self.count(path, primitive.size)
+        dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
+        start = self.take(count * primitive.size, path, primitive.size) if count else self.at
+        array = np.ndarray(count, self.ordered(dtype), self.data, start)
+        if primitive is BOOL:
+            wrong = array > 1
+            if wrong.any():
+                index = int(wrong.argmax())
+                where = f"{path}[{index}]"
+                raise MalformedMessage(f"{array[index]} is no bool (0 or 1)", where, start + index)
+            return array.view(np.bool_)
+        return self.native(array, dtype)
+
+    def ordered(self, dtype: np.dtype[Any]) -> np.dtype[Any]:
+        """The type in the byte order of the message."""
+        return dtype.newbyteorder(">") if self.big else dtype
+
+    def native(self, array: Any, dtype: np.dtype[Any]) -> Any:
+        """The array in the byte order that the types promise; read-only as all received."""
+        if self.big and dtype.itemsize > 1:
+            array = array.astype(dtype)
+            array.flags.writeable = False
+        return array
+
+    def struct_array(self, type_: Any, path: str) -> Any:
+        """Elements of fixed structs."""
+        layout, at = row_layout(type_._element_), self.at
+        count = self.count(path, sum(leaf.primitive.size for leaf in layout.leaves))
+        try:
+            array, self.at = unpack(layout, self.data, self.at, count, self.ordered(layout.dtype))
+        except ValueError as error:
+            raise MalformedMessage(str(error), path, at) from None
+        array = self.native(array, layout.dtype)
+        for leaf in layout.leaves:
+            if (index := bad_element(leaf, array)) is not None:
+                raise MalformedMessage(
+                    "a bool or enum has no such value", f"{path}[{index}].{'.'.join(leaf.path)}", at
+                )
+        return type_._over(array)
