@@ -1,0 +1,31 @@
+"""`rcgen`: checks descriptions and generates components.
+
+In: the command line. Out: an exit code.
+"""
+
+from __future__ import annotations
+
+import click
+
+from robocomp_dsl import __version__
+from robocomp_dsl.cli.program import LazyGroup, run
+
+TABLE = {
+    "component": ("component", "Generate a component from its CDSL file."),
+    "check": ("check", "Check descriptions; the exit code is 1 if there are errors."),
+    "new": ("new", "Begin a new component: a commented CDSL and PDSL file."),
+    "explain": ("explain", "Say what a code such as RC204 means."),
+}
+
+program = LazyGroup(
+    "rcgen",
+    table=TABLE,
+    help="Describe robot components in small languages; check them, generate them.",
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+click.version_option(__version__, prog_name="rcgen")(program)
+
+
+def main() -> None:
+    """Entry point of the command."""
+    run(program, "rcgen")

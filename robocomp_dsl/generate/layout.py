@@ -1,0 +1,112 @@
+"""Line breaking: nested brackets in, Python source out that `ruff format` leaves as it is.
+
+A bracket that fits stays on its line. One that does not gets one item per line and a trailing
+comma, which the formatter respects at any line length from `WIDTH` on.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeAlias
+
+WIDTH = 88
+STEP = "    "
+INNER = STEP
+"""Indentation of what stands in a class."""
+BODY = STEP * 2
+"""Indentation of what stands in a method."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """`head` (ends with the open bracket), comma-separated `items`, `tail` (begins with the close).
+
+    `tuple_`: a single item needs its comma also on one line.
+    """
+
+    head: str
+    items: tuple[Item, ...]
+    tail: str
+    tuple_: bool = False
+
+    @property
+    def flat(self) -> str:
+        """All on one line."""
+        comma = "," if self.tuple_ and len(self.items) == 1 else ""
+        return f"{self.head}{', '.join(flat(i) for i in self.items)}{comma}{self.tail}"
+
+
+Item: TypeAlias = str | Group
+
+
+def flat(item: Item) -> str:
+    """`item` on one line."""
+    return item if isinstance(item, str) else item.flat
+
+
+def call(name: str, *items: Item, tail: str = ")") -> Group:
+    """`name(items)`; `tail` may carry what follows, as in `) -> None:`."""
+    return Group(f"{name}(", items, tail)
+
+
+def tuple_of(*items: Item, head: str = "") -> Group:
+    """`head(items,)`; `head` as in `inputs=`."""
+    return Group(f"{head}(", items, ")", tuple_=True)
+
+
+def subscript(name: str, *items: Item) -> Group:
+    """`name[items]`."""
+    return Group(f"{name}[", items, "]")
+
+
+def laid_out(item: Item, indent: str = "", used: int = 0, after: int = 0) -> str:
+    """`item` as source. `used` columns are taken on the first line, `after` on the last one.
+
+    Lines behind the first start with `indent`, the indentation of the statement.
+    """
+    if isinstance(item, str):
+        return item
+    line = item.flat
+    if not item.items or len(indent) + used + len(line) + after <= WIDTH:
+        return line
+    inner = indent + STEP
+    # A subscript with one item must not get a comma: that would make it a tuple.
+    comma = "" if item.head.endswith("[") and len(item.items) == 1 else ","
+    rows = [f"{inner}{laid_out(i, inner, 0, len(comma))}{comma}\n" for i in item.items]
+    return f"{item.head}\n{''.join(rows)}{indent}{item.tail}"
+
+
+def statement(prefix: str, item: Item, indent: str = "") -> str:
+    """`prefix` and `item` as one statement, without the indentation of its first line."""
+    return prefix + laid_out(item, indent, len(prefix))
+
+
+def choice(target: str, then: str, condition: str, otherwise: str, indent: str) -> str:
+    """`target = then if condition else otherwise`, broken as the formatter breaks it."""
+    value = f"{then} if {condition} else {otherwise}"
+    if len(indent) + len(target) + 3 + len(value) <= WIDTH:
+        return f"{target} = {value}"
+    inner = indent + STEP
+    if len(inner) + len(value) > WIDTH:
+        value = f"{then}\n{inner}if {condition}\n{inner}else {otherwise}"
+    return f"{target} = (\n{inner}{value}\n{indent})"
+
+
+def definition(name: str, parameters: Iterable[Item], returns: Item, indent: str = INNER) -> str:
+    """`def name(parameters) -> returns:`, without its first indentation."""
+    answer = flat(returns)
+    whole = call(f"def {name}", *parameters, tail=f") -> {answer}:")
+    text = laid_out(whole, indent)
+    last = text.rpartition("\n")[2]
+    if "\n" not in text or len(last) <= WIDTH or isinstance(returns, str):
+        return text
+    head = text[: -len(f") -> {answer}:")]
+    return f"{head}) -> {laid_out(returns, indent, WIDTH)}:"
+
+
+def natural(name: str) -> list[tuple[int, int, str]]:
+    """Sorting by it gives the order that ruff calls natural: `a2` before `a10`."""
+    parts = re.findall(r"[0-9]+|[^0-9]", name)
+    return [(ord(p[0]), 0, p) if not p[0].isdigit() else (ord("0"), int(p), "") for p in parts]

@@ -1,0 +1,127 @@
+"""The user's texts as source text: nothing in a comment, default or name can become code.
+
+In: any text. Out: Python, YAML or Markdown that holds exactly it; what does not print (control,
+direction and line separator characters) is written as an escape.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from textwrap import dedent
+
+from robocomp_dsl.model.types import Literal
+
+_YAML_WORDS = {"", "~", "null", "true", "false", "yes", "no", "on", "off", "y", "n"}
+_YAML_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
+
+
+def _escaped(character: str) -> str:
+    code = ord(character)
+    if code < 0x100:
+        return f"\\x{code:02x}"
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def printable(text: str) -> str:
+    """`text` with an escape for each character that does not print (tabs and line ends too)."""
+    return "".join(c if c.isprintable() else _escaped(c) for c in text)
+
+
+def quoted(text: str) -> str:
+    """`text` in double quotes; valid in Python and in YAML alike, and short as ruff writes it."""
+    inner = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t")
+    return f'"{printable(inner)}"'
+
+
+def python_string(text: str) -> str:
+    """`text` as a Python literal with the quotes that need fewer escapes, as the formatter does."""
+    if text.count('"') <= text.count("'"):
+        return quoted(text)
+    inner = text.replace("\\", "\\\\").replace("'", "\\'")
+    inner = inner.replace("\n", "\\n").replace("\t", "\\t")
+    return f"'{printable(inner)}'"
+
+
+def python_value(value: Literal) -> str:
+    """A default as a Python literal."""
+    if isinstance(value, str):
+        return python_string(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return f'float("{value}")'
+    return repr(value)
+
+
+def yaml_value(value: Literal) -> str:
+    """A default as a YAML scalar that versions 1.1 and 1.2 read alike."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case float() if not math.isfinite(value):
+            return {"inf": ".inf", "-inf": "-.inf"}.get(str(value), ".nan")
+        case float():
+            mantissa, _, exponent = repr(value).partition("e")
+            point = "" if "." in mantissa or not exponent else ".0"
+            return f"{mantissa}{point}{exponent and 'e' + exponent}"
+        case int():
+            return str(value)
+    return quoted(value)
+
+
+def yaml_key(name: str) -> str:
+    """`name` as a key, quoted where some reader would take it for a bool or nothing."""
+    plain = _YAML_PLAIN.fullmatch(name) and name.lower() not in _YAML_WORDS
+    return name if plain else quoted(name)
+
+
+def lines(text: str) -> list[str]:
+    """The lines of a doc comment: dedented, ends trimmed, tabs expanded, everything printable."""
+    # Only these line ends: the others that splitlines() knows become escapes.
+    raw = re.sub(r"\r\n?", "\n", text).expandtabs(4)
+    first, _, rest = raw.strip().partition("\n")
+    kept = [printable(line.rstrip()) for line in (first, *dedent(rest).split("\n"))]
+    while kept and not kept[-1]:
+        kept.pop()
+    return kept
+
+
+def sentence(text: str) -> str:
+    """The first line of a doc comment, for one-line places; empty for none."""
+    return (lines(text) or [""])[0]
+
+
+def docstring(text: str, indent: str) -> str:
+    """`text` as a docstring at `indent`, as the formatter writes it; without a first indentation.
+
+    `inspect.getdoc` of it gives `lines(text)` back.
+    """
+    rows = lines(text) or [""]
+    single = len(rows) == 1
+    first = _docstring_row(rows[0], opens=True, closes=single)
+    if single:
+        return f'"""{first}"""'
+    rest = [_docstring_row(row) for row in rows[1:]]
+    body = "".join(f"{indent}{row}\n" if row else "\n" for row in rest)
+    return f'"""{first}\n{body}{indent}"""'
+
+
+def _docstring_row(row: str, *, opens: bool = False, closes: bool = False) -> str:
+    """One line, with escapes for backslashes and for the quotes that could end the docstring."""
+    risky = {i for run in re.finditer('"{3,}', row) for i in range(*run.span())}
+    risky |= {0} if opens else set()
+    risky |= {len(row) - 1} if closes else set()
+    escapes = {"\\": "\\\\"}
+    return "".join(
+        '\\"' if c == '"' and i in risky else escapes.get(c, c) for i, c in enumerate(row)
+    )
+
+
+def comment(text: str, indent: str = "") -> list[str]:
+    """`text` as comment lines, for Python and YAML; its empty lines are left out."""
+    return [f"{indent}# {row}" for row in lines(text) if row]
+
+
+def markdown_cell(text: str) -> str:
+    """`text` for one cell of a Markdown table."""
+    flat = " ".join(lines(text))
+    return re.sub(r"([\\|<>`*_\[\]{}])", r"\\\1", flat)

@@ -1,0 +1,72 @@
+"""The target Python: a component's model to the files of its folder.
+
+In: a `Component`. Out: `OutputFile`s; nothing is read from the disk but the templates.
+"""
+
+from __future__ import annotations
+
+from robocomp_dsl.generate import literals, params, worker
+from robocomp_dsl.generate.interface_code import interfaces_code, named
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.generate.python_types import PythonTypes
+from robocomp_dsl.generate.schema import config_schema
+from robocomp_dsl.generate.templates import render
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.interface import Module
+from robocomp_dsl.model.parameter import Kind, Parameter
+
+FOLDER = "python/component/"
+USER_CODE = "specificworker.py"
+CLASS = "SpecificWorker"
+
+
+def component_files(component: Component, middleware: str) -> list[OutputFile]:
+    """All files of a component."""
+    called = names_of(component)
+    code = worker.worker_code(component, called, middleware)
+    parameters = params.params_code(called.params, component)
+    modules = modules_of(component)
+    interfaces = interfaces_code(
+        [m.path.name for m in modules], component.ports, called.interfaces, called.types
+    )
+    given = component.parameters.parameters if component.parameters else ()
+    config = list(params.config_lines(given))
+    rows = [_row(p) for p in given]
+    schema = config_schema(code.title, component.doc, given)
+    return [
+        _file("main.py", worker=code),
+        _file("generated/__init__.py", "generated_init.py", worker=code),
+        _file("generated/interfaces.py", code=interfaces),
+        _file("generated/params.py", code=parameters),
+        _file("generated/genericworker.py", worker=code),
+        OutputFile("etc/config.schema.json", schema),
+        _file(USER_CODE, keep=True, worker=code),
+        _file("etc/config.yaml", "config.yaml", keep=True, title=code.title, lines=config),
+        _file("README.md", keep=True, worker=code, parameters=rows),
+    ]
+
+
+def names_of(component: Component) -> worker.Called:
+    """What everything of a component is called in Python."""
+    types = PythonTypes(modules_of(component))
+    interfaces = named(dict.fromkeys(p.interface for p in component.ports), types)
+    return worker.members(component, types, interfaces)
+
+
+def modules_of(component: Component) -> tuple[Module, ...]:
+    """All imported modules, directly or not, imported ones first."""
+    found = (m for module in component.modules for m in module.closure())
+    return tuple(dict.fromkeys(found))
+
+
+def _row(one: Parameter) -> tuple[str, str, str, str]:
+    """A row of the table in the README."""
+    default = "" if one.default is None else literals.yaml_value(one.default)
+    shown = "" if one.kind is Kind.GROUP else literals.markdown_cell(default)
+    cell = literals.markdown_cell
+    return cell(one.name), shown, cell(params.takes(one)), cell(literals.sentence(one.doc))
+
+
+def _file(path: str, template: str = "", *, keep: bool = False, **context: object) -> OutputFile:
+    name = template or path.rpartition("/")[2]
+    return OutputFile(path, render(f"{FOLDER}{name}.jinja", **context), keep)

@@ -1,0 +1,180 @@
+"""One IDSL type as Python source: a class or an alias.
+
+In: a declaration and the names of all types. Out: `TypeCode`, plain data for the template of
+`generated/interfaces.py`; every text in it is valid Python and broken into lines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from robocomp_dsl.generate import layout, literals, names
+from robocomp_dsl.generate.layout import BODY, INNER, Item
+from robocomp_dsl.generate.python_types import PythonTypes, column_of, numpy_of, record_element
+from robocomp_dsl.model.types import (
+    Declaration,
+    Dictionary,
+    Enum,
+    ExceptionType,
+    Field,
+    Sequence,
+    Struct,
+    Type,
+)
+
+STRUCT_MEMBERS: frozenset[str] = frozenset()
+"""Public members of the base of all structs: a field of that name gets an underscore."""
+
+ERROR_MEMBERS = frozenset(("add_note", "args", "with_traceback"))
+"""Public members of the base of all declared exceptions."""
+
+ARRAY_MEMBERS = frozenset(
+    (
+        "append",
+        "clear",
+        "column",
+        "copy",
+        "count",
+        "extend",
+        "from_columns",
+        "index",
+        "insert",
+        "nested",
+        "pop",
+        "remove",
+        "reverse",
+    )
+)
+"""Public members of the base of all arrays of records."""
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnCode:
+    """The property for one field of all elements."""
+
+    definition: str
+    statement: str
+
+
+@dataclass(frozen=True, slots=True)
+class TypeCode:
+    """One type. `kind`: struct, error, enum, records, alias; what a kind lacks is empty.
+
+    `statements` are the lines of `__init__`, of the enum's body or of the alias. `ordered` is
+    False where the order of the slots is not the alphabetical one.
+    """
+
+    kind: str
+    name: str
+    doc: str = ""
+    slots: str = ""
+    ordered: bool = True
+    fields: str = ""
+    init: str = ""
+    columns: tuple[ColumnCode, ...] = ()
+    element: str = ""
+    statements: tuple[str, ...] = ()
+
+
+def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
+    """The class or the alias of one type."""
+    name = types.names[declaration]
+    doc = literals.docstring(declaration.doc or declaration.qualified, INNER)
+    match declaration:
+        case Struct() | ExceptionType():
+            return _record(name, doc, declaration, types)
+        case Enum():
+            return TypeCode("enum", name, doc, statements=tuple(_values(declaration, types)))
+        case Dictionary():
+            return TypeCode("alias", name, statements=tuple(_dictionary(name, declaration, types)))
+        case Sequence():
+            if element := record_element(declaration):
+                return _records(name, doc, element, types)
+            return TypeCode("alias", name, statements=tuple(_sequence(name, declaration, types)))
+    raise TypeError(f"{declaration.qualified} is no type")
+
+
+def _values(enum: Enum, types: PythonTypes) -> Iterator[str]:
+    for one in enum.enumerators:
+        yield from literals.comment(one.doc)
+        yield f"{types.enumerator(one)} = {one.value}"
+
+
+def _dictionary(name: str, one: Dictionary, types: PythonTypes) -> Iterator[str]:
+    pair = (one.key, one.value)
+    written = layout.subscript("dict", *(types.annotation(t) for t in pair))
+    made = layout.call("rt.Dictionary", *(types.schema(t) for t in pair))
+    yield from literals.comment(one.doc)
+    yield layout.statement(f"{name} = ", written)
+    yield layout.statement(f"_{name} = ", made)
+
+
+def _sequence(name: str, one: Sequence, types: PythonTypes) -> Iterator[str]:
+    element = types.schema(one.element)
+    yield from literals.comment(one.doc)
+    if array := numpy_of(one):
+        yield f"{name} = {array.alias}"
+        yield f"_{name} = rt.Array({element})"
+        return
+    yield layout.statement(f"{name} = ", layout.subscript("list", types.annotation(one.element)))
+    yield layout.statement(f"_{name} = ", layout.call("rt.Sequence", element))
+
+
+def _record(name: str, doc: str, one: Struct | ExceptionType, types: PythonTypes) -> TypeCode:
+    called = field_names(one)
+    schemas = [layout.tuple_of(literals.quoted(f.name), types.schema(f.type)) for f in one.fields]
+    parameters: list[Item] = ["self"]
+    assignments = []
+    for attribute, field in zip(called, one.fields, strict=True):
+        parameter, assignment = _field(attribute, field, types)
+        parameters.append(parameter)
+        assignments.append(assignment)
+    slots = layout.tuple_of(*map(literals.quoted, called))
+    return TypeCode(
+        "struct" if isinstance(one, Struct) else "error",
+        name,
+        doc,
+        slots=layout.statement("__slots__ = ", slots, INNER),
+        ordered=list(called) == sorted(called, key=layout.natural),
+        fields=layout.statement("_fields_ = ", layout.tuple_of(*schemas), INNER),
+        init=layout.definition("__init__", parameters, "None") if called else "",
+        statements=tuple(assignments),
+    )
+
+
+def _field(name: str, field: Field, types: PythonTypes) -> tuple[str, str]:
+    """The parameter of `__init__` and the statement that stores it."""
+    zero = types.zero(field.type, field.default)
+    hint = types.annotation(field.type)
+    if not zero.fresh:
+        return f"{name}: {hint} = {zero.text}", f"self.{name} = {name}"
+    value = layout.choice(f"self.{name}", zero.text, f"{name} is None", name, BODY)
+    return f"{name}: {hint} | None = None", value
+
+
+def field_names(one: Struct | ExceptionType) -> tuple[str, ...]:
+    """The attributes of a struct or exception."""
+    reserved = STRUCT_MEMBERS if isinstance(one, Struct) else ERROR_MEMBERS
+    return names.unique([f.name for f in one.fields], reserved)
+
+
+def _records(name: str, doc: str, element: Struct, types: PythonTypes) -> TypeCode:
+    attributes = field_names(element)
+    # The columns share their scope with the list's own methods, the fields do not.
+    called = names.unique(attributes, ARRAY_MEMBERS | names.ANNOTATION | set(types.names.values()))
+    columns = tuple(
+        _column(column, attribute, field.type, types)
+        for column, attribute, field in zip(called, attributes, element.fields, strict=True)
+    )
+    return TypeCode("records", name, doc, element=types.names[element], columns=columns)
+
+
+def _column(name: str, attribute: str, type_: Type, types: PythonTypes) -> ColumnCode:
+    reader, hint = "column", column_of(type_)
+    if isinstance(type_, Struct):
+        reader, hint = "nested", f"rt.StructArray[{types.names[type_]}]"
+    made = layout.call(f"self.{reader}", literals.quoted(attribute))
+    return ColumnCode(
+        layout.definition(name, ("self",), hint), layout.statement("return ", made, BODY)
+    )

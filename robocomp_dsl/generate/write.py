@@ -1,0 +1,212 @@
+"""The only writer: brings files onto the disk, all of them or none.
+
+In: a folder and the files that it shall hold. Out: what was done to each; `CannotWrite` when
+nothing was. Files are written beside their places and renamed when all are safe on the disk; an
+equal file is not touched. A lock on the folder lets one writer in at a time.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import time
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from robocomp_dsl.generate.output import OutputFile
+
+try:
+    import fcntl
+except ImportError:  # no such locks on this system: renames still keep each file whole
+    fcntl = None  # type: ignore[assignment]
+
+TEMPORARY = ".rcgen-new"
+"""Suffix of files that are not in their places yet."""
+LOCK_PATIENCE_S = 10.0
+
+
+class CannotWrite(Exception):
+    """The files cannot be written; the message says which and why, in words for the user."""
+
+
+class Action(StrEnum):
+    """What happens to a file."""
+
+    CREATE = "create"
+    UPDATE = "update"
+    SAME = "unchanged"
+    KEEP = "keep"
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """One file, what happens to it, and its bytes until now (None if there is none)."""
+
+    file: OutputFile
+    action: Action
+    old: bytes | None
+
+    @property
+    def pending(self) -> bool:
+        """Whether there is something to write."""
+        return self.action in (Action.CREATE, Action.UPDATE)
+
+
+def compare(folder: Path, files: Iterable[OutputFile]) -> list[Change]:
+    """What writing would do. Raises `CannotWrite`; writes nothing."""
+    if folder.exists() and not folder.is_dir():
+        raise CannotWrite(f"`{folder}` is a file, not a folder")
+    with _explained(folder):
+        return [_compared(folder, one) for one in files]
+
+
+def write(folder: Path, files: Sequence[OutputFile]) -> list[Change]:
+    """Write what differs. Raises `CannotWrite`; then the folder is as it was before."""
+    if folder.exists() and not folder.is_dir():
+        raise CannotWrite(f"`{folder}` is a file, not a folder")
+    undo = _Undo()
+    with _explained(folder), undo:
+        undo.make_folder(folder)
+        with _locked(folder):
+            changes = [_compared(folder, one) for one in files]
+            pending = [one for one in changes if one.pending]
+            made = [(undo.write_beside(folder / c.file.path, c), c) for c in pending]
+            for temporary, change in made:
+                undo.put_in_place(temporary, folder / change.file.path, change)
+            for parent in {(folder / c.file.path).parent for c in pending}:
+                _sync_folder(parent)
+    return changes
+
+
+def _compared(folder: Path, file: OutputFile) -> Change:
+    path = folder / file.path
+    if file.keep and os.path.lexists(path):
+        return Change(file, Action.KEEP, None)
+    if not path.parent.resolve().is_relative_to(folder.resolve()):
+        raise CannotWrite(f"`{path.parent}` is a link that leads out of `{folder}`")
+    if path.is_symlink():
+        raise CannotWrite(f"`{path}` is a link; remove it, this file is written by rcgen")
+    if path.is_dir():
+        raise CannotWrite(f"`{path}` is a folder, but a file must go there")
+    try:
+        old = path.read_bytes()
+    except FileNotFoundError:
+        return Change(file, Action.CREATE, None)
+    return Change(file, Action.SAME if old == file.data else Action.UPDATE, old)
+
+
+class _Undo:
+    """Remembers what was done; leaving it with an exception takes everything back."""
+
+    def __init__(self) -> None:
+        self._folders: list[Path] = []
+        self._temporaries: list[Path] = []
+        self._placed: list[tuple[Path, Change]] = []
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        if kind is None:
+            return
+        for path, change in reversed(self._placed):
+            with suppress(OSError):
+                if change.old is None:
+                    path.unlink()
+                else:
+                    _write_synced(path, change.old)
+        for path in self._temporaries:
+            with suppress(OSError):
+                path.unlink()
+        for folder in reversed(self._folders):
+            with suppress(OSError):
+                folder.rmdir()
+
+    def make_folder(self, folder: Path) -> None:
+        missing = [p for p in (folder, *folder.parents) if not p.exists()]
+        for path in reversed(missing):
+            with suppress(FileExistsError):  # another writer was faster
+                path.mkdir()
+                self._folders.append(path)
+
+    def write_beside(self, path: Path, change: Change) -> Path:
+        self.make_folder(path.parent)
+        temporary = path.with_name(f".{path.name}{TEMPORARY}")
+        with suppress(FileNotFoundError):  # left by a writer that was killed
+            temporary.unlink()
+        self._temporaries.append(temporary)
+        _write_synced(temporary, change.file.data)
+        if change.old is not None:
+            temporary.chmod(path.stat().st_mode & 0o7777)
+        return temporary
+
+    def put_in_place(self, temporary: Path, path: Path, change: Change) -> None:
+        temporary.replace(path)
+        self._placed.append((path, change))
+
+
+def _write_synced(path: Path, data: bytes) -> None:
+    with path.open("wb") as stream:
+        stream.write(data)
+        stream.flush()
+        os.fsync(stream.fileno())
+
+
+def _sync_folder(folder: Path) -> None:
+    with suppress(OSError):  # some file systems and systems have no such thing
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
+
+
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    if fcntl is None:
+        yield
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        _lock(descriptor, folder)
+        yield
+    finally:
+        os.close(descriptor)  # which also gives the lock back
+
+
+def _lock(descriptor: int, folder: Path) -> None:
+    deadline = time.monotonic() + LOCK_PATIENCE_S
+    while True:
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            if time.monotonic() > deadline:
+                raise CannotWrite(f"another rcgen is writing to `{folder}`") from None
+            time.sleep(0.01)
+        else:
+            return
+
+
+_REASONS = {
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.EFBIG: "the limit for the size of files is reached",
+    errno.EACCES: "you may not write there",
+    errno.EPERM: "you may not write there",
+    errno.EROFS: "the file system is read-only",
+    errno.ENOTDIR: "a part of the path is a file, not a folder",
+    errno.ENAMETOOLONG: "the path is too long",
+}
+
+
+@contextmanager
+def _explained(folder: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        reason = _REASONS.get(error.errno or 0) or error.strerror or str(error)
+        named = str(error.filename or folder).removesuffix(TEMPORARY)
+        raise CannotWrite(f"cannot write `{named}`: {reason}") from None
