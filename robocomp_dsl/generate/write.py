@@ -57,18 +57,16 @@ class Change:
 
 def compare(folder: Path, files: Iterable[OutputFile]) -> list[Change]:
     """What writing would do. Raises `CannotWrite`; writes nothing."""
-    if folder.exists() and not folder.is_dir():
-        raise CannotWrite(f"`{folder}` is a file, not a folder")
     with _explained(folder):
+        _refuse_file(folder)
         return [_compared(folder, one) for one in files]
 
 
 def write(folder: Path, files: Sequence[OutputFile]) -> list[Change]:
     """Write what differs. Raises `CannotWrite`; then the folder is as it was before."""
-    if folder.exists() and not folder.is_dir():
-        raise CannotWrite(f"`{folder}` is a file, not a folder")
     undo = _Undo()
     with _explained(folder), undo:
+        _refuse_file(folder)
         undo.make_folder(folder)
         with _locked(folder):
             changes = [_compared(folder, one) for one in files]
@@ -79,6 +77,11 @@ def write(folder: Path, files: Sequence[OutputFile]) -> list[Change]:
             for parent in {(folder / c.file.path).parent for c in pending}:
                 _sync_folder(parent)
     return changes
+
+
+def _refuse_file(folder: Path) -> None:
+    if folder.exists() and not folder.is_dir():
+        raise CannotWrite(f"`{folder}` is a file, not a folder")
 
 
 def _compared(folder: Path, file: OutputFile) -> Change:

@@ -1,0 +1,222 @@
+"""Files come onto the disk all or none, and nobody else's are touched."""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.generate import write as writer
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.generate.write import Action, CannotWrite, compare, write
+
+FILES = [
+    OutputFile("main.py", "main\n"),
+    OutputFile("generated/a.py", "a\n"),
+    OutputFile("mine.py", "stub\n", keep=True),
+]
+
+
+def tree(folder: Path) -> dict[str, str]:
+    return {str(p.relative_to(folder)): p.read_text() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_files_are_written(tmp_path: Path) -> None:
+    changes = write(tmp_path / "deep" / "out", FILES)
+    assert [c.action for c in changes] == [Action.CREATE] * 3
+    assert tree(tmp_path / "deep" / "out") == {f.path: f.text for f in FILES}
+
+
+def test_a_second_time_nothing_is_touched(tmp_path: Path) -> None:
+    write(tmp_path, FILES)
+    stamps = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")}
+    changes = write(tmp_path, FILES)
+    assert [c.action for c in changes] == [Action.SAME, Action.SAME, Action.KEEP]
+    assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")} == stamps
+
+
+def test_the_users_files_are_theirs(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text("my own\n")
+    (tmp_path / "other.txt").write_text("other\n")
+    write(tmp_path, FILES)
+    assert tree(tmp_path)["mine.py"] == "my own\n"
+    assert tree(tmp_path)["other.txt"] == "other\n"
+
+
+def test_a_dangling_link_of_the_user_is_theirs(tmp_path: Path) -> None:
+    (tmp_path / "mine.py").symlink_to(tmp_path / "nowhere")
+    write(tmp_path, FILES)
+    assert (tmp_path / "mine.py").is_symlink()
+    assert not (tmp_path / "nowhere").exists()
+
+
+def test_compare_writes_nothing(tmp_path: Path) -> None:
+    (tmp_path / "main.py").write_text("old\n")
+    changes = compare(tmp_path, FILES)
+    assert [c.action for c in changes] == [Action.UPDATE, Action.CREATE, Action.CREATE]
+    assert changes[0].old == b"old\n"
+    assert tree(tmp_path) == {"main.py": "old\n"}
+    assert not compare(tmp_path / "absent", FILES[:1])[0].old
+
+
+def test_the_mode_of_a_file_stays(tmp_path: Path) -> None:
+    (tmp_path / "main.py").write_text("old\n")
+    (tmp_path / "main.py").chmod(0o751)
+    write(tmp_path, FILES)
+    assert (tmp_path / "main.py").stat().st_mode & 0o777 == 0o751
+
+
+def test_what_a_killed_writer_left_goes_away(tmp_path: Path) -> None:
+    (tmp_path / f".main.py{writer.TEMPORARY}").write_text("half")
+    write(tmp_path, FILES)
+    assert tree(tmp_path) == {f.path: f.text for f in FILES}
+
+
+@pytest.mark.parametrize("nth", [1, 2, 3])
+def test_a_failure_in_the_middle_takes_all_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, nth: int
+) -> None:
+    (tmp_path / "main.py").write_text("old\n")
+    calls = []
+    replace = Path.replace
+
+    def failing(self: Path, target: Path) -> Path:
+        calls.append(target)
+        if len(calls) == nth:
+            raise OSError(28, "No space left on device", str(target))
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", failing)
+    with pytest.raises(CannotWrite, match="the disk is full"):
+        write(tmp_path, FILES)
+    assert tree(tmp_path) == {"main.py": "old\n"}
+    assert not (tmp_path / "generated").exists()
+
+
+def test_ctrl_c_in_the_middle_takes_all_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(self: Path, target: Path) -> Path:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "replace", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write(tmp_path / "out", FILES)
+    assert list(tmp_path.iterdir()) == []
+
+
+BLOCKED = [
+    ("out", "", "`OUT` is a file, not a folder"),
+    ("out/generated", "", "a file, not a folder"),
+    ("out/main.py/x", "", "`OUT/main.py` is a folder"),
+]
+
+
+@pytest.mark.parametrize(("path", "text", "message"), BLOCKED)
+def test_something_is_in_the_way(tmp_path: Path, path: str, text: str, message: str) -> None:
+    blocker = tmp_path / path
+    blocker.parent.mkdir(parents=True, exist_ok=True)
+    blocker.write_text(text)
+    before = tree(tmp_path)
+    with pytest.raises(CannotWrite) as caught:
+        write(tmp_path / "out", FILES)
+    assert message.replace("OUT", str(tmp_path / "out")) in str(caught.value)
+    assert tree(tmp_path) == before
+
+
+def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "generated").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(CannotWrite, match="a link that leads out of"):
+        write(tmp_path / "out", FILES)
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+    (tmp_path / "out" / "generated").unlink()
+    (tmp_path / "out" / "main.py").symlink_to(tmp_path / "elsewhere" / "main.py")
+    with pytest.raises(CannotWrite, match="is a link; remove it"):
+        write(tmp_path / "out", FILES)
+
+
+def test_the_output_folder_itself_may_be_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "out").symlink_to(tmp_path / "real")
+    write(tmp_path / "out", FILES)
+    assert tree(tmp_path / "real") == {f.path: f.text for f in FILES}
+
+
+WRITE = """
+import sys
+from pathlib import Path
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.generate.write import CannotWrite, write
+try:
+    write(Path("out"), [OutputFile(f"generated/{i}.py", sys.argv[1] * 1000) for i in range(20)])
+except CannotWrite as error:
+    sys.exit(str(error))
+"""
+
+
+def test_a_full_disk(tmp_path: Path) -> None:
+    """A limit of the size of files stands for it: writing fails in the same place."""
+
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
+
+    done = subprocess.run(
+        [sys.executable, "-c", WRITE, "x"],
+        cwd=tmp_path,
+        preexec_fn=limit,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"},
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "the limit for the size of files is reached" in done.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def nobody() -> Iterator[None]:
+    """Run as a user without rights, where the tests are run by one with all of them."""
+    was = os.geteuid()
+    if was == 0:
+        os.seteuid(65534)
+    yield
+    os.seteuid(was)
+
+
+def test_a_folder_that_may_not_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
+) -> None:
+    tmp_path.chmod(0o555)
+    monkeypatch.chdir(tmp_path)
+    request.getfixturevalue("nobody")
+    with pytest.raises(CannotWrite, match="cannot write `out`: you may not write there"):
+        write(Path("out"), FILES)
+    with pytest.raises(CannotWrite, match=r"you may not write there"):
+        write(tmp_path / "out", FILES)
+
+
+def test_two_writers_at_once(tmp_path: Path) -> None:
+    """Whoever is last wins whole: never some files of one and some of the other."""
+    for _ in range(3):
+        both = [
+            subprocess.Popen([sys.executable, "-c", WRITE, word], cwd=tmp_path)
+            for word in ("a", "b")
+        ]
+        assert [one.wait(60) for one in both] == [0, 0]
+        texts = set(tree(tmp_path / "out").values())
+        assert len(texts) == 1
+        assert len(tree(tmp_path / "out")) == 20
+
+
+def test_a_writer_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(writer, "LOCK_PATIENCE_S", 0.05)
+    with writer._locked(tmp_path), pytest.raises(CannotWrite, match="another rcgen is writing"):
+        write(tmp_path, FILES)
