@@ -1,0 +1,1 @@
+"""What runs a plan: today `local`, the supervisor of one machine."""

@@ -1,0 +1,200 @@
+"""What a deployment means in processes. Pure: nothing is read, opened or started here.
+
+In: a resolved deployment, its running name and domain. Out: a `Plan`: per component the command
+line with its wiring, the environment, what it waits for and what must have stopped before it.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from robocomp_dsl.model.component import Port
+from robocomp_dsl.model.deployment import Connection, Deployment, Instance, Qos, Restart
+from robocomp_dsl.model.types import Literal
+
+PYTHONS = ("python3", "python")
+"""Program names that mean the interpreter that runs rcdeploy, which has the runtime installed."""
+DEFAULT_CONFIG = Path("etc") / "config.yaml"
+PRIORITIES = ("background", "low", "normal", "high", "realtime")
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """One component as a process.
+
+    `env` is added to the environment of rcdeploy. `after`: what must be ready before it starts;
+    `stops_after`: what must have ended before it is asked to stop. `config` and `settings` are
+    those in `argv` (settings as `key=value`). `port` 0: any.
+    """
+
+    name: str
+    component: str
+    argv: tuple[str, ...]
+    cwd: Path
+    env: tuple[tuple[str, str], ...] = ()
+    after: tuple[str, ...] = ()
+    stops_after: tuple[str, ...] = ()
+    restart: Restart = field(default_factory=Restart)
+    ready_within_s: float = 10.0
+    port: int = 0
+    config: Path | None = None
+    settings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A deployment as processes, in an order that respects `after`."""
+
+    name: str
+    path: Path
+    domain: str
+    middleware: str
+    processes: tuple[Process, ...]
+
+    def stop_waves(self) -> list[list[str]]:
+        """Names to stop together, wave after wave."""
+        return waves({p.name: set(p.stops_after) for p in self.processes})
+
+
+def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) -> Plan:
+    """The processes of `deployment`. `interpreter` stands for `python3` in command lines."""
+    order = {instance.name: i for i, instance in enumerate(deployment.instances)}
+    processes = [
+        _process(deployment, instance, domain, interpreter) for instance in deployment.instances
+    ]
+    before = {p.name: _users(p.name, deployment, order) for p in processes}
+    ordered = tuple(replace(p, stops_after=before[p.name]) for p in processes)
+    return Plan(name, deployment.path, domain, deployment.middleware, ordered)
+
+
+def waves(waits_for: dict[str, set[str]]) -> list[list[str]]:
+    """Topological order in waves: each waits only for earlier ones. A cycle ends in one wave."""
+    left = {name: others & waits_for.keys() for name, others in waits_for.items()}
+    made = []
+    while left:
+        wave = [name for name, others in left.items() if not others & left.keys()] or list(left)
+        made.append(wave)
+        for name in wave:
+            del left[name]
+    return made
+
+
+def config_of(instance: Instance) -> Path:
+    """The configuration file it uses, whether it exists or not."""
+    return instance.config or instance.component.path.parent / DEFAULT_CONFIG
+
+
+def settings_of(instance: Instance) -> tuple[str, ...]:
+    """Its `set` lines as `key=value`."""
+    return tuple(f"{key}={shown(value)}" for key, value in instance.settings)
+
+
+def shown(value: Literal) -> str:
+    """A value as one writes it behind `--set key=`."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _process(deployment: Deployment, one: Instance, domain: str, interpreter: str) -> Process:
+    config = config_of(one) if one.config or one.component.parameters else None
+    settings = settings_of(one)
+    command = shlex.split(one.executable)
+    if command and command[0] in PYTHONS:
+        command[0] = interpreter
+    argv = [*command, "--name", one.name, "--domain", domain]
+    argv += ["--middleware", deployment.middleware, "--log-format", "json"]
+    argv += ["--config", str(config)] if config else []
+    argv += [word for setting in settings for word in ("--set", setting)]
+    argv += ["--listen-port", str(one.port)] if one.port else []
+    argv += _wiring(one, deployment.connections)
+    return Process(
+        name=one.name,
+        component=one.component.name,
+        argv=tuple(argv),
+        cwd=one.component.path.parent,
+        env=one.environment,
+        after=one.after,
+        restart=one.restart,
+        ready_within_s=one.ready_within_s,
+        port=one.port,
+        config=config,
+        settings=settings,
+    )
+
+
+def _users(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:
+    """Who uses `name` and so stops before it: by `after`, or as a client that is listed later.
+
+    The order of the deployment decides between two that use each other, so there is no cycle.
+    """
+    users = {one.name for one in deployment.instances if name in one.after}
+    for wire in deployment.connections:
+        ends = (wire.source.name, wire.target.name)
+        if name in ends and ends[0] != ends[1]:
+            users.add(ends[1] if ends[0] == name else ends[0])
+    return tuple(sorted((u for u in users if order[u] > order[name]), key=order.__getitem__))
+
+
+def _wiring(one: Instance, connections: Sequence[Connection]) -> list[str]:
+    """The `--connect` and `--qos` flags of one process, in order of writing."""
+    flags: list[str] = []
+    qualities: dict[str, list[Qos]] = {}
+    for wire in connections:
+        topic = wire.source_port.role.is_topic
+        # A wire is told to the side that must find the other: the client, the subscriber.
+        finder, found = ("target", "source") if topic else ("source", "target")
+        if getattr(wire, finder) is one:
+            port = getattr(wire, f"{finder}_port").name
+            peer = getattr(wire, found)
+            flags += ["--connect", f"{port}={_peer(peer, getattr(wire, f'{found}_port'))}"]
+        for end, port in ((wire.source, wire.source_port), (wire.target, wire.target_port)):
+            if end is one and wire.qos != Qos():
+                qualities.setdefault(port.name, []).append(wire.qos)
+    for name, wanted in qualities.items():
+        flags += ["--qos", f"{name}={qos_text(strictest(wanted))}"]
+    return flags
+
+
+def _peer(instance: Instance, port: Port) -> str:
+    """`component`, or `component.port` where it has that interface more than once."""
+    rivals = [
+        p for p in instance.component.ports if p.role is port.role and p.interface is port.interface
+    ]
+    return instance.name if len(rivals) == 1 else f"{instance.name}.{port.name}"
+
+
+def strictest(wanted: Iterable[Qos]) -> Qos:
+    """One quality for a port with several wires: what satisfies all of them."""
+    made = Qos()
+    for one in wanted:
+        reliable = [q.reliable for q in (made, one) if q.reliable is not None]
+        priorities = [q.priority for q in (made, one) if q.priority is not None]
+        depths = [q.depth for q in (made, one) if q.depth is not None]
+        deadlines = [q.deadline_ms for q in (made, one) if q.deadline_ms is not None]
+        made = Qos(
+            reliable=any(reliable) if reliable else None,
+            priority=max(priorities, key=_rank, default=None),
+            depth=max(depths, default=None),
+            deadline_ms=min(deadlines, default=None),
+        )
+    return made
+
+
+def _rank(priority: str) -> int:
+    return PRIORITIES.index(priority) if priority in PRIORITIES else 0
+
+
+def qos_text(qos: Qos) -> str:
+    """As `--qos PORT=` takes it: `best_effort,depth=1,deadline=40`; the deadline in ms."""
+    said = []
+    if qos.reliable is not None:
+        said.append("reliable" if qos.reliable else "best_effort")
+    if qos.depth is not None:
+        said.append(f"depth={qos.depth}")
+    if qos.priority is not None:
+        said.append(f"priority={qos.priority}")
+    if qos.deadline_ms is not None:
+        said.append(f"deadline={qos.deadline_ms:g}")
+    return ",".join(said)

@@ -1,0 +1,144 @@
+"""What this machine lacks to run a deployment; nothing is started if there is anything.
+
+In: the deployment and its plan. Out: findings, at the component in the DDSL file or at the place in
+the configuration file. Reads files and tries ports, changes nothing.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import socket
+from collections.abc import Iterator
+from pathlib import Path
+
+from robocomp_dsl.deploy import codes
+from robocomp_dsl.deploy.parameters import schema
+from robocomp_dsl.deploy.plan import Plan, Process
+from robocomp_dsl.diagnostics import Code, Diagnostic
+from robocomp_dsl.model.deployment import Deployment, Host, Instance
+from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
+from robocomp_dsl.source import Source, Span, UnreadableSource
+
+HERE = ("", "localhost", "127.0.0.1", "::1")
+"""Addresses that mean this machine."""
+
+
+def preflight(deployment: Deployment, plan: Plan) -> list[Diagnostic]:
+    """Everything that would keep `plan` from running here."""
+    found: list[Diagnostic] = []
+    for instance, process in zip(deployment.instances, plan.processes, strict=True):
+        if not is_here(instance.host):
+            found.append(_elsewhere(instance))
+            continue
+        missing = list(_executable(instance, process))
+        found += missing or _configuration(instance, process)
+    found += _ports(deployment)
+    return found
+
+
+def is_here(host: Host) -> bool:
+    """Whether `host` is this machine."""
+    return host.address.lower() in (*HERE, socket.gethostname().lower())
+
+
+def _elsewhere(instance: Instance) -> Diagnostic:
+    host = instance.host
+    return Diagnostic(
+        codes.OTHER_HOST,
+        instance.span,
+        f"`{instance.name}` is placed on `{host.name}` ({host.address}), which is another machine",
+        help="rcdeploy runs components on this machine; leave out `on`, or run it there",
+    )
+
+
+def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
+    if not process.cwd.is_dir():
+        yield _at(instance, codes.EXECUTABLE, f"there is no folder {process.cwd}")
+        return
+    program = process.argv[0]
+    if not _found(program, process):
+        yield _at(instance, codes.EXECUTABLE, f"there is no program `{program}` for it")
+    script = process.argv[1]
+    if not script.endswith(".py") or (process.cwd / script).is_file():
+        return
+    cdsl = _short(instance.component.path)
+    if script == "main.py":
+        said = f"`{process.component}` has not been generated: there is no {script} beside {cdsl}"
+        yield _at(instance, codes.NOT_GENERATED, said, f"rcgen component {cdsl}")
+    else:
+        yield _at(instance, codes.EXECUTABLE, f"there is no {script} in {_short(process.cwd)}")
+
+
+def _found(program: str, process: Process) -> bool:
+    path = dict(process.env).get("PATH", os.environ.get("PATH"))
+    beside = process.cwd / program
+    return bool(shutil.which(str(beside) if os.sep in program else program, path=path))
+
+
+def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
+    """The component would refuse it at its start; here it is told before anything starts."""
+    own = instance.component.parameters
+    known = schema(own.parameters) if own else ()
+    try:
+        load_values(known, process.config, process.settings)
+    except ConfigError as error:
+        return [_in_configuration(instance, process.config, one) for one in error.findings]
+    return []
+
+
+def _in_configuration(instance: Instance, config: Path | None, finding: Finding) -> Diagnostic:
+    place = finding.place
+    span = instance.span
+    message = f"{finding.message} (`{instance.name}`)"
+    if config and place.text.name == str(config):
+        span = _span(config, place.line, place.column, place.width)
+    elif place.excerpt:
+        message = f"{finding.message} (`set {place.excerpt}` of `{instance.name}`)"
+    return Diagnostic(codes.CONFIGURATION, span, message, label=finding.label, help=finding.help)
+
+
+def _span(path: Path, line: int, column: int, width: int) -> Span:
+    try:
+        source = Source.read(path)
+    except UnreadableSource:
+        return Source(path, "").whole
+    if line > len(source.line_starts):
+        return source.span(len(source.text), len(source.text))
+    start = source.line_starts[line - 1] + column - 1
+    return source.span(start, min(start + width, len(source.text)))
+
+
+def _ports(deployment: Deployment) -> Iterator[Diagnostic]:
+    owners: dict[int, str] = {}
+    for instance in deployment.instances:
+        port = instance.port
+        if not port or not is_here(instance.host):
+            continue
+        if port in owners:
+            yield _at(instance, codes.PORT_TAKEN, f"port {port} is that of `{owners[port]}`, too")
+        elif reason := _taken(port):
+            yield _at(instance, codes.PORT_TAKEN, f"port {port} cannot be used: {reason}")
+        owners.setdefault(port, instance.name)
+
+
+def _taken(port: int) -> str:
+    """Why nobody can listen on `port` of the loopback address now, or an empty text."""
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as one:
+        one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            one.bind(("127.0.0.1", port))
+        except (OSError, OverflowError) as error:
+            return getattr(error, "strerror", None) or str(error)
+    return ""
+
+
+def _at(instance: Instance, code: Code, message: str, help: str = "") -> Diagnostic:
+    return Diagnostic(code, instance.span, f"`{instance.name}`: {message}", help=help)
+
+
+def _short(path: Path) -> str:
+    try:
+        return str(path.relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)

@@ -1,0 +1,68 @@
+"""Components for the tests of the supervisor: plain scripts, and a watch that hears them.
+
+A script says its state through a FIFO, as a real component does through its liveliness and the
+interface `Component`. `PRELUDE` gives it `tell(state)`, `wait()` until SIGTERM, and its `NAME`.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import threading
+from pathlib import Path
+
+from robocomp_dsl.deploy.engines.watch import Seen
+from robocomp_dsl.deploy.plan import Plan, Process
+
+PRELUDE = """
+import os, signal, sys, threading
+NAME, FIFO = sys.argv[1], sys.argv[2]
+over = threading.Event()
+signal.signal(signal.SIGTERM, lambda *_: over.set())
+def tell(state):
+    with open(FIFO, "w") as out:
+        out.write(f"{NAME} {os.getpid()} {state}\\n")
+def wait():
+    while not over.wait(0.2): pass
+"""
+STEADY = 'tell("initialize"); tell("compute"); wait(); print("finalized")'
+
+
+class FifoWatch:
+    """A `Watch` that reads a FIFO in a thread."""
+
+    def __init__(self, path: Path) -> None:
+        os.mkfifo(path)
+        self._stream = os.open(path, os.O_RDWR)
+        self._thread = threading.Thread(target=self._listen, daemon=True)
+
+    def start(self, seen: Seen) -> None:
+        self._seen = seen
+        self._thread.start()
+
+    def close(self) -> None:
+        os.write(self._stream, b"end 0 end\n")
+        self._thread.join(5)
+        os.close(self._stream)
+
+    def _listen(self) -> None:
+        with os.fdopen(os.dup(self._stream), encoding="utf-8") as lines:
+            for line in lines:
+                name, pid, state = line.split()
+                if name == "end":
+                    return
+                self._seen(name, int(pid), "" if state == "gone" else state)
+
+
+def actor(tmp_path: Path, name: str, body: str, **fields: object) -> Process:
+    """A process that runs `body` behind `PRELUDE`."""
+    script = tmp_path / f"{name}.py"
+    script.write_text(PRELUDE + body, encoding="utf-8")
+    argv = (sys.executable, "-S", script.name, name, str(tmp_path / "fifo"))
+    return Process(name=name, component=name, argv=argv, cwd=tmp_path, **fields)  # type: ignore[arg-type]
+
+
+def plan_of(tmp_path: Path, *processes: Process, name: str = "demo") -> Plan:
+    """A plan of actors; its domain is unique to `tmp_path`."""
+    domain = f"{name}-{tmp_path.parent.name}-{tmp_path.name}"
+    return Plan(name, tmp_path / "demo.ddsl", domain, "inproc", processes)
