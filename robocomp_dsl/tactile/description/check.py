@@ -56,9 +56,10 @@ def check_bodies(robot: Robot, bodies: frozenset[str]) -> None:
     reading = Reading(robot.file)
     for part in robot.parts:
         for limb in part.limbs:
-            if limb.body not in bodies:
-                said = f"the limb `{limb.name}` is on `{limb.body}`, which the robot does not have"
-                _into(reading)(limb.place, said, _near(limb.body, bodies))
+            for body in (limb.body, *limb.covers):
+                if body not in bodies:
+                    said = f"the limb `{limb.name}` is on `{body}`, which the robot does not have"
+                    _into(reading)(limb.place, said, _near(body, bodies))
     reading.finish()
 
 

@@ -54,7 +54,7 @@ class Servo:
 class Limb:
     """A limb on the robot's body `body`; `origin` (3,) and `axes` (3, 3) place its frame there.
 
-    The frame has its origin on the proximal joint, x along the limb, and theta = 0 at +z, which
+    `covers` are further bodies below the same skin. The frame has its origin on the proximal joint, x along the limb, and theta = 0 at +z, which
     points away from the trunk when all generic angles are zero.
     """
 
@@ -63,6 +63,7 @@ class Limb:
     origin: Floats
     axes: Floats
     cone: Cone
+    covers: tuple[str, ...] = ()
     place: Place = NOWHERE
 
     def to_body(self, points: Floats) -> Floats:

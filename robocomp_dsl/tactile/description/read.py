@@ -7,7 +7,7 @@ In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every 
       left_arm:
         servos: [{joint, part, gamma, sigma, limits, speed, stiffness, damping, start, unit}, ...]
         chain: {base: {position, rpy}, tool: {...}, rows: [{servo | fixed, a, d, alpha, offset}]}
-        limbs: {upper_arm: {body, position, rpy, cone: {x: [x0, x1], r: [r0, r1]}}}
+        limbs: {upper_arm: {body, covers, position, rpy, cone: {x: [x0, x1], r: [r0, r1]}}}
         skin: [{patch, limb, first_id, rings | points | file, sensitivity}]
         fields: [{name, limb, x, theta, rho, radius, motion}]
 """
@@ -97,9 +97,11 @@ def _servo(entry: Entry) -> Servo:
 def _limb(name: str, entry: Entry) -> Limb:
     table = entry.table()
     body, pose, shape = table.text("body"), _pose(table), table.need("cone")
+    covered = table.get("covers")
     table.finish()
     cone = _cone(shape) if shape else Cone(0, 1, 1, 1)
-    return Limb(name, body, pose[:3, 3], pose[:3, :3], cone, entry.place)
+    covers = tuple(one.text() for one in covered.items()) if covered else ()
+    return Limb(name, body, pose[:3, 3], pose[:3, :3], cone, covers, entry.place)
 
 
 def _cone(entry: Entry) -> Cone:
