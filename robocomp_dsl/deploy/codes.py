@@ -63,18 +63,8 @@ used.
 """,
 )
 
-OTHER_HOST = Code(
-    "RC905",
-    Severity.ERROR,
-    "a component is placed on another machine",
-    """\
-rcdeploy runs the components of one machine. A host whose address is `localhost` or 127.0.0.1, or no
-host at all, means this one.
-""",
-)
-
 OUTDATED = Code(
-    "RC906",
+    "RC905",
     Severity.WARNING,
     "the generated code is older than its description",
     """\

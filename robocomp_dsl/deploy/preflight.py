@@ -16,40 +16,19 @@ from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.parameters import schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.diagnostics import Code, Diagnostic
-from robocomp_dsl.model.deployment import Deployment, Host, Instance
+from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
 from robocomp_dsl.source import Source, Span, UnreadableSource
-
-HERE = ("", "localhost", "127.0.0.1", "::1")
-"""Addresses that mean this machine."""
 
 
 def preflight(deployment: Deployment, plan: Plan) -> list[Diagnostic]:
     """Everything that would keep `plan` from running here."""
     found: list[Diagnostic] = []
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        if not is_here(instance.host):
-            found.append(_elsewhere(instance))
-            continue
         missing = list(_executable(instance, process))
         found += missing or _configuration(instance, process)
     found += _ports(deployment)
     return found
-
-
-def is_here(host: Host) -> bool:
-    """Whether `host` is this machine."""
-    return host.address.lower() in (*HERE, socket.gethostname().lower())
-
-
-def _elsewhere(instance: Instance) -> Diagnostic:
-    host = instance.host
-    return Diagnostic(
-        codes.OTHER_HOST,
-        instance.span,
-        f"`{instance.name}` is placed on `{host.name}` ({host.address}), which is another machine",
-        help="rcdeploy runs components on this machine; leave out `on`, or run it there",
-    )
 
 
 def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
@@ -113,7 +92,7 @@ def _ports(deployment: Deployment) -> Iterator[Diagnostic]:
     owners: dict[int, str] = {}
     for instance in deployment.instances:
         port = instance.port
-        if not port or not is_here(instance.host):
+        if not port:
             continue
         if port in owners:
             yield _at(instance, codes.PORT_TAKEN, f"port {port} is that of `{owners[port]}`, too")

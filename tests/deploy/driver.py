@@ -1,0 +1,58 @@
+"""A deployment of actors in a process of its own: `driver.py FOLDER NAME SPEC`.
+
+SPEC is a JSON list of `{name, body, after}`. Prints every record as one line of text.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+from deploy_actors import FifoWatch, actor, plan_of
+
+from robocomp_dsl.deploy import folder, session
+from robocomp_dsl.deploy.engines.local import Options
+from robocomp_dsl.deploy.logs import Record
+
+
+class Printing(session.Display):
+    def record(self, record: Record) -> None:
+        say(f"{record.component}: {record.text}")
+
+
+def say(text: str) -> None:
+    sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
+
+
+def main() -> int:
+    where, name = Path(sys.argv[1]), sys.argv[2]
+    where.mkdir(exist_ok=True)
+    spec = json.loads(sys.argv[3])
+    processes = [
+        actor(
+            where,
+            one["name"],
+            one["body"],
+            after=tuple(one.get("after", ())),
+            stops_after=tuple(o["name"] for o in spec if one["name"] in o.get("after", ())),
+        )
+        for one in spec
+    ]
+    plan = plan_of(where, *processes, name=name)
+    try:
+        claim = folder.claim(name)
+    except folder.Unavailable as error:
+        say(str(error))
+        return 1
+    try:
+        watch = FifoWatch(where / "fifo")
+        options = Options(grace_s=2.0)
+        return session.run(plan, claim, watch, Printing(), options).code
+    finally:
+        claim.release()
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

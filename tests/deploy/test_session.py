@@ -1,0 +1,254 @@
+"""Whole deployments as processes: signals, SIGKILL, other terminals, several at once."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from deploy_actors import STEADY
+
+from robocomp_dsl.deploy import control, folder
+from robocomp_dsl.deploy.engines import sentinel
+
+DEADLINE_S = 30.0
+DRIVER = Path(__file__).with_name("driver.py")
+PAIR: list[dict[str, Any]] = [
+    {"name": "a", "body": STEADY},
+    {"name": "b", "body": STEADY, "after": ["a"]},
+]
+
+
+class Session:
+    """A running driver; `until` reads its output to a text, however long it takes."""
+
+    def __init__(self, where: Path, spec: list[dict[str, Any]], name: str = "demo") -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, str(DRIVER), str(where), name, json.dumps(spec)],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+        # Nothing here waits forever: a driver that hangs is killed and its output ends.
+        self._limit = threading.Timer(DEADLINE_S, self.process.kill)
+        self._limit.start()
+        self.lines: list[str] = []
+
+    def until(self, text: str) -> str:
+        assert self.process.stdout is not None
+        for line in self.process.stdout:
+            self.lines.append(line.rstrip("\n"))
+            if text in line:
+                return line
+        raise AssertionError(f"`{text}` never came:\n" + "\n".join(self.lines))
+
+    def end(self) -> int:
+        assert self.process.stdout is not None
+        self.lines += self.process.stdout.read().splitlines()
+        code = self.process.wait(DEADLINE_S)
+        self._limit.cancel()
+        self.process.stdout.close()
+        return code
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.process.kill()
+            self.end()
+        self._limit.cancel()
+
+
+@pytest.fixture(autouse=True)
+def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def sessions() -> Iterator[list[Session]]:
+    made: list[Session] = []
+    yield made
+    for one in made:
+        one.close()
+
+
+def begin(
+    sessions: list[Session], where: Path, spec: list[dict[str, Any]], name: str = "demo"
+) -> Session:
+    sessions.append(Session(where, spec, name))
+    return sessions[-1]
+
+
+def pids(name: str) -> list[int]:
+    answer = next(control.ask(name, {"verb": "status"}))
+    return [row["pid"] for row in answer["rows"]]
+
+
+def is_alive(pid: int) -> bool:
+    """Whether it runs; an orphan that init has not reaped yet does not."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def wait_for_end(processes: list[int]) -> None:
+    sentinel._wait(processes, DEADLINE_S)
+    assert not [pid for pid in processes if is_alive(pid)]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_stops_in_reverse_order(
+    tmp_path: Path, sessions: list[Session], number: signal.Signals
+) -> None:
+    one = begin(sessions, tmp_path / "x", PAIR)
+    one.until("all 2 components are ready")
+    running = pids("demo")
+    one.process.send_signal(number)
+    assert one.end() == 0
+    assert [line for line in one.lines if "finalized" in line] == ["b: finalized", "a: finalized"]
+    wait_for_end(running)
+    assert folder.running() == []
+
+
+def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
+    tmp_path: Path, sessions: list[Session]
+) -> None:
+    body = 'signal.signal(2, lambda *_: print("hit")); ' + STEADY
+    one = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
+    one.until("all 1 components are ready")
+    os.killpg(one.process.pid, signal.SIGINT)  # as a terminal does it
+    assert one.end() == 0
+    assert "a: hit" not in one.lines
+    assert "a: finalized" in one.lines
+
+
+def test_killed_rcdeploy_leaves_nothing_and_motors_stop_in_order(
+    tmp_path: Path, sessions: list[Session]
+) -> None:
+    note = tmp_path / "finalized"
+    gentle = f'tell("compute"); wait(); open({str(note)!r}, "w").close()'
+    deaf = 'signal.signal(15, signal.SIG_IGN); tell("compute"); wait()'
+    daemon = """
+import subprocess
+child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(600)"],
+                         start_new_session=True, stdout=-3, stderr=-3)
+print("daemon", child.pid); tell("compute"); wait()
+"""
+    spec = [{"name": n, "body": b} for n, b in (("a", gentle), ("b", deaf), ("c", daemon))]
+    one = begin(sessions, tmp_path / "x", spec)
+    escaped = int(one.until("c: daemon").split()[-1])
+    one.until("all 3 components are ready")
+    running = [*pids("demo"), escaped]
+    one.process.kill()
+    one.end()
+    wait_for_end(running)
+    assert note.exists()
+    assert folder.running() == []
+    begin(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
+
+
+def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: list[Session]) -> None:
+    crash = 'print("life", os.getpid()); sys.exit(1)'
+    spec = [{"name": f"c{i}", "body": crash} for i in range(4)]
+    one = begin(sessions, tmp_path / "x", spec)
+    one.until("life")
+    one.process.kill()
+    one.end()
+    lives = [int(line.split()[-1]) for line in one.lines if "life" in line]
+    wait_for_end(lives)
+    token = f"demo-{tmp_path.name}-x.{one.process.pid}"
+    wait_for_end(sentinel.marked(token))
+    assert sentinel.marked(token) == []
+
+
+def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: list[Session]) -> None:
+    one = begin(sessions, tmp_path / "x", PAIR)
+    one.until("all 2 components are ready")
+    (entry,) = folder.running()
+    assert (entry.name, entry.pid) == ("demo", one.process.pid)
+    rows = next(control.ask("demo", {"verb": "status"}))["rows"]
+    assert [(r["name"], r["state"], r["restarts"]) for r in rows] == [
+        ("a", "ready", 0), ("b", "ready", 0),
+    ]  # fmt: skip
+    assert all(r["memory"] > 1e6 for r in rows)
+    logs = list(control.ask("demo", {"verb": "logs"}))
+    assert "all 2 components are ready" in logs[-1]["text"]
+    assert len(list(control.ask("demo", {"verb": "logs", "last": 1}))) == 1
+    following = control.ask("demo", {"verb": "logs", "follow": True})
+    assert next(following)["component"] == "rcdeploy"
+    assert list(control.ask("demo", {"verb": "stop"})) == [
+        {"code": 0, "reason": "asked to by `rcdeploy stop`"}
+    ]
+    rest = [f"{r['component']}: {r['text']}" for r in following]
+    assert rest[-2:] == ["b: finalized", "a: finalized"]
+    assert one.end() == 0
+    with pytest.raises(folder.Unavailable, match="`demo` does not answer"):
+        list(control.ask("demo", {"verb": "status"}))
+
+
+def test_the_same_name_twice_is_refused_with_the_pid(
+    tmp_path: Path, sessions: list[Session]
+) -> None:
+    one = begin(sessions, tmp_path / "x", PAIR)
+    one.until("all 2 components are ready")
+    second = begin(sessions, tmp_path / "y", PAIR)
+    assert second.end() == 1
+    who = f"pid {one.process.pid}, {tmp_path}/x/demo.ddsl"
+    advice = "stop it, or give this one another --name"
+    assert second.lines == [f"`demo` is running already ({who}); {advice}"]
+    third = begin(sessions, tmp_path / "z", PAIR, name="other")
+    third.until("all 2 components are ready")
+    assert [r.name for r in folder.running()] == ["demo", "other"]
+    assert next(control.ask("other", {"verb": "stop"}))["code"] == 0
+    assert len(pids("demo")) == 2
+    assert third.end() == 0
+
+
+def test_nonsense_on_the_control_socket_is_survived(
+    tmp_path: Path, sessions: list[Session]
+) -> None:
+    one = begin(sessions, tmp_path / "x", PAIR)
+    one.until("all 2 components are ready")
+    for nonsense in ({"verb": "dance"}, {"verb": "logs", "last": "many"}, {}, "text", [1]):
+        assert list(control.ask("demo", nonsense)) == []  # type: ignore[arg-type]
+    assert list(control.ask("demo", {"verb": "x" * 200_000})) == []
+    assert len(pids("demo")) == 2
+    one.process.send_signal(signal.SIGTERM)
+    assert one.end() == 0
+
+
+def test_stale_entries_are_swept(tmp_path: Path) -> None:
+    claim = folder.claim("demo")
+    claim.tell(folder.Running("demo", "x.ddsl", "d", 2**22 - 1, 0.0))
+    os.close(claim._lock)  # as the kernel does when a process is killed
+    assert claim.folder.exists()
+    assert folder.running() == []
+    assert not claim.folder.exists()
+    again = folder.claim("demo")
+    with pytest.raises(folder.Unavailable, match="running already"):
+        folder.claim("demo")
+    again.release()
+    folder.claim("demo").release()
+
+
+@pytest.mark.parametrize("name", ["", "..", "a/b", "-x", "a b", "x" * 65, "ü"])
+def test_names_that_are_none(name: str) -> None:
+    with pytest.raises(folder.Unavailable, match="is no name"):
+        folder.claim(name)
+
+
+def test_a_long_path_still_has_a_socket(
+    tmp_path: Path, sessions: list[Session], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    deep = tmp_path / ("d" * 120)
+    deep.mkdir()
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(deep))
+    one = begin(sessions, tmp_path / "x", PAIR)
+    one.until("all 2 components are ready")
+    assert next(control.ask("demo", {"verb": "stop"}))["code"] == 0
+    assert one.end() == 0
