@@ -6,7 +6,7 @@ element would cost two orders of magnitude more to send and receive.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, MutableSequence
+from collections.abc import Callable, Iterable, Iterator, MutableSequence
 from typing import Any, Self, TypeVar, overload
 
 import numpy as np
@@ -17,8 +17,8 @@ from robocomp_dsl.runtime.errors import EncodeError
 from robocomp_dsl.runtime.layout import row_layout
 from robocomp_dsl.runtime.once import once
 from robocomp_dsl.runtime.record import Record
-from robocomp_dsl.runtime.rows import row_view, rows_of
-from robocomp_dsl.runtime.schema import Enum, Primitive, Type
+from robocomp_dsl.runtime.rows import row_view, row_views, rows_of, writable
+from robocomp_dsl.runtime.schema import Type
 from robocomp_dsl.runtime.values import shown_items
 
 T = TypeVar("T", bound=Record)
@@ -28,9 +28,9 @@ class StructArray(MutableSequence[T]):
     """A list of structs of numbers, stored as one numpy structured array.
 
     `scan[3].dist` reads and writes the array, `column("dist")` is a writable numpy view of all.
-    Slices share the data as numpy's do; `append` and `insert` may move it, and views taken before
-    then keep the old one. What was received is read-only, as it lies in the message: `copy()` it to
-    change elements.
+    Slices share the data as numpy's do, and an array of indices or bools selects as in numpy;
+    `append` and `insert` may move it, and views taken before then keep the old one.
+    What was received is read-only, as it lies in the message: `copy()` it to change elements.
 
     Made from struct objects, or from a structured numpy array with the same field names, which is
     shared where its type is the very same. Raises `EncodeError` for values that do not fit.
@@ -42,7 +42,8 @@ class StructArray(MutableSequence[T]):
     _store: NDArray[Any]  # with room to grow behind
 
     def __init__(self, items: Iterable[T] | NDArray[Any] = ()) -> None:
-        self._array = self._store = self._rows(items)
+        rows = self._rows(items)
+        self._array = self._store = rows.copy() if isinstance(items, StructArray) else rows
 
     @classmethod
     def from_columns(cls, **columns: Any) -> Self:
@@ -52,7 +53,7 @@ class StructArray(MutableSequence[T]):
         """
         if unknown := set(columns) - set(cls._element_._names_):
             raise TypeError(f"{cls._element_.__name__} has no field {', '.join(sorted(unknown))}")
-        lengths = {len(one) for one in columns.values() if np.ndim(one) or _is_list(one)}
+        lengths = {len(one) for one in columns.values() if np.ndim(one)}
         if len(lengths) > 1:
             raise ValueError(f"the columns differ in length: {sorted(lengths)}")
         self = cls(np.zeros(lengths.pop() if lengths else 0, row_layout(cls._element_).dtype))
@@ -128,15 +129,18 @@ class StructArray(MutableSequence[T]):
         """The same elements in memory of their own, which may be changed."""
         return self._over(self._array.copy())
 
+    def __iter__(self) -> Iterator[T]:
+        return row_views(self._element_, self._array)
+
     def __len__(self) -> int:
         return len(self._array)
 
     @overload
     def __getitem__(self, index: int) -> T: ...
     @overload
-    def __getitem__(self, index: slice) -> Self: ...
-    def __getitem__(self, index: int | slice) -> T | Self:
-        if isinstance(index, slice):
+    def __getitem__(self, index: slice | NDArray[Any]) -> Self: ...
+    def __getitem__(self, index: int | slice | NDArray[Any]) -> T | Self:
+        if isinstance(index, slice | np.ndarray):
             return self._over(self._array[index])
         row: T = row_view(self._element_, self._array, self._checked(index))
         return row
@@ -155,12 +159,12 @@ class StructArray(MutableSequence[T]):
     def __setitem__(self, index: int | slice, value: Any) -> None:
         if not isinstance(index, slice):
             index = self._checked(index)
-            self._array[index : index + 1] = rows_of(self._element_, (value,))
+            writable(self._array)[index : index + 1] = rows_of(self._element_, (value,))
             return
         rows = self._rows(value)
         span = range(len(self._array))[index]
         if len(rows) == len(span):
-            self._array[index] = rows.copy()  # it may be a part of itself
+            writable(self._array)[index] = rows.copy()  # it may be a part of itself
         elif span.step == 1:
             before, behind = self._array[: span.start], self._array[max(span.start, span.stop) :]
             self._array = self._store = np.concatenate([before, rows, behind])
@@ -182,6 +186,23 @@ class StructArray(MutableSequence[T]):
     def extend(self, values: Iterable[T]) -> None:
         """As of a list."""
         self._extend(self._rows(values))
+
+    def clear(self) -> None:
+        """As of a list."""
+        self._array = self._store = np.zeros(0, self._array.dtype)
+
+    def reverse(self) -> None:
+        """As of a list."""
+        self._array = self._store = self._array[::-1]
+
+    def sort(self, *, key: Callable[[T], Any], reverse: bool = False) -> None:
+        """As of a list, but structs have no order of their own, so there must be a `key`.
+
+        By one field, `scan[numpy.argsort(scan.dist)]` is much faster.
+        """
+        keys = [key(row) for row in self]
+        order = sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
+        self._array = self._store = self._array[order]
 
     def _extend(self, rows: NDArray[Any]) -> None:
         count, total = len(self._array), len(self._array) + len(rows)
@@ -225,17 +246,8 @@ def _restored(element: type[Record], array: NDArray[Any]) -> StructArray[Any]:
     return array_class(element)(array)
 
 
-def _is_list(value: Any) -> bool:
-    return isinstance(value, list | tuple | StructArray)
-
-
 @once
 def array_class(element: type[Record]) -> type[StructArray[Any]]:
     """The struct array for an element for which no IDSL file declares a sequence."""
     members = {"__slots__": (), "_element_": element, "_anonymous_": True}
     return type(f"{element.__name__}Array", (StructArray,), members)
-
-
-def dtype_of(type_: Primitive | type[Enum]) -> np.dtype[Any]:
-    """The numpy type of a column."""
-    return type_.dtype if isinstance(type_, Primitive) else np.dtype("<i4")

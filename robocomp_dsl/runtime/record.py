@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 class Record:
     """A value with named fields.
 
-    A subclass declares `_fields_`, (wire name, type) pairs, and `__slots__`, the Python attributes
-    in the same order; they differ where the wire name is a word of Python (`None` → `None_`).
-    Its `__init__` takes the fields in that order, each with a default.
+    A subclass declares `_fields_`, (wire name, type) pairs in the order of the wire and of its
+    `__init__`, and in `__slots__` an attribute for each, in any order. An attribute is called as on
+    the wire, with underscores behind where that is a word of Python (`None` → `None_`).
     """
 
     __slots__ = ()
@@ -32,10 +32,11 @@ class Record:
         super().__init_subclass__()
         if "_fields_" in cls.__dict__:
             slots: str | Iterable[str] = cls.__dict__.get("__slots__", ())
-            cls._names_ = (slots,) if isinstance(slots, str) else tuple(slots)
+            attributes = {slots} if isinstance(slots, str) else set(slots)
+            cls._names_ = _attributes([name for name, _ in cls._fields_], attributes)
             cls._plain_ = cls
-            if len(cls._names_) != len(cls._fields_):
-                raise TypeError(f"{cls.__name__}: __slots__ and _fields_ differ in length")
+            if set(cls._names_) != attributes:
+                raise TypeError(f"{cls.__name__}: __slots__ and _fields_ do not agree")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Record) or self._plain_ is not other._plain_:
@@ -57,6 +58,19 @@ class Record:
 
     def _astuple(self) -> tuple[Any, ...]:
         return tuple(getattr(self, name) for name in self._names_)
+
+
+def _attributes(names: list[str], slots: set[str]) -> tuple[str, ...]:
+    """The attribute of each field; `slots` may have been sorted by a linter."""
+    free = slots.difference(names)
+    result = []
+    for name in names:
+        attribute = name
+        while attribute not in free and name not in slots and len(attribute) <= len(name) + 2:
+            attribute += "_"
+        free.discard(attribute)
+        result.append(attribute)
+    return tuple(result)
 
 
 class Struct(Record):

@@ -7,7 +7,7 @@ instances of the struct's class, and arrays made of objects.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from operator import attrgetter
 from typing import Any
 
@@ -29,6 +29,23 @@ def row_view(element: type[Record], array: NDArray[Any], index: int) -> Any:
     row._array = array
     row._index = index
     return row
+
+
+def row_views(element: type[Record], array: NDArray[Any]) -> Iterator[Any]:
+    """All elements, one after the other."""
+    cls = _row_class(element)
+    for index in range(len(array)):
+        row = cls.__new__(cls)
+        row._array = array
+        row._index = index
+        yield row
+
+
+def writable(array: NDArray[Any]) -> NDArray[Any]:
+    """`array` itself. Raises `ValueError` for one that lies in a received message."""
+    if not array.flags.writeable:
+        raise ValueError("received data is read-only; copy() the list and change the copy")
+    return array
 
 
 @once
@@ -54,7 +71,7 @@ def _property(name: str, type_: Type) -> property:
         return value if convert is None else convert(value)
 
     def put(row: Any, value: Any) -> None:
-        row._array[name][row._index] = as_scalar(leaf, value)  # type: ignore[arg-type]
+        writable(row._array)[name][row._index] = as_scalar(leaf, value)  # type: ignore[arg-type]
 
     return property(get, put)
 
@@ -64,7 +81,7 @@ def _nested_property(name: str, type_: type[Record]) -> property:
         return row_view(type_, row._array[name], row._index)
 
     def put(row: Any, value: Any) -> None:
-        row._array[name][row._index] = rows_of(type_, (value,))[0]
+        writable(row._array)[name][row._index] = rows_of(type_, (value,))[0]
 
     return property(get, put)
 

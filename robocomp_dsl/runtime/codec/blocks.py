@@ -63,7 +63,7 @@ def unpack(
     regular = (start - _HEADER) % layout.alignment == layout.residue
     if not regular:
         offsets, size = layout.first(start - _HEADER)
-    second = start + size + padding(start + size - _HEADER, layout.first_alignment)
+    second = begin(layout, offset, 1)
     rest = (count - 2) * layout.stride + layout.size if count > 1 else 0
     end = second + rest if rest else start + size
     if end > len(buffer):
@@ -87,26 +87,40 @@ def _move(
         target[to : to + size] = source[at : at + size]
 
 
-def bad_element(leaf: Leaf, array: NDArray[Any]) -> int | None:
-    """The index of the first element whose bool is not 0 or 1, or whose enum has no such member."""
-    numbers = column(array, leaf)
-    if leaf.type is BOOL:
-        wrong = numbers.view(np.uint8) > 1
-    elif isinstance(leaf.type, Primitive):
-        return None
-    else:
-        wrong = ~np.isin(numbers, [int(one) for one in leaf.type])
+def begin(layout: RowLayout, offset: int, index: int) -> int:
+    """Where element `index` begins when the first does at `offset` or behind its padding."""
+    first = layout.first_alignment
+    start = offset + padding(offset - _HEADER, first)
+    if not index:
+        return start
+    end = start + layout.first(start - _HEADER)[1]
+    return end + padding(end - _HEADER, first) + (index - 1) * layout.stride
+
+
+def bad_element(layout: RowLayout, array: NDArray[Any]) -> int | None:
+    """The first element with a bool that is not 0 or 1, or an enum that has no such member."""
+    wrong = np.zeros(len(array), np.bool_)
+    for leaf in _constrained(layout):
+        numbers = column(array, leaf)
+        if isinstance(leaf.type, Primitive):
+            wrong |= numbers.view(np.uint8) > 1
+        else:
+            wrong |= ~np.isin(numbers, [int(one) for one in leaf.type])
     return int(wrong.argmax()) if wrong.any() else None
 
 
+def _constrained(layout: RowLayout) -> list[Leaf]:
+    """The leaves for which not any bytes will do: bools and enums."""
+    return [one for one in layout.leaves if not isinstance(one.type, Primitive) or one.type is BOOL]
+
+
 def checker(layout: RowLayout) -> Callable[[NDArray[Any]], None] | None:
-    """What raises `ValueError` for elements that are not all good; None if any bytes are."""
-    leaves = [one for one in layout.leaves if one.type is BOOL or isinstance(one.type, type)]
-    if not leaves:
+    """What raises `ValueError` for an array with a bad element; None if none can be bad."""
+    if not _constrained(layout):
         return None
 
     def check(array: NDArray[Any]) -> None:
-        if any(bad_element(leaf, array) is not None for leaf in leaves):
+        if bad_element(layout, array) is not None:
             raise ValueError
 
     return check

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.blocks import pack
+from robocomp_dsl.runtime.codec.blocks import checker, pack
 from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
 from robocomp_dsl.runtime.codec.explain import explain
 from robocomp_dsl.runtime.convert import FLAGS, as_array, as_list
@@ -182,6 +182,8 @@ class _Encoder(Emitter):
         self.line(
             f"{name} = {given}._array if {given}.__class__ is {cls} else {cls}._rows({given})"
         )
+        if check := checker(layout):
+            self.line(f"{self.constant(check)}({name})")
         if layout.direct:
             self.line(f"if {name}.strides != ({layout.stride},): {name} = {name}.copy()")
             self.block(name, layout.stride, layout.alignment)

@@ -7,8 +7,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from robocomp_dsl.runtime.arrays import StructArray
+from robocomp_dsl.runtime.codec.blocks import bad_element
 from robocomp_dsl.runtime.convert import as_array, as_list, as_scalar, described
 from robocomp_dsl.runtime.errors import EncodeError
+from robocomp_dsl.runtime.layout import row_layout
 from robocomp_dsl.runtime.record import Record
 from robocomp_dsl.runtime.schema import (
     Array,
@@ -66,7 +69,7 @@ def _check(type_: Type, value: Any, path: str) -> None:
             case _ if issubclass(type_, Record):
                 _check_record(type_, value)
             case _:
-                type_._rows(value)
+                _check_rows(type_, value)
     except EncodeError as error:
         inner = error.path if path else error.path.removeprefix(".")
         raise EncodeError(error.reason, path + inner) from None
@@ -79,6 +82,15 @@ def _check_record(type_: type[Record], value: Any) -> None:
         except AttributeError:
             raise EncodeError(f"takes a {type_.__name__}, not {described(value)}") from None
         _check(inner, item, f".{name}")
+
+
+def _check_rows(type_: type[StructArray[Any]], value: Any) -> None:
+    layout = row_layout(type_._element_)
+    index = bad_element(layout, type_._rows(value))
+    if index is not None:
+        raise EncodeError(
+            f"a bool or enum of {type_._element_.__name__} has no such value", f"[{index}]"
+        )
 
 
 def _check_dictionary(type_: Dictionary, value: Any) -> None:

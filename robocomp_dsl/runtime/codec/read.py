@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.blocks import bad_element, unpack
+from robocomp_dsl.runtime.codec.blocks import bad_element, begin, unpack
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.layout import padding, row_layout
 from robocomp_dsl.runtime.record import Record
@@ -75,7 +75,8 @@ class _Reader:
         """Go past `size` bytes behind the padding. The offset where they begin."""
         start = self.at + padding(self.at - 4, alignment)
         if start + size > len(self.data):
-            left = max(0, len(self.data) - start)
+            start = min(start, len(self.data))
+            left = len(self.data) - start
             raise MalformedMessage(f"{size} bytes expected, {left} left", path, start)
         self.at = start + size
         return start
@@ -205,16 +206,15 @@ class _Reader:
 
     def struct_array(self, type_: Any, path: str) -> Any:
         """Elements of fixed structs."""
-        layout, at = row_layout(type_._element_), self.at
+        layout = row_layout(type_._element_)
         count = self.count(path, sum(leaf.primitive.size for leaf in layout.leaves))
+        at, dtype = self.at, self.ordered(layout.dtype)
         try:
-            array, self.at = unpack(layout, self.data, self.at, count, self.ordered(layout.dtype))
+            array, self.at = unpack(layout, self.data, at, count, dtype)
         except ValueError as error:
             raise MalformedMessage(str(error), path, at) from None
-        array = self.native(array, layout.dtype)
-        for leaf in layout.leaves:
-            if (index := bad_element(leaf, array)) is not None:
-                raise MalformedMessage(
-                    "a bool or enum has no such value", f"{path}[{index}].{'.'.join(leaf.path)}", at
-                )
-        return type_._over(array)
+        wrong = bad_element(layout, array)
+        if wrong is not None:  # reading it once more tells what is wrong
+            self.at = begin(layout, at, wrong)
+            self.record(type_._element_, f"{path}[{wrong}]")
+        return type_._over(self.native(array, layout.dtype))

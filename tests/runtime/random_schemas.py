@@ -1,0 +1,119 @@
+"""Hypothesis strategies for types, as generated code would declare them, and for their values."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import numpy as np
+from hypothesis import strategies as st
+
+from robocomp_dsl.runtime import types as rt
+
+NUMBERS = (rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.FLOAT, rt.DOUBLE)
+FIXED = (*NUMBERS, rt.BOOL)
+PRIMITIVES = (*FIXED, rt.STRING)
+
+_serial = itertools.count()
+
+
+def record(fields: list[Any], base: type[Any] = rt.Struct) -> type[Any]:
+    """A class like a generated one, with fields f0, f1, ... of these types."""
+    names = tuple(f"f{i}" for i in range(len(fields)))
+
+    def init(self: Any, *values: Any) -> None:
+        for name, value in zip(names, values, strict=True):
+            setattr(self, name, value)
+
+    members = {
+        "__slots__": names,
+        "_fields_": tuple(zip(names, fields, strict=True)),
+        "__init__": init,
+    }
+    return type(f"Record{next(_serial)}", (base,), members)
+
+
+def array_of(element: type[Any]) -> type[rt.StructArray[Any]]:
+    return type(
+        f"{element.__name__}List", (rt.StructArray,), {"__slots__": (), "_element_": element}
+    )
+
+
+def enumeration(values: list[int]) -> type[rt.Enum]:
+    return rt.Enum(f"Enum{next(_serial)}", {f"E{i}": value for i, value in enumerate(values)})  # type: ignore[return-value]
+
+
+enums = st.lists(st.integers(-(2**31), 2**31 - 1), min_size=1, max_size=4, unique=True).map(
+    enumeration
+)
+fixed_leaves = st.sampled_from(FIXED) | enums
+fixed_structs = st.recursive(
+    st.lists(fixed_leaves, min_size=1, max_size=5).map(record),
+    lambda inner: st.lists(fixed_leaves | inner, min_size=1, max_size=4).map(record),
+    max_leaves=4,
+)
+_flat = st.sampled_from(PRIMITIVES) | enums | st.sampled_from(FIXED).map(rt.Array)
+
+
+def _sequence(element: Any) -> Any:
+    is_number = isinstance(element, rt.Primitive) and element is not rt.STRING
+    return rt.Array(element) if is_number else rt.Sequence(element)
+
+
+def _composed(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+    keys = st.sampled_from((rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.STRING, rt.BOOL)) | enums
+    return (
+        st.lists(inner, max_size=5).map(record)
+        | inner.map(_sequence)
+        | fixed_structs.map(array_of)
+        | st.builds(rt.Dictionary, keys | fixed_structs, inner)
+    )
+
+
+types = st.recursive(_flat, _composed, max_leaves=6)
+structs = st.lists(types, max_size=5).map(record)
+
+_BOUNDS = {
+    rt.BYTE: (0, 2**8 - 1),
+    rt.SHORT: (-(2**15), 2**15 - 1),
+    rt.INT: (-(2**31), 2**31 - 1),
+    rt.LONG: (-(2**63), 2**63 - 1),
+}
+
+
+def values(type_: Any, *, nan: bool = True) -> st.SearchStrategy[Any]:
+    """Values of a type as decoders make them; without `nan`, all equal themselves."""
+    if isinstance(type_, rt.Primitive):
+        return _primitives(type_, nan)
+    if isinstance(type_, rt.Array):
+        items = st.lists(_primitives(type_.element, nan), max_size=4)
+        return items.map(lambda v: np.array(v, type_.element.dtype))
+    if isinstance(type_, rt.Sequence):
+        return st.lists(values(type_.element, nan=nan), max_size=3)
+    if isinstance(type_, rt.Dictionary):
+        keys = values(type_.key, nan=False)
+        return st.dictionaries(keys, values(type_.value, nan=nan), max_size=3)
+    if issubclass(type_, rt.StructArray):
+        return st.lists(values(type_._element_, nan=nan), max_size=4).map(type_)
+    if issubclass(type_, rt.Enum):
+        return st.sampled_from(list(type_))
+    fields = [values(inner, nan=nan) for _, inner in type_._fields_]
+    return st.tuples(*fields).map(lambda v: type_(*v))
+
+
+def _primitives(type_: rt.Primitive, nan: bool) -> st.SearchStrategy[Any]:
+    if type_ is rt.BOOL:
+        return st.booleans()
+    if type_ is rt.STRING:
+        return st.text(max_size=9)
+    if type_ in _BOUNDS:
+        return st.integers(*_BOUNDS[type_])
+    # NaN has payloads that a change of width may not keep; one is enough.
+    numbers = st.floats(width=type_.size * 8, allow_nan=False)
+    return numbers | st.just(float("nan")) if nan else numbers
+
+
+@st.composite
+def messages(draw: st.DrawFn, *, nan: bool = True) -> Any:
+    """A value of a random struct."""
+    return draw(values(draw(structs), nan=nan))
