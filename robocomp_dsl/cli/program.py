@@ -16,8 +16,6 @@ from typing import Any, NoReturn
 
 import click
 
-from robocomp_dsl.diagnostics import did_you_mean
-
 FINDINGS = 1
 USAGE = 2
 OUR_MISTAKE = 70
@@ -34,7 +32,8 @@ class LazyGroup(click.Group):
     """
 
     def __init__(self, *args: Any, table: dict[str, tuple[str, str]], **kwargs: Any) -> None:
-        super().__init__(*args, **kwargs)
+        settings = {"help_option_names": ["-h", "--help"], "terminal_width": terminal_width()}
+        super().__init__(*args, context_settings=settings, **kwargs)
         self.table = table
 
     def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002 - as click calls it
@@ -58,6 +57,8 @@ class LazyGroup(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """As click does, with the nearest name for an unknown one."""
         if args and not args[0].startswith("-") and args[0] not in self.table:
+            from robocomp_dsl.diagnostics import did_you_mean  # noqa: PLC0415 - not for --help
+
             guess = did_you_mean(args[0], self.table)
             ctx.fail(f"no command `{args[0]}`" + (f"; {guess}" if guess else ""))
         return super().resolve_command(ctx, args)
@@ -70,6 +71,17 @@ class LazyGroup(click.Group):
         """The lines of the table."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, about) for name, (_, about) in self.table.items()])
+
+
+def terminal_width() -> int:
+    """Columns for help texts; asked here, because what click asks takes long to load."""
+    given = os.environ.get("COLUMNS", "")
+    if given.isdigit() and int(given):
+        return int(given)
+    try:
+        return os.get_terminal_size(sys.stdout.fileno()).columns
+    except (OSError, ValueError, AttributeError):
+        return 80
 
 
 def run(program: click.Command, name: str) -> NoReturn:

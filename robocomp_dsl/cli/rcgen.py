@@ -21,7 +21,6 @@ program = LazyGroup(
     "rcgen",
     table=TABLE,
     help="Describe robot components in small languages; check them, generate them.",
-    context_settings={"help_option_names": ["-h", "--help"]},
 )
 click.version_option(__version__, prog_name="rcgen")(program)
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from pathlib import Path
 
 from robocomp_dsl.diagnostics import Diagnostic, Note, Report, nearest
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.python import CLASS, names_of
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.source import Source, Span
+from robocomp_dsl.source import Source, Span, UnreadableSource
 
 BASE = "GenericWorker"
 
@@ -34,6 +35,14 @@ def judge_user_code(source: Source, component: Component) -> list[Diagnostic]:
         label = f"did you mean `{guess}`?" if guess else ""
         said = f"`{source.path.name}` has no class `{CLASS}`"
         report.add(codes.NO_WORKER, source.whole, said, label=label)
+    return list(report)
+
+
+def unreadable(path: Path, error: UnreadableSource) -> list[Diagnostic]:
+    """The finding about a user's module that is no text."""
+    report = Report()
+    said = f"`{path.name}` could not be examined: {error}"
+    report.add(codes.UNREADABLE_WORKER, Source(path, "").whole, said)
     return list(report)
 
 

@@ -1,0 +1,59 @@
+"""`rcgen check`: judges files. In: files and folders. Out: findings, and 1 if one is an error."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.check import CHECKS, check_file, check_syntax
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.diagnostics import Report
+
+SKIPPED = ("__pycache__", "build", "node_modules")
+"""Folders in a given folder that hold no descriptions; hidden ones are skipped as well."""
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE…")
+@click.option("--syntax", is_flag=True, help="Judge form only; follow no imports.")
+@options.output_format
+@click.option("-q", "quiet", is_flag=True, help="No summary.")
+@options.folders
+def command(
+    files: tuple[Path, ...], syntax: bool, form: str, quiet: bool, folders: tuple[Path, ...]
+) -> None:
+    """Check descriptions: IDSL, CDSL, PDSL, DDSL, InnerModel; of a folder, all that are in it.
+
+    The exit code is 0 if there are no errors (there may be warnings), 1 if there are.
+    """
+    report = Report()
+    workspace = Workspace(folders)
+    judge = check_syntax if syntax else check_file
+    paths = list(dict.fromkeys(p for given in files for p in described(given)))
+    for path in paths:
+        judge(path, workspace, report)
+    findings = report.sorted()
+    options.show(findings, form, sys.stdout)
+    if form == "full" and not quiet:
+        sys.stdout.flush()
+        count = f"{len(paths)} file{'s' if len(paths) != 1 else ''}"
+        print(f"{count} checked: {options.summary(findings)}", file=sys.stderr)
+    sys.exit(FINDINGS if report.failed else 0)
+
+
+def described(given: Path) -> Iterator[Path]:
+    """The file itself, or those of a folder whose language is known, sorted."""
+    if not given.is_dir():
+        yield given
+        return
+    # An XML file may be anything; in a folder only those named by the user count.
+    suffixes = tuple(s for s in CHECKS if s != ".xml")
+    for folder, below, names in os.walk(given):
+        below[:] = sorted(b for b in below if b not in SKIPPED and not b.startswith("."))
+        yield from (Path(folder, n) for n in sorted(names) if n.lower().endswith(suffixes))

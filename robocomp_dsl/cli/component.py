@@ -1,0 +1,182 @@
+"""`rcgen component`: generates a component.
+
+In: a CDSL file. Out: the files of its folder, written or only compared; findings on standard error.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.check import check_cdsl
+from robocomp_dsl.check.workspace import MIDDLEWARES, Workspace
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.diagnostics import Diagnostic, Report, did_you_mean
+from robocomp_dsl.generate import LANGUAGES, codes, plan
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.generate.write import Action, CannotWrite, Change, compare, write
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.source import Source, UnreadableSource
+
+MODES = ("check", "diff", "dry-run")
+
+
+class Known(click.ParamType[str]):
+    """One of some names, whatever their case; the nearest is offered for another one."""
+
+    def __init__(self, what: str, names: tuple[str, ...]) -> None:
+        self.name = what
+        self.names = names
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """The name as it is spelled. Fails for an unknown one."""
+        found = next((name for name in self.names if name.lower() == value.lower()), None)
+        if found is None:
+            hint = did_you_mean(value, self.names) or f"it is one of {', '.join(self.names)}"
+            self.fail(f"there is no {self.name} {value!r}; {hint}", param, ctx)
+        return found
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path), metavar="X.cdsl")
+@click.option(
+    "-o",
+    "output",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write there instead of beside the file.",
+)
+@click.option(
+    "--middleware",
+    type=Known("middleware", MIDDLEWARES),
+    metavar="M",
+    help=f"Instead of the one in the file: {', '.join(MIDDLEWARES)}.",
+)
+@click.option(
+    "--language",
+    type=Known("target language", tuple(LANGUAGES)),
+    metavar="L",
+    help=f"Instead of the one in the file: {', '.join(LANGUAGES)}.",
+)
+@click.option(
+    "--check",
+    "mode",
+    flag_value="check",
+    help="Write nothing; 1 if files are not as they would be.",
+)
+@click.option("--diff", "mode", flag_value="diff", help="Write nothing; show what would change.")
+@click.option(
+    "--dry-run", "mode", flag_value="dry-run", help="Write nothing; list what would happen."
+)
+@click.option("-q", "quiet", is_flag=True, help="Say nothing but findings.")
+@options.output_format
+@options.folders
+def command(
+    *,
+    file: Path,
+    output: Path | None,
+    middleware: str | None,
+    language: str | None,
+    mode: str | None,
+    quiet: bool,
+    form: str,
+    folders: tuple[Path, ...],
+) -> None:
+    """Generate a component from its CDSL file.
+
+    `main.py` and `generated/` are rewritten; `specificworker.py`, `README.md` and `etc/config.yaml`
+    are written once and then yours. All files are written, or none.
+    """
+    report = Report()
+    component = _component(file, language or "", Workspace(folders), report)
+    chosen = {"language": language or "", "middleware": middleware or ""}
+    files = plan(component, **chosen) if component else []
+    folder = output or file.parent
+    if component:
+        report.extend(_user_code(folder, component))
+    options.show(report.sorted(), form, sys.stderr)
+    if component is None:
+        sys.exit(FINDINGS)
+    try:
+        sys.exit(_act(mode, folder, files, quiet))
+    except CannotWrite as error:
+        options.complain(str(error))
+        sys.exit(FINDINGS)
+
+
+def _component(file: Path, language: str, workspace: Workspace, report: Report) -> Component | None:
+    """The component of a file without errors, if there is a target for its language."""
+    found = check_cdsl(file, workspace, report)
+    if found is None or report.failed:
+        return None
+    if (language or found.language).lower() in LANGUAGES:
+        return found
+    report.add(
+        codes.NO_TARGET,
+        found.span,
+        f"`{found.name}` is to be written in {found.language}, and there is no target for that yet",
+        help="generate it for Python with `--language python`",
+    )
+    return None
+
+
+def _user_code(folder: Path, component: Component) -> list[Diagnostic]:
+    """What the user's class lacks, where there is one already."""
+    path = folder / "specificworker.py"
+    if not path.is_file():
+        return []
+    from robocomp_dsl.generate.user_code import judge_user_code, unreadable  # noqa: PLC0415
+
+    try:
+        return judge_user_code(Source.read(path), component)
+    except UnreadableSource as error:
+        return unreadable(path, error)
+
+
+def _act(mode: str | None, folder: Path, files: list[OutputFile], quiet: bool) -> int:
+    """Do what `mode` says; the exit code."""
+    if mode is None:
+        changes = write(folder, files)
+        if not quiet:
+            print(_told(folder, changes))
+        return 0
+    changes = compare(folder, files)
+    pending = [one for one in changes if one.pending]
+    if mode == "diff":
+        sys.stdout.write("".join(_diff(folder, one) for one in pending))
+        return 0
+    if mode == "dry-run":
+        for one in changes:
+            print(f"{one.action:<10} {folder / one.file.path}")
+        return 0
+    for one in pending:
+        state = "is missing" if one.old is None else "is not what would be generated"
+        options.complain(f"`{folder / one.file.path}` {state}")
+    return FINDINGS if pending else 0
+
+
+def _told(folder: Path, changes: list[Change]) -> str:
+    """One line: how many files were written, and which of the user's are new."""
+    written = sum(one.pending for one in changes)
+    if not written:
+        return f"{folder}: nothing to do, all {len(changes)} files are up to date"
+    yours = [c.file.path for c in changes if c.file.keep and c.action is Action.CREATE]
+    begun = f"; yours to edit: {', '.join(yours)}" if yours else ""
+    return f"{folder}: {written} of {len(changes)} files written{begun}"
+
+
+def _diff(folder: Path, change: Change) -> str:
+    """The change as a unified diff, which `patch -p0` understands."""
+    from difflib import unified_diff  # noqa: PLC0415 - only here
+
+    path = str(folder / change.file.path)
+    old = (change.old or b"").decode("utf-8", "replace").splitlines(keepends=True)
+    new = change.file.text.splitlines(keepends=True)
+    before = "/dev/null" if change.old is None else path
+    lines = unified_diff(old, new, before, path)
+    return "".join(
+        line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n" for line in lines
+    )

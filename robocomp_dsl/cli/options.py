@@ -1,0 +1,69 @@
+"""Options that several commands share, and what they say to users."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+import click
+
+from robocomp_dsl.diagnostics import Diagnostic, Severity
+
+FORMATS = ("full", "concise", "json", "github")
+
+folders = click.option(
+    "-I",
+    "folders",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Look for imported interfaces here, too; may be repeated.",
+)
+output_format = click.option(
+    "--format",
+    "form",
+    type=click.Choice(FORMATS),
+    default="full",
+    show_default=True,
+    help="How findings are written.",
+)
+
+Command = Callable[..., Any]
+
+
+def colours_on(stream: TextIO) -> bool:
+    """Whether colours are wanted there: a terminal, and not told otherwise (no-color.org)."""
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
+        return False
+    return stream.isatty()
+
+
+def show(findings: Sequence[Diagnostic], form: str, stream: TextIO) -> None:
+    """Print findings in one of `FORMATS`; the list of `json` is printed even when it is empty."""
+    from robocomp_dsl.cli import formats, render  # noqa: PLC0415 - most runs find nothing
+
+    if form == "full":
+        text = render.full(findings, colours=colours_on(stream))
+    else:
+        text = formats.FORMATS[form](findings)
+    # What the encoding of the stream lacks must not end the program.
+    encoding = stream.encoding or "utf-8"
+    stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+
+
+def summary(findings: Sequence[Diagnostic]) -> str:
+    """`2 errors, 1 warning`."""
+    counts = {s: sum(d.severity is s for d in findings) for s in Severity}
+    parts = [f"{n} {s}{'s' if n != 1 else ''}" for s, n in counts.items() if n]
+    return ", ".join(parts) or "no findings"
+
+
+def complain(message: str) -> None:
+    """A line about something that has no place in a file."""
+    from robocomp_dsl.cli.render import harmless  # noqa: PLC0415
+
+    label = "\x1b[1;31merror\x1b[0m" if colours_on(sys.stderr) else "error"
+    print(f"{label}: {harmless(message)}", file=sys.stderr)

@@ -1,0 +1,63 @@
+"""What is generated for the golden cases is what stands beside them, byte for byte."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import golden_cases as golden
+
+EXPECTED = "expected"
+
+
+@pytest.mark.parametrize("case", golden.CASES)
+def test_golden(case: str, update_golden: bool) -> None:
+    folder = golden.GOLDEN / case / EXPECTED
+    files = golden.files(case)
+    if update_golden:
+        shutil.rmtree(folder, ignore_errors=True)
+        golden.put(files, folder)
+    found = {
+        str(p.relative_to(folder)): p.read_text("utf-8") for p in folder.rglob("*") if p.is_file()
+    }
+    for one in files:
+        assert one.text == found.pop(one.path, None), one.path
+    assert not found
+
+
+HASHED = """
+import sys
+from pathlib import Path
+import golden_cases as golden
+for one in golden.files(sys.argv[1]):
+    sys.stdout.buffer.write(one.data)
+"""
+
+
+@pytest.mark.parametrize("case", ["types", "renamed"])
+def test_same_input_same_bytes(case: str) -> None:
+    """Whatever the order of sets is in a process."""
+    outputs = {
+        subprocess.run(
+            [sys.executable, "-c", HASHED, case],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            cwd=Path(__file__).parent,
+            check=True,
+            capture_output=True,
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert len(outputs) == 1
+
+
+@pytest.mark.parametrize("case", golden.CASES)
+def test_no_place_or_date_of_this_machine(case: str) -> None:
+    for one in golden.files(case):
+        assert str(golden.GOLDEN) not in one.text
+        assert "/home" not in one.text
+        assert "202" not in one.text
