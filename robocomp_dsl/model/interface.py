@@ -93,8 +93,9 @@ class Module:
 
         def visit(module: Module) -> None:
             for one in module.imports:
-                visit(one)
-            seen.setdefault(id(module), module)
+                if id(one) not in seen:
+                    visit(one)
+            seen[id(module)] = module
 
         visit(self)
         return tuple(seen.values())

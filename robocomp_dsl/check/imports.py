@@ -1,0 +1,108 @@
+"""Import statements: from what is written to a file, or to a finding that says where it was sought.
+
+In: a statement and the file it stands in. Out: a path that exists, or None and a finding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from robocomp_dsl.check import codes
+from robocomp_dsl.check.search import SUFFIX, Search, base_name
+from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.ast_base import Import
+
+Step = tuple[str, Import]
+"""A file, by its name in messages, and the statement through which it imports the next one."""
+
+
+def locate(statement: Import, root: Path, search: Search) -> Path | None:
+    """The IDSL file that an import in the checked file `root` means, or None."""
+    name = base_name(statement.path.value)
+    return search.find(name, root) if name.lower().endswith(SUFFIX) else None
+
+
+def find_import(statement: Import, root: Path, search: Search, report: Report) -> Path | None:
+    """As `locate`; an import that leads nowhere is reported."""
+    found = locate(statement, root, search)
+    if found is None:
+        name = base_name(statement.path.value)
+        if name.lower().endswith(SUFFIX):
+            _report_missing(name, statement, root, search, report)
+        else:
+            _report_no_idsl(name, statement, root, search, report)
+    return found
+
+
+def report_repeated(statements: Sequence[Import], report: Report) -> None:
+    """Warn of files that are imported twice."""
+    first: dict[str, Import] = {}
+    for one in statements:
+        earlier = first.setdefault(base_name(one.path.value), one)
+        if earlier is not one:
+            report.add(
+                codes.REPEATED_IMPORT,
+                one.path.span,
+                f"`{base_name(one.path.value)}` is imported twice",
+                notes=[Note(earlier.path.span, "first imported here")],
+                fix=Fix("remove the second import", (Edit(one.span, ""),)),
+            )
+
+
+def report_cycle(steps: Sequence[Step], report: Report) -> None:
+    """Report files that import each other.
+
+    The same cycle gives the same finding whichever of its files was read first.
+    """
+    start = min(range(len(steps)), key=lambda i: steps[i][0])
+    turned = [*steps[start:], *steps[:start]]
+    names = [Path(file).name for file, _ in turned]
+    chain = " → ".join(f"`{name}`" for name in (*names, names[0]))
+    following = zip(turned[1:], (*names[2:], names[0]), strict=True)
+    report.add(
+        codes.IMPORT_CYCLE,
+        turned[0][1].path.span,
+        f"`{names[0]}` imports itself: {chain}",
+        notes=[Note(s.path.span, f"`{name}` is imported here") for (_, s), name in following],
+        help="move what both need into a third file, and import that from both",
+    )
+
+
+def replace(span: Span, text: str) -> Fix:
+    """The fix for a name that was meant otherwise."""
+    return Fix(f"change to `{text.strip(chr(34))}`", (Edit(span, text),))
+
+
+def _report_missing(
+    name: str, statement: Import, root: Path, search: Search, report: Report
+) -> None:
+    guess = search.guess(name, root)
+    looked = ", ".join(str(folder) for folder in search.folders(root))
+    written = statement.path.value
+    outside = "" if name == written else f" Only the last part, `{name}`, is looked for."
+    report.add(
+        codes.MISSING_IMPORT,
+        statement.path.span,
+        f"cannot find `{name}`",
+        label=f"did you mean `{guess}`?" if guess else "",
+        help=f"looked in {looked}; add a folder with `-I` or ROBOCOMP_INTERFACES.{outside}",
+        fix=replace(statement.path.span, f'"{guess}"') if guess else None,
+    )
+
+
+def _report_no_idsl(
+    name: str, statement: Import, root: Path, search: Search, report: Report
+) -> None:
+    with_suffix = f"{name}{SUFFIX}"
+    guess = with_suffix if search.find(with_suffix, root) else None
+    report.add(
+        codes.NOT_IMPORTABLE,
+        statement.path.span,
+        f"`{statement.path.value}` is not an `{SUFFIX}` file",
+        label=f"did you mean `{guess}`?" if guess else "",
+        help=f"an import names an interface description, such as `Laser{SUFFIX}`; it is looked for "
+        "beside the file and in the interface folders only, wherever the written path leads",
+        fix=replace(statement.path.span, f'"{guess}"') if guess else None,
+    )

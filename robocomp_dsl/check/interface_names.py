@@ -1,0 +1,77 @@
+"""Names of interfaces in a component.
+
+In: a name as written. Out: the interface that it means, or None after a finding.
+"""
+
+from __future__ import annotations
+
+from robocomp_dsl.check import codes
+from robocomp_dsl.check.imports import replace
+from robocomp_dsl.check.literals import listing
+from robocomp_dsl.check.visible import Visible
+from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.model.types import Declaration
+from robocomp_dsl.syntax.ast_base import QualifiedName
+
+
+def find_interface(name: QualifiedName, visible: Visible, report: Report) -> Interface | None:
+    """The interface called `name`: of a direct import, else of what these import."""
+    found = visible.find(name, Interface)
+    if len(found) == 1:
+        return found[0]
+    if found:
+        _report_ambiguous(name, found, report)
+    else:
+        _report_unknown(name, visible, report)
+    return None
+
+
+def _report_ambiguous(name: QualifiedName, found: list[Interface], report: Report) -> None:
+    several = len({one.qualified for one in found}) > 1
+    report.add(
+        codes.AMBIGUOUS_INTERFACE,
+        name.span,
+        f"`{name.text}` can mean {listing([one.qualified for one in found])}",
+        notes=[Note(one.span, f"`{one.qualified}` is declared here") for one in found],
+        help=f"write the module in front of it: `{found[0].qualified}`"
+        if several
+        else "two imported files declare it: import only one of them",
+    )
+
+
+def _report_unknown(name: QualifiedName, visible: Visible, report: Report) -> None:
+    others = visible.find(name, Declaration)
+    if others:
+        report.add(
+            codes.NOT_AN_INTERFACE,
+            name.span,
+            f"`{name.text}` is not an interface",
+            notes=[Note(others[0].span, "it is declared here")],
+        )
+        return
+    known = [one.name for one in visible.declarations(Interface)]
+    guess = nearest(name.name.text, known)
+    if visible.is_excused(name, guess):
+        return
+    same_letters = guess is not None and guess.lower() == name.text.lower()
+    offer = None if same_letters else visible.importable(name)
+    if offer is not None:
+        report.add(
+            codes.INTERFACE_NOT_IMPORTED,
+            name.span,
+            f"interface `{name.text}` is not imported",
+            help=f"`{offer.path}` declares it",
+            fix=offer.fix,
+        )
+        return
+    declared = [one for one in visible.declarations(Interface) if one.name == guess]
+    report.add(
+        codes.UNKNOWN_INTERFACE,
+        name.span,
+        f"interface `{name.text}` is not declared by any import",
+        label=f"did you mean `{guess}`?" if guess else "",
+        notes=[Note(one.span, f"`{one.name}` is declared here") for one in declared],
+        help="" if guess else f"the imports declare {listing(known) or 'no interface'}",
+        fix=replace(name.span, guess) if guess else None,
+    )

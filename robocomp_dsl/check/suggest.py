@@ -1,0 +1,60 @@
+"""The import that is missing: which file declares a name that nothing imported declares.
+
+In: the name and the file that uses it. Out: the file to import and the edit that does it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from robocomp_dsl.check.files import Files
+from robocomp_dsl.check.search import Search
+from robocomp_dsl.diagnostics import Edit, Fix
+from robocomp_dsl.source import Source, UnreadableSource
+from robocomp_dsl.syntax import parse_idsl
+from robocomp_dsl.syntax.ast_base import Import, QualifiedName
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """A file that would declare the name, and the edit that imports it."""
+
+    path: Path
+    fix: Fix
+
+
+def offer_import(
+    name: QualifiedName, source: Source, imports: Sequence[Import], files: Files, search: Search
+) -> Offer | None:
+    """The one file that declares `name`; None when there is none, or more than one."""
+    seen = search.mentioning(name.name.text, source.path)
+    found = [path for path in seen if path != source.path and _declares(path, name, files)]
+    if len(found) != 1:
+        return None
+    return Offer(found[0], add_import(found[0].name, source, imports))
+
+
+def add_import(file: str, source: Source, imports: Sequence[Import]) -> Fix:
+    """The edit that imports `file`, behind the other imports or at the top."""
+    statement = f'import "{file}";'
+    if imports:
+        end = imports[-1].span.end
+        edit = Edit(source.span(end, end), f"\n{statement}")
+    else:
+        edit = Edit(source.whole, f"{statement}\n")
+    return Fix(f"add `{statement}`", (edit,))
+
+
+def _declares(path: Path, name: QualifiedName, files: Files) -> bool:
+    try:
+        tree = files.parse(path, parse_idsl).tree
+    except UnreadableSource:
+        return False
+    return any(
+        declaration.name.text == name.name.text
+        for module in tree.modules
+        if name.module is None or name.module.text == module.name.text
+        for declaration in module.declarations
+    )
