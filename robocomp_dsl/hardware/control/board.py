@@ -1,0 +1,170 @@
+"""A control board: from what the sensors of n joints say to the torques of their motors.
+
+In, at every step: joint angles and speeds (n,), the time since the last step. Out: torques (n,)
+that keep to all limits. `Commands` gives it orders, `Calibrator` and `Parking` lead it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.faults import Fault, Faults, overloaded, too_hot
+from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
+from robocomp_dsl.hardware.control.law import Law
+from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.mode_table import ModeTable
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.motors import Motors
+from robocomp_dsl.hardware.control.pid import PidBank, default_gains
+from robocomp_dsl.hardware.control.references import References
+from robocomp_dsl.hardware.control.state import BoardState
+
+SMOOTHING = 0.02
+"""Time constant of the measured acceleration [s]."""
+
+
+class Board:
+    """The parts of a board and what it measured last. One thread at a time."""
+
+    def __init__(self, spec: BoardSpec) -> None:
+        n = len(spec.joints)
+        self.spec, self.select = spec, Selector(spec.names)
+        self.limits, self.motors, self.faults = Limits(spec), Motors(spec), Faults(n)
+        self.pid = PidBank(default_gains(spec))
+        bounds = tuple(Bounds(20 * j.torque_limit, 2 * j.torque_limit) for j in spec.joints)
+        self.impedance = Impedance(bounds)
+        self.references = References(spec, self.limits)
+        self.law = Law(self.pid, self.impedance, self.motors)
+        self.table = ModeTable(spec)
+        self.leaders: list[Callable[[float], None]] = []
+        self.time, self.dt = 0.0, 0.001
+        self.offset = np.zeros(n)
+        self.position, self.velocity, self.acceleration = (np.zeros(n) for _ in range(3))
+        self.torque, self.current = np.zeros(n), np.zeros(n)
+        self._started = False
+        self.refresh()
+
+    def step(
+        self, position: Floats, velocity: Floats, dt: float, feedforward: Floats | None = None
+    ) -> Floats:
+        """Torques (n,) [N m] for the next `dt` seconds; all inputs (n,).
+
+        `feedforward` are torques that hold the weight; they are used where a position is held.
+        """
+        self.time += dt
+        self.dt = dt
+        self._sense(position, velocity, dt)
+        for lead in self.leaders:
+            lead(dt)
+        self.references.step(self.position, dt)
+        error = self.references.position - self.position
+        late = self.references.velocity - self.velocity
+        wished = self.law.step(error, late, self.velocity, feedforward, dt)
+        torque = self.limits.guard(self.position, self.velocity, wished) * self.law.driven
+        self.current = self.motors.current(torque)
+        self.torque = torque
+        self._watch(error)
+        return self.torque
+
+    def set_modes(self, joints: Ints, modes: Sequence[Mode]) -> None:
+        """Change control modes; raises `ModeRefused` and then changes none."""
+        changed = self.table.request(joints, modes)
+        if len(changed):
+            self._begin(changed)
+
+    def set_interactions(self, joints: Ints, modes: Sequence[Interaction]) -> None:
+        """Change interaction modes; raises `NotEquipped` or `ModeRefused`."""
+        self.table.interact(joints, modes)
+        self.refresh()
+
+    def drive_as(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
+        """Put a joint into a state of its own, its motor driven as in the mode `acting`."""
+        self.table.force(joint, mode, acting)
+        self._begin(np.array([joint]))
+
+    def fault(self, joints: Ints, code: Fault, message: str) -> None:
+        """Switch `joints`, and what is coupled with them, off until force-idle."""
+        self.faults.raise_(joints, code, message)
+        whole = self.table.whole(joints)
+        for joint in whole.tolist():
+            self.table.force(joint, Mode.HW_FAULT)
+        self._begin(whole)
+        self.torque = self.torque * self.law.driven
+
+    def set_encoders(self, joints: Ints, position: Floats) -> None:
+        """Let the encoders of `joints` stand at `position` now; references move along."""
+        self.offset[joints] += position - self.position[joints]
+        self.position[joints] = position
+        self.references.reset(joints, position)
+
+    def refresh(self) -> None:
+        """Work out anew what depends on modes and calibration."""
+        self.limits.trust(self.table.calibrated)
+        self.law.choose(self.table.effective, self.table.interactions)
+
+    def state(self) -> BoardState:
+        """A copy of everything that was measured last."""
+        return BoardState(
+            time=self.time,
+            position=self.position.copy(),
+            velocity=self.velocity.copy(),
+            acceleration=self.acceleration.copy(),
+            torque=self.torque.copy(),
+            reference=self.references.position.copy(),
+            motor_counts=self.motors.encoder(self.position),
+            motor_speed=self.motors.speed(self.velocity),
+            current=self.current.copy(),
+            duty=self.motors.duty(self.torque, self.velocity) * self.law.driven,
+            temperature=self.motors.temperature.copy(),
+            modes=tuple(self.table.modes),
+            interactions=self.table.interactions,
+        )
+
+    def _begin(self, joints: Ints) -> None:
+        """A new mode starts from what is measured: no jump, no memory."""
+        self.references.reset(joints, self.position[joints])
+        self.pid.reset(joints)
+        idle = [self.table.modes[i] is Mode.IDLE for i in joints.tolist()]
+        self.law.torque[joints] = np.where(idle, 0.0, self.torque[joints])
+        self.law.duty[joints] = 0.0
+        self.law.current[joints] = 0.0
+        self.refresh()
+
+    def _sense(self, position: Floats, velocity: Floats, dt: float) -> None:
+        good = np.isfinite(position) & np.isfinite(velocity)
+        if not good.all():
+            bad = np.flatnonzero(~good)
+            self.fault(bad, Fault.ENCODER, "the encoder reads no number")
+            position = np.where(good, position, self.position - self.offset)
+            velocity = np.where(good, velocity, 0.0)
+        self.position = position + self.offset
+        if not self._started:
+            self._started = True
+            self.velocity = velocity
+            self.references.reset(np.arange(len(position)), self.position)
+        share = dt / (dt + SMOOTHING)
+        change = (velocity - self.velocity) / dt
+        self.acceleration = self.acceleration + share * (change - self.acceleration)
+        self.velocity = velocity
+
+    def _watch(self, error: Floats) -> None:
+        """Look for faults in what the step has led to."""
+        for bad, code, said in (
+            (overloaded(self.motors, self.current), Fault.OVERCURRENT, "the motor current is"),
+            (too_hot(self.motors), Fault.OVERTEMPERATURE, "the motor temperature is"),
+            (np.abs(error) > self.pid.error_limit, Fault.TRACKING, "the position error is"),
+        ):
+            if bad.any():
+                self._trip(np.flatnonzero(bad), code, said)
+
+    def _trip(self, joints: Ints, code: Fault, said: str) -> None:
+        """Fault those of `joints` that are not off already; a late joint must be held to fault."""
+        modes = self.table.modes
+        fresh = [i for i in joints.tolist() if modes[i] is not Mode.HW_FAULT]
+        if code is Fault.TRACKING:
+            fresh = [i for i in fresh if self.law.positioned[i]]
+        if fresh:
+            self.fault(np.array(fresh), code, f"{said} beyond its limit")

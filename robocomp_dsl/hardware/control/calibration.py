@@ -1,0 +1,155 @@
+"""Calibration of joints whose encoders do not know their zero: a state machine per joint.
+
+In: how each joint finds its zero. Out: orders to the board, step by step:
+
+    NOT_CONFIGURED -> SEARCH (push towards the hard stop) -> ZERO -> HOME -> CALIB_DONE -> POSITION
+
+An absolute encoder skips the search. Too long a search or way home is a hardware fault;
+force-idle ends it. The joint tells `CALIBRATING` all the while.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.errors import BadValue, ModeRefused
+from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.joints import Ints
+from robocomp_dsl.hardware.control.modes import Mode
+
+STILL = 0.01
+"""A joint slower than this stands at its stop [rad/s]."""
+
+SETTLE = 0.2
+"""For so long it must stand there [s]."""
+
+
+class Kind(Enum):
+    """How a joint finds its zero."""
+
+    ABSOLUTE = "absolute"
+    HARD_STOP = "hard stop"
+
+
+@dataclass(frozen=True, slots=True)
+class Procedure:
+    """How one joint is calibrated.
+
+    `zero` is what the encoder reads at angle 0 (absolute), `stop` the angle of the hard stop that
+    `duty` [%] pushes it to; then it goes to `home` at `speed`, all within `timeout` seconds.
+    """
+
+    kind: Kind = Kind.ABSOLUTE
+    zero: float = 0.0
+    duty: float = 0.0
+    stop: float = 0.0
+    home: float = 0.0
+    speed: float = 0.3
+    timeout: float = 20.0
+
+    def __post_init__(self) -> None:
+        if self.kind is Kind.HARD_STOP and self.duty == 0.0:
+            raise BadValue("a search for a hard stop needs a duty cycle")
+        if self.speed <= 0.0 or self.timeout <= 0.0:
+            raise BadValue("speed and timeout of a calibration must be positive")
+
+
+@dataclass(slots=True)
+class _Run:
+    """How far one joint has come."""
+
+    procedure: Procedure
+    searching: bool
+    elapsed: float = 0.0
+    still: float = 0.0
+
+
+class Calibrator:
+    """Leads joints of a board to their zero and home."""
+
+    def __init__(self, board: Board, procedures: tuple[Procedure, ...]) -> None:
+        if len(procedures) != len(board.spec.joints):
+            raise BadValue(f"{len(board.spec.joints)} joints need as many calibration procedures")
+        self._board, self._procedures = board, procedures
+        self._runs: dict[int, _Run] = {}
+        board.leaders.append(self.step)
+
+    def calibrate(self, joints: Ints | None = None) -> None:
+        """Begin with `joints`, or all. Raises `ModeRefused` for a joint with a fault."""
+        chosen = self._board.select.indices(joints)
+        for joint in chosen.tolist():
+            if self._board.table.modes[joint] is Mode.HW_FAULT:
+                name = self._board.spec.names[joint]
+                raise ModeRefused(f"`{name}` has a hardware fault; clear it first (`fidl`)")
+        for joint in chosen.tolist():
+            self._begin(joint)
+
+    def home(self, joints: Ints | None = None) -> None:
+        """Send calibrated joints to their home; raises `ModeRefused` for others."""
+        chosen = self._board.select.indices(joints)
+        self._board.set_modes(chosen, [Mode.POSITION] * len(chosen))
+        for joint in chosen.tolist():
+            self._go_home(joint, self._procedures[joint])
+
+    def quit(self) -> None:
+        """Stop calibrating; the joints stay without calibration, and idle."""
+        for joint in list(self._runs):
+            self._board.drive_as(joint, Mode.NOT_CONFIGURED)
+        self._runs.clear()
+
+    @property
+    def busy(self) -> bool:
+        """Whether any joint is still on its way."""
+        return bool(self._runs)
+
+    def step(self, dt: float) -> None:
+        """Called by the board at every step."""
+        for joint, run in list(self._runs.items()):
+            if self._board.table.modes[joint] is not Mode.CALIBRATING:
+                del self._runs[joint]  # force-idle or a fault took the joint away
+                continue
+            run.elapsed += dt
+            if run.elapsed > run.procedure.timeout:
+                del self._runs[joint]
+                self._board.fault(np.array([joint]), Fault.CALIBRATION, "calibration took too long")
+            elif run.searching:
+                self._search(joint, run, dt)
+            elif not self._board.references.trajectory.moving[joint]:
+                del self._runs[joint]
+                self._board.drive_as(joint, Mode.CALIB_DONE)
+                self._board.drive_as(joint, Mode.POSITION)
+
+    def _begin(self, joint: int) -> None:
+        procedure = self._procedures[joint]
+        self._board.table.calibrated[joint] = False
+        self._runs[joint] = _Run(procedure, searching=procedure.kind is Kind.HARD_STOP)
+        if procedure.kind is Kind.HARD_STOP:
+            self._board.drive_as(joint, Mode.CALIBRATING, Mode.PWM)
+            self._board.law.duty[joint] = procedure.duty
+        else:
+            reading = self._board.position[joint] - self._board.offset[joint]
+            self._zero(joint, procedure, reading - procedure.zero)
+
+    def _search(self, joint: int, run: _Run, dt: float) -> None:
+        still = abs(self._board.velocity[joint]) < STILL
+        run.still = run.still + dt if still else 0.0
+        if run.still >= SETTLE:
+            run.searching = False
+            self._zero(joint, run.procedure, run.procedure.stop)
+
+    def _zero(self, joint: int, procedure: Procedure, angle: float) -> None:
+        """From here on the encoder tells angles; the way home begins."""
+        self._board.set_encoders(np.array([joint]), np.array([angle]))
+        self._board.table.calibrated[joint] = True
+        self._board.drive_as(joint, Mode.CALIBRATING, Mode.POSITION)
+        self._go_home(joint, procedure)
+
+    def _go_home(self, joint: int, procedure: Procedure) -> None:
+        one = np.array([joint])
+        goal, _ = self._board.limits.clip(one, np.array([procedure.home]))
+        speed = np.array([procedure.speed])
+        self._board.references.trajectory.move(one, goal, speed, self._board.dt)

@@ -1,0 +1,155 @@
+"""Orders to a control board, each accepted only in the modes that it belongs to.
+
+In: joints by name or number, values in SI units (duty cycles in percent). A command is carried out
+for all its joints or refused for all, with a typed error; positions are clipped to the limits and
+the answer says where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.errors import NoSpeed, NotEquipped, WrongMode
+from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints, numbers
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
+
+Joints: TypeAlias = Sequence[str] | Sequence[int] | Ints | None
+"""Which joints: names, numbers, or None for all."""
+
+Values: TypeAlias = Sequence[float] | Floats | float
+
+
+class Commands:
+    """What a client may ask of a board."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+
+    def set_mode(self, joints: Joints, mode: Mode | Sequence[Mode]) -> None:
+        """Ask for control modes, one for all joints or one for each."""
+        chosen = self._board.select.indices(joints)
+        wanted = [mode] * len(chosen) if isinstance(mode, Mode) else list(mode)
+        numbers("modes", np.zeros(len(wanted)), len(chosen))
+        self._board.set_modes(chosen, wanted)
+
+    def set_interaction(self, joints: Joints, mode: Interaction) -> None:
+        """Make joints stiff or compliant, whatever their control mode."""
+        chosen = self._board.select.indices(joints)
+        self._board.set_interactions(chosen, [mode] * len(chosen))
+
+    def position_move(self, joints: Joints, goal: Values) -> Bools:
+        """Go to `goal` [rad] by minimum jerk at the reference speed; where goals were clipped."""
+        chosen = self._in(joints, "position_move", Mode.POSITION, Mode.MIXED)
+        return self._move(chosen, numbers("goal", goal, len(chosen)))
+
+    def relative_move(self, joints: Joints, way: Values) -> Bools:
+        """Go by `way` [rad] from where the reference is now."""
+        chosen = self._in(joints, "relative_move", Mode.POSITION, Mode.MIXED)
+        here = self._board.references.trajectory.position[chosen]
+        return self._move(chosen, here + numbers("way", way, len(chosen)))
+
+    def set_position(self, joints: Joints, position: Values) -> Bools:
+        """Follow `position` [rad] at once; for streams of small steps."""
+        chosen = self._in(joints, "set_position", Mode.POSITION_DIRECT)
+        values = numbers("position", position, len(chosen))
+        kept, clipped = self._board.limits.clip(chosen, values)
+        self._board.references.direct(chosen, kept)
+        return clipped
+
+    def velocity_move(self, joints: Joints, velocity: Values, hold: float = np.inf) -> Bools:
+        """Turn at `velocity` [rad/s], for `hold` seconds; where velocities were clipped."""
+        chosen = self._in(joints, "velocity_move", Mode.VELOCITY, Mode.MIXED)
+        values = numbers("velocity", velocity, len(chosen))
+        most = self._board.limits.speed[chosen]
+        kept = np.clip(values, -most, most)
+        self._board.references.drive(chosen, kept, hold)
+        clipped: Bools = kept != values
+        return clipped
+
+    def set_torque(self, joints: Joints, torque: Values) -> Bools:
+        """Reference torques [N m]; where they were clipped."""
+        chosen = self._in(joints, "set_torque", Mode.TORQUE)
+        for joint in chosen.tolist():
+            spec = self._board.spec.joints[joint]
+            if not spec.torque_control:
+                raise NotEquipped(f"`{spec.name}` has no torque control")
+        most = self._board.limits.torque[chosen]
+        return self._store(
+            self._board.law.torque, chosen, numbers("torque", torque, len(chosen)), most
+        )
+
+    def set_duty(self, motors: Joints, duty: Values) -> Bools:
+        """Duty cycles [%] of motors; where they were clipped to +-100."""
+        chosen = self._in(motors, "set_duty", Mode.PWM)
+        values = numbers("duty", duty, len(chosen))
+        return self._store(self._board.law.duty, chosen, values, np.full(len(chosen), 100.0))
+
+    def set_current(self, motors: Joints, current: Values) -> Bools:
+        """Currents [A] of motors; where they were clipped to the largest."""
+        chosen = self._in(motors, "set_current", Mode.CURRENT)
+        values = numbers("current", current, len(chosen))
+        most = self._board.motors.max_current[chosen]
+        return self._store(self._board.law.current, chosen, values, most)
+
+    def stop(self, joints: Joints = None) -> None:
+        """End motions: trajectories stop where they are, velocities ramp down."""
+        self._board.references.stop(self._board.select.indices(joints))
+
+    def motion_done(self, joints: Joints = None) -> Bools:
+        """Whether the trajectories of `joints` have ended."""
+        done: Bools = ~self._board.references.trajectory.moving[self._board.select.indices(joints)]
+        return done
+
+    def set_reference_speed(self, joints: Joints, speed: Values) -> None:
+        """Mean speeds [rad/s] of the next position moves; held below the speed limit."""
+        chosen = self._board.select.indices(joints)
+        values = np.abs(numbers("speed", speed, len(chosen)))
+        most = self._board.limits.speed[chosen]
+        self._board.references.reference_speed[chosen] = np.minimum(values, most)
+
+    def set_acceleration(self, joints: Joints, acceleration: Values) -> None:
+        """How fast velocities change [rad/s²] in the velocity and mixed modes."""
+        chosen = self._board.select.indices(joints)
+        values = np.abs(numbers("acceleration", acceleration, len(chosen)))
+        self._board.references.acceleration[chosen] = values
+
+    def set_impedance(self, joints: Joints, stiffness: Values, damping: Values) -> None:
+        """Spring [N m/rad] and damper [N m s/rad] of the compliant interaction."""
+        chosen = self._board.select.indices(joints)
+        k = numbers("stiffness", stiffness, len(chosen))
+        self._board.impedance.set(chosen, k, numbers("damping", damping, len(chosen)))
+
+    def set_impedance_offset(self, joints: Joints, torque: Values) -> None:
+        """Constant torque [N m] of the compliant interaction."""
+        chosen = self._board.select.indices(joints)
+        self._board.impedance.offset[chosen] = numbers("torque", torque, len(chosen))
+
+    def _move(self, joints: Ints, goal: Floats) -> Bools:
+        speeds = self._board.references.reference_speed[joints]
+        if (speeds <= 0.0).any():
+            name = self._board.spec.names[joints[int(np.argmin(speeds))]]
+            raise NoSpeed(f"`{name}` has the reference speed 0: it would never arrive")
+        kept, clipped = self._board.limits.clip(joints, goal)
+        self._board.references.move(joints, kept, self._board.dt)
+        return clipped
+
+    def _in(self, joints: Joints, command: str, *modes: Mode) -> Ints:
+        """The joints, if all of them take this command now."""
+        chosen = self._board.select.indices(joints)
+        for joint in chosen.tolist():
+            present = self._board.table.modes[joint]
+            if present not in modes:
+                name, takes = self._board.spec.names[joint], " or ".join(f"`{m}`" for m in modes)
+                raise WrongMode(f"`{name}` is in mode `{present}`; `{command}` needs {takes}")
+        return chosen
+
+    @staticmethod
+    def _store(into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
+        kept = np.clip(values, -most, most)
+        into[joints] = kept
+        clipped: Bools = kept != values
+        return clipped

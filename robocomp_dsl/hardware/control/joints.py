@@ -1,0 +1,133 @@
+"""What a board is made of: joints, motors, and how motors are coupled to joints. Data only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class JointSpec:
+    """One joint: limits [rad, rad/s, N m], defaults [rad/s, rad/s²] and its equipment."""
+
+    name: str
+    low: float
+    high: float
+    speed_limit: float
+    torque_limit: float
+    reference_speed: float = 0.17453292519943295
+    acceleration: float = 10.0
+    prismatic: bool = False
+    torque_control: bool = True
+    calibrated: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class MotorSpec:
+    """One motor behind its gear.
+
+    `gear` is motor turns per joint turn, `counts` encoder counts per motor turn; `torque_constant`
+    [N m/A], `resistance` [ohm], `supply` [V] and `max_current` [A] are those of the motor.
+    """
+
+    name: str
+    gear: float = 100.0
+    counts: float = 4096.0
+    torque_constant: float = 0.02
+    resistance: float = 1.0
+    supply: float = 24.0
+    max_current: float = 5.0
+    temperature_limit: float = 85.0
+
+
+@dataclass(frozen=True, eq=False)
+class BoardSpec:
+    """The n joints of a board, its n motors, and motor angle = gear * coupling @ joint angle.
+
+    `coupling` (n, n) is the identity unless joints share motors; joints whose rows mix are one set
+    and change their mode together.
+    """
+
+    joints: tuple[JointSpec, ...]
+    motors: tuple[MotorSpec, ...]
+    coupling: Floats = field(default_factory=lambda: np.empty((0, 0)))
+
+    def __post_init__(self) -> None:
+        n = len(self.joints)
+        if not self.coupling.size:
+            object.__setattr__(self, "coupling", np.eye(n))
+        if len(self.motors) != n or self.coupling.shape != (n, n):
+            raise BadValue(f"{n} joints need as many motors and a coupling of {n} x {n}")
+        if np.linalg.matrix_rank(self.coupling) < n:
+            raise BadValue("the coupling cannot be turned round: some joint has no motor")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Joint names in the order of all arrays."""
+        return tuple(joint.name for joint in self.joints)
+
+    def column(self, name: str) -> Floats:
+        """One number of every joint, (n,)."""
+        return np.array([float(getattr(joint, name)) for joint in self.joints])
+
+    def motor_column(self, name: str) -> Floats:
+        """One number of every motor, (n,)."""
+        return np.array([float(getattr(motor, name)) for motor in self.motors])
+
+    def coupled(self, joint: int) -> Ints:
+        """All joints that share motors with `joint`, itself included, ascending."""
+        related = (self.coupling != 0) | (self.coupling.T != 0)
+        found = np.arange(len(self.joints)) == joint
+        for _ in range(len(self.joints)):
+            found = found | related[found].any(axis=0)
+        return np.flatnonzero(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Selector:
+    """Turns what a caller names or numbers into joint indices."""
+
+    names: tuple[str, ...]
+
+    def indices(self, joints: Sequence[str] | Sequence[int] | Ints | None) -> Ints:
+        """Indices of `joints`, all for None. `UnknownJoint` if not there, or there twice."""
+        if joints is None:
+            return np.arange(len(self.names))
+        found = np.array([self.index(joint) for joint in joints], dtype=np.int64)
+        if len(set(found.tolist())) != len(found):
+            raise UnknownJoint("a joint is named twice in one command")
+        return found
+
+    def index(self, joint: str | int) -> int:
+        """Index of one joint."""
+        if isinstance(joint, str):
+            if joint not in self.names:
+                raise UnknownJoint(f"there is no joint `{joint}`: " + ", ".join(self.names))
+            return self.names.index(joint)
+        if not 0 <= joint < len(self.names):
+            raise UnknownJoint(f"there is no joint {joint}: the board has {len(self.names)}")
+        return int(joint)
+
+
+def numbers(name: str, values: object, size: int) -> Floats:
+    """`values` as (size,) finite numbers, one number standing for all. Raises `BadValue`."""
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise BadValue(f"`{name}` is not made of numbers") from None
+    if array.ndim == 0:
+        array = np.full(size, float(array))
+    if array.shape != (size,):
+        raise BadValue(f"`{name}` has {array.size} values, {size} are needed")
+    if not np.isfinite(array).all():
+        raise BadValue(f"`{name}` holds NaN or infinity")
+    return array

@@ -1,0 +1,79 @@
+"""Limits on position, speed and torque, applied before anything reaches a motor.
+
+In: wishes. Out: what the joint may do. Positions are clipped when they are commanded and on the
+way; a torque that would push a joint past a limit is taken away and a spring leads it back; a
+torque that would speed it up beyond its limit is taken away too.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.errors import BadValue
+from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Floats, Ints
+
+_SPRING = 20.0
+_DAMPER = 1.0
+"""Strength of the soft stops, in torque limits per rad and per rad/s."""
+
+
+class Limits:
+    """All arrays (n,): `low`, `high` [rad], `speed` [rad/s], `torque` [N m]."""
+
+    def __init__(self, spec: BoardSpec) -> None:
+        self.low, self.high = spec.column("low"), spec.column("high")
+        self.speed, self.torque = spec.column("speed_limit"), spec.column("torque_limit")
+        self._widest = self.low.copy(), self.high.copy()
+        self._trusted = np.ones(len(self.low), bool)
+        self._stops = self.low, self.high
+        self._check(self.low, self.high)
+
+    def trust(self, calibrated: Bools) -> None:
+        """Where the encoders (n,) tell true angles; elsewhere there are no soft stops."""
+        self._trusted = calibrated
+        self._place_stops()
+
+    def set_position(self, joints: Ints, low: Floats, high: Floats) -> None:
+        """Narrow the range of `joints`; wider than the mechanics is refused."""
+        self._check(low, high)
+        if (low < self._widest[0][joints]).any() or (high > self._widest[1][joints]).any():
+            raise BadValue("position limits may be narrowed, not be wider than the joint's own")
+        self.low[joints], self.high[joints] = low, high
+        self._place_stops()
+
+    def set_speed(self, joints: Ints, speed: Floats) -> None:
+        """Change the largest speeds of `joints`."""
+        if (speed <= 0.0).any():
+            raise BadValue("a speed limit must be positive")
+        self.speed[joints] = speed
+
+    def clip(self, joints: Ints, position: Floats) -> tuple[Floats, Bools]:
+        """Positions within the limits, and where they had to be moved."""
+        kept = np.clip(position, self.low[joints], self.high[joints])
+        return kept, kept != position
+
+    def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
+        """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
+        low, high = self._stops
+        past = q - np.minimum(np.maximum(q, low), high)
+        fast = np.abs(dq) > self.speed
+        if past.any():
+            back = -self.torque * (_SPRING * past + _DAMPER * dq)
+            # the spring only helps: it never pushes further out than the wish would
+            above, below = past > 0.0, past < 0.0
+            torque = np.where(above, np.minimum(torque, back), torque)
+            torque = np.where(below, np.maximum(torque, back), torque)
+        if fast.any():
+            torque = np.where(fast & (torque * dq > 0.0), 0.0, torque)
+        bounded: Floats = np.minimum(np.maximum(torque, -self.torque), self.torque)
+        return bounded
+
+    def _place_stops(self) -> None:
+        low = np.where(self._trusted, self.low, -np.inf)
+        high = np.where(self._trusted, self.high, np.inf)
+        self._stops = low, high
+
+    @staticmethod
+    def _check(low: Floats, high: Floats) -> None:
+        if (low >= high).any():
+            raise BadValue("a lower position limit must lie below the upper one")

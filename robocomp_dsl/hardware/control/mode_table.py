@@ -1,0 +1,76 @@
+"""The modes of all joints of a board. Coupled joints change together, or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.errors import ModeRefused, NotEquipped
+from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Ints
+from robocomp_dsl.hardware.control.modes import Interaction, Mode, next_mode
+
+
+class ModeTable:
+    """Control mode, interaction mode and calibration of each joint."""
+
+    def __init__(self, spec: BoardSpec) -> None:
+        self._spec = spec
+        self._sets = [spec.coupled(i) for i in range(len(spec.joints))]
+        self.calibrated: Bools = np.array([joint.calibrated for joint in spec.joints])
+        self.modes = [Mode.IDLE if done else Mode.NOT_CONFIGURED for done in self.calibrated]
+        self._interactions = [Interaction.STIFF] * len(spec.joints)
+        self.acting: dict[int, Mode] = {}
+
+    @property
+    def interactions(self) -> tuple[Interaction, ...]:
+        """Interaction modes; a joint with a fault reads stiff and gets its own back afterwards."""
+        return tuple(
+            Interaction.STIFF if mode is Mode.HW_FAULT else interaction
+            for mode, interaction in zip(self.modes, self._interactions, strict=True)
+        )
+
+    @property
+    def effective(self) -> list[Mode]:
+        """The modes by which the motors are driven: what calibration does under its own name."""
+        return [self.acting.get(i, mode) for i, mode in enumerate(self.modes)]
+
+    def whole(self, joints: Ints) -> Ints:
+        """`joints` and all that are coupled with them, ascending."""
+        return np.unique(np.concatenate([self._sets[i] for i in joints.tolist()] or [joints]))
+
+    def request(self, joints: Ints, wanted: Sequence[Mode]) -> Ints:
+        """Change the control modes; the joints that really changed. `ModeRefused` changes none."""
+        asked: dict[int, Mode] = {}
+        for joint, mode in zip(joints.tolist(), wanted, strict=True):
+            for one in self._sets[joint].tolist():
+                if asked.setdefault(one, mode) is not mode:
+                    name = self._spec.names[one]
+                    raise ModeRefused(f"`{name}` is coupled with a joint that gets another mode")
+        names, done = self._spec.names, self.calibrated
+        found = {
+            joint: next_mode(names[joint], self.modes[joint], mode, calibrated=bool(done[joint]))
+            for joint, mode in asked.items()
+        }
+        changed = [joint for joint, mode in found.items() if mode is not self.modes[joint]]
+        for joint in changed:
+            self.force(joint, found[joint])
+        return np.array(sorted(changed), dtype=np.int64)
+
+    def force(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
+        """Put a joint into a mode that it comes into by itself; driven as `acting`, if given."""
+        self.modes[joint] = mode
+        self.acting.pop(joint, None)
+        if acting is not None:
+            self.acting[joint] = acting
+
+    def interact(self, joints: Ints, wanted: Sequence[Interaction]) -> None:
+        """Change the interaction modes. Raises `NotEquipped`, `ModeRefused`; then none changes."""
+        for joint, interaction in zip(joints.tolist(), wanted, strict=True):
+            spec = self._spec.joints[joint]
+            if interaction is Interaction.COMPLIANT and not spec.torque_control:
+                raise NotEquipped(f"`{spec.name}` has no torque control and cannot be compliant")
+            if self.modes[joint] is Mode.HW_FAULT:
+                raise ModeRefused(f"`{spec.name}` has a hardware fault; clear it first (`fidl`)")
+        for joint, interaction in zip(joints.tolist(), wanted, strict=True):
+            self._interactions[joint] = interaction

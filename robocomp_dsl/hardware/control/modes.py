@@ -1,0 +1,73 @@
+"""Control and interaction modes, and which may follow which (YARP IControlMode, icub-tests).
+
+In: the present mode of a joint and a wish. Out: the mode that it gets, or `ModeRefused`.
+"""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from robocomp_dsl.hardware.control.errors import ModeRefused
+
+
+class Mode(StrEnum):
+    """Control modes; the values are YARP's short names."""
+
+    IDLE = "idl"
+    FORCE_IDLE = "fidl"
+    POSITION = "pos"
+    POSITION_DIRECT = "posd"
+    VELOCITY = "vel"
+    MIXED = "mix"
+    TORQUE = "torq"
+    PWM = "ipwm"
+    CURRENT = "icur"
+    HW_FAULT = "hwfa"
+    CALIBRATING = "cal"
+    CALIB_DONE = "cald"
+    NOT_CONFIGURED = "cfgn"
+    CONFIGURED = "cfgy"
+    UNKNOWN = "unkw"
+
+
+class Interaction(StrEnum):
+    """Stiff: follow the reference with all torque. Compliant: as a spring and a damper."""
+
+    STIFF = "stif"
+    COMPLIANT = "comp"
+
+
+SELECTABLE = (
+    Mode.IDLE,
+    Mode.FORCE_IDLE,
+    Mode.POSITION,
+    Mode.POSITION_DIRECT,
+    Mode.VELOCITY,
+    Mode.MIXED,
+    Mode.TORQUE,
+    Mode.PWM,
+    Mode.CURRENT,
+)
+"""Modes that a command may ask for; the others are states that the joint comes into by itself."""
+
+POSITIONED = (Mode.POSITION, Mode.POSITION_DIRECT, Mode.VELOCITY, Mode.MIXED)
+"""Modes that hold a reference position."""
+
+
+def next_mode(name: str, present: Mode, wanted: Mode, *, calibrated: bool) -> Mode:
+    """The mode that joint `name` gets when `wanted` is asked for; raises `ModeRefused`.
+
+    Force-idle always leads to idle and is the only way out of a hardware fault. A joint that is
+    not calibrated may only rest.
+    """
+    if wanted not in SELECTABLE:
+        raise ModeRefused(f"`{name}`: `{wanted}` is a state, it cannot be asked for")
+    if wanted is Mode.FORCE_IDLE:
+        return Mode.IDLE
+    if present is Mode.HW_FAULT:
+        raise ModeRefused(f"`{name}` has a hardware fault; only force-idle (`fidl`) clears it")
+    if present is Mode.CALIBRATING:
+        raise ModeRefused(f"`{name}` is being calibrated; force-idle (`fidl`) stops that")
+    if not calibrated and wanted is not Mode.IDLE:
+        raise ModeRefused(f"`{name}` is not calibrated and may only be idle")
+    return wanted

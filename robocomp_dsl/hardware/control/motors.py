@@ -1,0 +1,76 @@
+"""Motors behind gears and couplings, their amplifiers, and the encoders on both ends.
+
+In: joint angles and torques. Out: motor angles, encoder counts, currents, duty cycles. With M =
+diag(gear) @ coupling, motor angles are M @ joint angles and joint torques M^T @ motor torques.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.errors import BadValue
+from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints
+
+ROOM_TEMPERATURE = 25.0
+
+
+class Motors:
+    """All arrays (n,), by motor."""
+
+    def __init__(self, spec: BoardSpec) -> None:
+        self.gear = spec.motor_column("gear")
+        self.counts = spec.motor_column("counts")
+        self.torque_constant = spec.motor_column("torque_constant")
+        self.resistance = spec.motor_column("resistance")
+        self.supply = spec.motor_column("supply")
+        self.max_current = spec.motor_column("max_current")
+        self.temperature_limit = spec.motor_column("temperature_limit")
+        self.temperature = np.full(len(self.gear), ROOM_TEMPERATURE)
+        self.zero = np.zeros(len(self.gear))  # counts at motor angle 0, as set by the user
+        self.to_motor = self.gear[:, None] * spec.coupling
+        self._torque_to_motor = np.linalg.inv(self.to_motor).T
+        # joint torque per motor current, and the joint damping that the back EMF makes
+        self._per_amp = self.to_motor.T * self.torque_constant
+        bemf = self.torque_constant**2 / self.resistance
+        self._bemf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
+
+    def current(self, torque: Floats) -> Floats:
+        """Motor currents [A] that make the joint torques (n,) [N m]."""
+        current: Floats = (self._torque_to_motor @ torque) / self.torque_constant
+        return current
+
+    def torque_of_current(self, current: Floats) -> Floats:
+        """Joint torques of motor currents."""
+        torque: Floats = self._per_amp @ current
+        return torque
+
+    def torque_of_duty(self, duty: Floats, joint_velocity: Floats) -> Floats:
+        """Joint torques of duty cycles [%] at the joints' velocities."""
+        stalled = self.supply * duty / 100.0 / self.resistance
+        torque: Floats = self._per_amp @ stalled - self._bemf @ joint_velocity
+        return torque
+
+    def duty(self, torque: Floats, joint_velocity: Floats) -> Floats:
+        """Duty cycles [%] behind joint torques at the joints' velocities, within +-100."""
+        emf = self.torque_constant * (self.to_motor @ joint_velocity)
+        volts = self.current(torque) * self.resistance + emf
+        return np.clip(100.0 * volts / self.supply, -100.0, 100.0)
+
+    def encoder(self, joint_angles: Floats) -> Floats:
+        """Encoder counts of the motors, whole numbers."""
+        turns = self.to_motor @ joint_angles / (2 * np.pi)
+        return np.asarray(np.floor(turns * self.counts) + self.zero)
+
+    def set_encoder(self, motors: Ints, counts: Floats, joint_angles: Floats) -> None:
+        """Let the counters of `motors` stand at `counts` now."""
+        self.zero[motors] += counts - self.encoder(joint_angles)[motors]
+
+    def speed(self, joint_velocities: Floats) -> Floats:
+        """Encoder counts per second."""
+        return np.asarray(self.to_motor @ joint_velocities / (2 * np.pi) * self.counts)
+
+    def set_max_current(self, motors: Ints, current: Floats) -> None:
+        """The current [A] at which a motor faults."""
+        if (current < 0.0).any():
+            raise BadValue("a largest current must not be negative")
+        self.max_current[motors] = current

@@ -1,0 +1,94 @@
+"""Remote variables: settings of a board that clients read and write by name, as lists of numbers.
+
+In: a key and values. Out: values. A key knows how long its list is and what it may hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.errors import BadValue, ControlRefused
+from robocomp_dsl.hardware.control.joints import Floats, numbers
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """`write` is None for what can only be read."""
+
+    read: Callable[[], Floats]
+    write: Callable[[Floats], None] | None
+    doc: str
+
+
+class RemoteVariables:
+    """The variables of one board, by key."""
+
+    def __init__(self, board: Board) -> None:
+        everyone = np.arange(len(board.spec.joints))
+        limits, motors = board.limits, board.motors
+        self.variables: dict[str, Variable] = {
+            "speed_limits": Variable(
+                lambda: limits.speed,
+                lambda v: limits.set_speed(everyone, v),
+                "largest joint speeds [rad/s]",
+            ),
+            "max_currents": Variable(
+                lambda: motors.max_current,
+                lambda v: motors.set_max_current(everyone, v),
+                "motor currents that fault [A]",
+            ),
+            "tracking_limits": Variable(
+                lambda: board.pid.error_limit,
+                lambda v: _positive(board.pid.error_limit, v),
+                "position errors that fault [rad]",
+            ),
+            "gears": Variable(lambda: motors.gear, None, "motor turns per joint turn"),
+            "temperatures": Variable(lambda: motors.temperature, None, "of the motors [degC]"),
+        }
+        for i, name in enumerate(board.spec.names):
+            self.variables[f"pid.{name}"] = _gains(board, i)
+
+    def keys(self) -> list[str]:
+        """All keys, sorted."""
+        return sorted(self.variables)
+
+    def get(self, key: str) -> Floats:
+        """The values of `key`; raises `BadValue` for a key that is not there."""
+        return np.array(self._find(key).read())
+
+    def set(self, key: str, values: object) -> None:
+        """Write `values`; raises `BadValue` for a key, a number or a length that does not fit."""
+        variable = self._find(key)
+        if variable.write is None:
+            raise ControlRefused(f"`{key}` can only be read")
+        variable.write(numbers(key, values, len(variable.read())))
+
+    def _find(self, key: str) -> Variable:
+        if key not in self.variables:
+            raise BadValue(f"there is no variable `{key}`: " + ", ".join(self.keys()))
+        return self.variables[key]
+
+
+def _gains(board: Board, joint: int) -> Variable:
+    """The position regulator of one joint as kp, ki, kd, offset."""
+
+    def read() -> Floats:
+        g = board.pid.gains[joint]
+        return np.array([g.kp, g.ki, g.kd, g.offset])
+
+    def write(values: Floats) -> None:
+        kp, ki, kd, offset = (float(value) for value in values)
+        made = replace(board.pid.gains[joint], kp=kp, ki=ki, kd=kd, offset=offset)
+        board.pid.set(joint, made)
+
+    return Variable(read, write, "position regulator: kp, ki, kd, offset")
+
+
+def _positive(into: Floats, values: Floats) -> None:
+    if (values <= 0.0).any():
+        raise BadValue("an error limit must be positive")
+    into[:] = values

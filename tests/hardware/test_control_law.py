@@ -1,0 +1,212 @@
+"""Trajectories, ramps, regulators, limits, motors: each part of a control board by itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
+from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
+from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.minimum_jerk import MinimumJerk
+from robocomp_dsl.hardware.control.motors import Motors
+from robocomp_dsl.hardware.control.pid import Gains, PidBank
+from robocomp_dsl.hardware.control.velocity import VelocityRamp
+
+ONE = np.array([0])
+DT = 0.001
+
+
+def board(n: int = 2, coupling=None) -> BoardSpec:
+    joints = tuple(JointSpec(f"j{i}", -1.0, 1.0, 2.0, 5.0) for i in range(n))
+    motors = tuple(MotorSpec(f"m{i}") for i in range(n))
+    return BoardSpec(joints, motors, np.empty((0, 0)) if coupling is None else np.array(coupling))
+
+
+def follow(trajectory: MinimumJerk, seconds: float) -> np.ndarray:
+    return np.array(
+        [(trajectory.step(DT), trajectory.position[0])[1] for _ in range(int(seconds / DT))]
+    )
+
+
+@pytest.mark.parametrize(
+    ("speed_at_start", "expected"),
+    [  # 30 degrees at 20 degrees a second: a quarter, half, three quarters, all of 1.5 s
+        (0.0, (3.10546875, 15.0, 26.89453125, 30.0)),
+        (10.0, (5.8740234375, 17.34375, 27.4658203125, 30.0)),
+    ],
+)
+def test_minimum_jerk_values(speed_at_start, expected):
+    trajectory = MinimumJerk(np.zeros(1))
+    trajectory.velocity[0] = speed_at_start
+    trajectory.move(ONE, np.array([30.0]), np.array([20.0]), DT)
+    way = follow(trajectory, 1.5)
+    assert way[[374, 749, 1124, 1499]] == pytest.approx(expected, abs=0.02)
+    assert way[374] == pytest.approx(expected[0], abs=1e-6)
+    assert not trajectory.moving[0]
+    assert trajectory.velocity[0] == 0.0
+
+
+def test_the_peak_speed_is_1_875_times_the_mean():
+    trajectory = MinimumJerk(np.zeros(1))
+    trajectory.move(ONE, np.array([30.0]), np.array([20.0]), DT)
+    speeds = [(trajectory.step(DT), trajectory.velocity[0])[1] for _ in range(1500)]
+    assert max(speeds) == pytest.approx(37.5, abs=1e-3)
+
+
+def test_a_motion_shorter_than_a_step_ends_at_once():
+    trajectory = MinimumJerk(np.zeros(1))
+    trajectory.move(ONE, np.array([1e-6]), np.array([1.0]), DT)
+    assert not trajectory.moving[0]
+    assert trajectory.position[0] == 1e-6
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.floats(-3, 3), st.floats(-3, 3), st.floats(0.2, 4), st.integers(1, 400))
+def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, steps):
+    trajectory = MinimumJerk(np.zeros(1))
+    trajectory.move(ONE, np.array([first]), np.array([speed]), DT)
+    follow(trajectory, steps * DT)
+    position, velocity = trajectory.position[0], trajectory.velocity[0]
+    trajectory.move(ONE, np.array([second]), np.array([speed]), DT)
+    if trajectory.moving[0]:
+        trajectory.step(1e-7)
+        assert trajectory.position[0] == pytest.approx(position, abs=1e-6)
+        assert trajectory.velocity[0] == pytest.approx(velocity, abs=1e-3)
+    follow(trajectory, abs(second - position) / speed + 0.01)
+    assert trajectory.position[0] == second
+
+
+def test_joints_move_each_in_its_own_time():
+    trajectory = MinimumJerk(np.zeros(3))
+    trajectory.move(np.array([0, 2]), np.array([1.0, -1.0]), np.array([1.0, 2.0]), DT)
+    for _ in range(500):
+        trajectory.step(DT)
+    assert trajectory.moving.tolist() == [True, False, False]
+    assert trajectory.position == pytest.approx([0.5, 0, -1])
+
+
+def test_velocities_ramp_and_time_out():
+    ramp = VelocityRamp(1)
+    ramp.command(ONE, np.array([1.0]), hold=0.3)
+    speeds = [float(ramp.step(np.array([5.0]), DT)[0]) for _ in range(600)]
+    assert speeds[99] == pytest.approx(0.5)
+    assert max(speeds) == 1.0
+    assert speeds[310] == pytest.approx(1 - 5 * 0.01, abs=0.02)
+    assert speeds[-1] == 0.0
+    assert not ramp.active
+
+
+def test_regulators_have_proportion_integral_damping_and_bounds():
+    bank = PidBank((Gains(kp=2, ki=1, kd=0.5, offset=0.1, max_output=10, max_integral=0.3),))
+    every = np.ones(1)
+    assert bank.step(np.array([1.0]), np.array([2.0]), 0.1, every) == pytest.approx([3.2])
+    for _ in range(100):
+        bank.step(np.array([1.0]), np.zeros(1), 0.1, every)
+    assert bank.integral == pytest.approx([0.3])
+    assert bank.step(np.array([100.0]), np.zeros(1), 0.1, every) == pytest.approx([10])
+    assert bank.step(np.array([1.0]), np.zeros(1), 0.1, np.zeros(1)) == pytest.approx([0])
+    bank.enabled[0] = False
+    assert bank.step(np.array([1.0]), np.zeros(1), 0.1, every) == pytest.approx([0])
+
+
+def test_an_integral_does_not_wind_up_at_the_bound():
+    bank = PidBank((Gains(kp=1, ki=10, max_output=1),))
+    for _ in range(1000):
+        bank.step(np.array([5.0]), np.zeros(1), 0.01, np.ones(1))
+    assert bank.integral[0] < 1.0
+
+
+@pytest.mark.parametrize("wrong", [{"kp": -1}, {"ki": np.nan}, {"max_output": -1}, {"kd": np.inf}])
+def test_impossible_gains_are_refused(wrong):
+    with pytest.raises(BadValue):
+        Gains(**wrong)
+
+
+def test_springs_pull_back_and_keep_to_their_bounds():
+    impedance = Impedance((Bounds(100, 5),) * 2)
+    both = np.array([0, 1])
+    impedance.set(both, np.array([10.0, 0]), np.array([1.0, 0]))
+    impedance.offset[1] = 0.5
+    assert impedance.torque(np.full(2, 0.1), np.full(2, -1.0)) == pytest.approx([0.0, 0.5])
+    with pytest.raises(BadValue, match="0 to 100"):
+        impedance.set(both, np.array([101.0, 0]), np.zeros(2))
+    assert impedance.stiffness[0] == 10.0
+
+
+def test_torques_keep_to_the_limits_and_lead_back():
+    limits = Limits(board(5))
+    q = np.array([0.0, 1.01, 1.01, -1.01, 0.0])
+    dq = np.array([0.0, 0.0, 0.0, 0.0, 3.0])
+    torque = limits.guard(q, dq, np.array([9.0, 4.0, -4.0, -1.0, 1.0]))
+    assert torque == pytest.approx([5.0, -1.0, -4.0, 1.0, 0.0])
+    assert limits.guard(q, dq, np.array([0, 0, 0, 0, -1.0]))[4] == -1.0
+    limits.trust(np.array([True, False, True, True, True]))
+    assert limits.guard(q, dq, np.full(5, 4.0))[1] == 4.0
+
+
+def test_limits_may_be_narrowed_only():
+    limits = Limits(board())
+    limits.set_position(ONE, np.array([-0.5]), np.array([0.5]))
+    kept, clipped = limits.clip(np.array([0, 1]), np.array([0.7, 0.7]))
+    assert kept == pytest.approx([0.5, 0.7])
+    assert clipped.tolist() == [True, False]
+    for low, high in ((-2, 0), (0.5, 0.2), (0, 1.5)):
+        with pytest.raises(BadValue):
+            limits.set_position(ONE, np.array([float(low)]), np.array([float(high)]))
+    with pytest.raises(BadValue):
+        limits.set_speed(ONE, np.array([0.0]))
+
+
+DIFFERENTIAL = [[1.0, 1.0], [1.0, -1.0]]
+
+
+@given(st.tuples(*(st.floats(-5, 5) for _ in range(4))))
+def test_motors_and_joints_do_the_same_work(values):
+    motors = Motors(board(2, DIFFERENTIAL))
+    torque, velocity = np.array(values[:2]), np.array(values[2:])
+    motor_torque = motors.current(torque) * motors.torque_constant
+    work = motor_torque @ (motors.to_motor @ velocity)
+    assert work == pytest.approx(torque @ velocity, abs=1e-9)
+    assert motors.torque_of_current(motors.current(torque)) == pytest.approx(torque, abs=1e-9)
+    duty = motors.duty(torque, velocity)
+    if (np.abs(duty) < 100).all():
+        assert motors.torque_of_duty(duty, velocity) == pytest.approx(torque, abs=1e-6)
+
+
+def test_motor_encoders_count_through_gear_and_coupling():
+    motors = Motors(board(2, DIFFERENTIAL))
+    q = np.array([0.1, 0.2])
+    turns = 100 * np.array([0.3, -0.1]) / (2 * np.pi)
+    assert motors.encoder(q) == pytest.approx(turns * 4096, abs=1.0)
+    motors.set_encoder(np.array([1]), np.array([5.0]), q)
+    assert motors.encoder(q)[1] == 5.0
+    assert motors.speed(q) == pytest.approx(turns * 4096)
+
+
+def test_boards_that_cannot_be_are_refused():
+    with pytest.raises(BadValue, match="no motor"):
+        board(2, [[1.0, 0.0], [1.0, 0.0]])
+    with pytest.raises(BadValue, match="as many motors"):
+        board(2, [[1.0]])
+    chain = [[1.0, 0, 0, 0], [1, 1, 0, 0], [0, 1, 1, 0], [0, 0, 0, 1]]
+    assert board(4, chain).coupled(0).tolist() == [0, 1, 2]
+    assert board(4, chain).coupled(3).tolist() == [3]
+
+
+def test_joints_are_found_by_name_or_number():
+    select = Selector(("a", "b"))
+    assert select.indices(["b", "a"]).tolist() == [1, 0]
+    assert select.indices(None).tolist() == [0, 1]
+    for wrong in (["c"], [2], [-1], ["a", "a"], ["a", 0]):
+        with pytest.raises(UnknownJoint):
+            select.indices(wrong)
+
+
+@pytest.mark.parametrize("wrong", [[1.0], [1.0, np.nan], "x", [1, "y"], None, [[1, 2]], np.inf])
+def test_values_that_are_no_numbers_are_refused(wrong):
+    with pytest.raises(BadValue):
+        numbers("x", wrong, 2)
