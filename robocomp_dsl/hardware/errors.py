@@ -19,6 +19,10 @@ class CommandRefused(HardwareError):
     """A command that makes no sense or is beyond a limit; nothing has changed."""
 
 
+class FrameError(HardwareError):
+    """A frame that does not exist, exists already, or cannot go where it shall."""
+
+
 class SceneError(HardwareError):
     """The world cannot be simulated as it is described."""
 

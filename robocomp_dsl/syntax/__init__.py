@@ -14,7 +14,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
 
 if TYPE_CHECKING:
-    from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_pdsl
+    from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_innermodel, ast_pdsl
 
     AnyFile: TypeAlias = ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File
 
@@ -45,6 +45,13 @@ def parse_ddsl(source: Source, report: Report) -> ast_ddsl.File:
     from robocomp_dsl.syntax import ddsl  # noqa: PLC0415 - loaded on first use
 
     return ddsl.parse(source, report)
+
+
+def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of an InnerModel file (XML)."""
+    from robocomp_dsl.syntax import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse(source, report)
 
 
 LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {

@@ -1,13 +1,14 @@
 """Between RoboComp's frame and MuJoCo's.
 
 RoboComp: mm, x right, y up, z ahead (left-handed; angles turn accordingly). MuJoCo: m, z up,
-right-handed. Ours puts MuJoCo's x to the right and its y ahead, so that the two frames differ by
-an exchange of y and z, and a heading changes its sign.
+right-handed. Ours puts MuJoCo's x to the right and its y ahead, so that the two differ by an
+exchange of y and z: a mirror, which keeps rotations rotations but turns them the other way.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,10 +18,48 @@ from robocomp_dsl.hardware.planar import Pose, wrapped
 
 MM = 1e-3
 
+Array = NDArray[np.float64]
+
 
 def point(x: float, y: float, z: float) -> list[float]:
     """A point of RoboComp's (mm) in MuJoCo's frame (m)."""
     return [x * MM, z * MM, y * MM]
+
+
+def points(given: Array) -> Array:
+    """As `point`, shape (n, 3)."""
+    return given[:, [0, 2, 1]] * MM
+
+
+def direction(given: Sequence[float]) -> list[float]:
+    """A direction, without units."""
+    return [given[0], given[2], given[1]]
+
+
+def turn_axis(given: Sequence[float] | Array) -> list[float]:
+    """The axis about which a positive angle turns in MuJoCo as about `given` in RoboComp."""
+    return [-float(given[0]), -float(given[2]), -float(given[1])]
+
+
+def quaternion(rotation: Array) -> list[float]:
+    """The quaternion (w, x, y, z) of a rotation of RoboComp, shape (3, 3).
+
+    Shepperd's method: divides by the largest of the four.
+    """
+    m = rotation[[0, 2, 1]][:, [0, 2, 1]]
+    xx, yy, zz = (float(m[i, i]) for i in range(3))
+    squares = [1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz]
+    largest = max(range(4), key=squares.__getitem__)
+    wx, wy, wz = (float(m[2, 1] - m[1, 2]), float(m[0, 2] - m[2, 0]), float(m[1, 0] - m[0, 1]))
+    xy, xz, yz = (float(m[1, 0] + m[0, 1]), float(m[0, 2] + m[2, 0]), float(m[2, 1] + m[1, 2]))
+    row = (
+        [squares[0], wx, wy, wz],
+        [wx, squares[1], xy, xz],
+        [wy, xy, squares[2], yz],
+        [wz, xz, yz, squares[3]],
+    )[largest]
+    norm = math.sqrt(sum(part * part for part in row))
+    return [part / norm for part in row]
 
 
 def heading(alpha: float) -> list[float]:
@@ -36,6 +75,14 @@ def pose(position: NDArray[Any], rotation: NDArray[Any]) -> Pose:
     )
 
 
-def floor(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def matrix(position: NDArray[Any], rotation: NDArray[Any]) -> Array:
+    """The same body as a matrix of RoboComp's, shape (4, 4), in mm."""
+    made = np.eye(4)
+    made[:3, :3] = np.reshape(rotation, (3, 3))[[0, 2, 1]][:, [0, 2, 1]]
+    made[:3, 3] = np.asarray(position)[[0, 2, 1]] / MM
+    return made
+
+
+def floor(given: Array) -> Array:
     """Points of MuJoCo, shape (n, 3) in m, as (x, z) in mm, shape (n, 2)."""
-    return points[:, :2] / MM
+    return given[:, :2] / MM

@@ -1,0 +1,118 @@
+"""The attributes of one InnerModel element, from texts to values.
+
+In: the element and what its tag allows. Out: the values of the attributes that are right, by name;
+the model's defaults stand in for the others, which are reported.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from robocomp_dsl.check import codes_body as codes
+from robocomp_dsl.check.innermodel_tags import (
+    EXTENT,
+    FLAG,
+    NUMBER,
+    SCALE,
+    TEXT,
+    WHOLE,
+    Kind,
+    Tag,
+)
+from robocomp_dsl.diagnostics import Report, did_you_mean, nearest
+from robocomp_dsl.syntax.ast_innermodel import Attribute, Element
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?inf", re.IGNORECASE)
+_LARGEST_WHOLE = 2**31 - 1
+
+
+class _Unfit(Exception):
+    """The text is no value of its kind."""
+
+
+def read_values(element: Element, tag: Tag, report: Report) -> dict[str, object]:
+    """The values that `element` gives."""
+    values: dict[str, object] = {}
+    for one in element.attributes:
+        kind = tag.attributes.get(one.name.text)
+        if kind is None:
+            _unknown(one, element, tag.attributes, report)
+            continue
+        try:
+            values[one.name.text] = _value(one.value.value.strip(), kind)
+        except _Unfit:
+            _misfit(one, kind, report)
+    return values
+
+
+def _value(text: str, kind: Kind) -> object:
+    if isinstance(kind, tuple):
+        if text.lower() not in kind:
+            raise _Unfit
+        return text.lower()
+    if kind == TEXT:
+        return text
+    if kind in (EXTENT, SCALE):
+        return _triple([_number(part.strip()) for part in text.split(",")], kind)
+    number = _number(text)
+    if kind == NUMBER:
+        return number
+    if number != number // 1 or abs(number) > _LARGEST_WHOLE:
+        raise _Unfit
+    if kind == FLAG:
+        return number > 0
+    if kind == WHOLE:
+        return int(number)
+    raise AssertionError(kind)
+
+
+def _number(text: str) -> float:
+    if not _NUMBER.fullmatch(text):
+        raise _Unfit
+    return float(text)
+
+
+def _triple(given: list[float], kind: Kind) -> tuple[float, float, float]:
+    """Sizes and scales may leave out the last numbers (RoboComp, InnerModelReader)."""
+    match given, kind:
+        case [one], _:
+            return (one, one, one if kind == SCALE else one / 100)
+        case [one, two], _:
+            return (one, two, one if kind == SCALE else min(one, two) / 100)
+        case [one, two, three], _:
+            return (one, two, three)
+    raise _Unfit
+
+
+def _unknown(one: Attribute, element: Element, known: Mapping[str, Kind], report: Report) -> None:
+    name, tag = one.name.text, element.tag.text
+    meant = next((p + name for p in ("t", "r", "n", "p") if p + name in known), "")
+    label = f"did you mean `{meant}`?" if meant else did_you_mean(name, known)
+    case = nearest(name, known)
+    spelt = (
+        f"attributes are case-sensitive: `{case}`" if case and case.lower() == name.lower() else ""
+    )
+    report.add(
+        codes.BODY_ATTRIBUTE,
+        one.name.span,
+        f"`{tag}` has no attribute `{name:.60}`",
+        label=label or "it is not used",
+        help=spelt or ("" if label else f"it has {', '.join(f'`{n}`' for n in known)}"),
+    )
+
+
+def _misfit(one: Attribute, kind: Kind, report: Report) -> None:
+    text = one.value.value
+    if isinstance(kind, tuple):
+        expected = "one of " + ", ".join(f"`{word}`" for word in kind)
+        label = did_you_mean(text, kind)
+    else:
+        expected, label = kind, ""
+    report.add(
+        codes.BODY_VALUE,
+        one.value.span,
+        f'`{one.name.text}` must be {expected}, not "{text:.40}"',
+        label=label,
+        help="with a decimal point, as in `0.5`" if re.fullmatch(r"[+-]?\d+,\d+", text) else "",
+    )

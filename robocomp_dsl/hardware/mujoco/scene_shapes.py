@@ -1,0 +1,135 @@
+"""The shapes of a scene as geoms of MuJoCo.
+
+In: a body of an `MjSpec` and a shape. Out: a geom on the body, massless, and a note where it is not
+as described.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.mesh_file import MeshError, Surface, read_mesh
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.rotations import Matrix, rotation
+from robocomp_dsl.hardware.scene import Box, Mesh, Triple
+
+_THINNEST = 1e-6  # m: MuJoCo has no geoms without thickness
+_LARGEST = 1e6  # m
+_GREY = (0.7, 0.7, 0.7, 1.0)
+_PLACEHOLDER = (0.9, 0.4, 0.2, 0.4)
+_GEOM = mujoco.mjtGeom
+
+
+def add_box(body: Any, box: Box, notes: list[str]) -> None:
+    """Put a box on `body`."""
+    body.add_geom(
+        name=box.id,
+        type=_GEOM.mjGEOM_BOX,
+        size=_sized(box.size, box.id, notes),
+        pos=axes.point(*box.place),
+        quat=axes.quaternion(standing(box.normal)),
+        rgba=_colour(box.colour, box.id, notes),
+        **_touch(box.collide),
+    )
+
+
+def standing(normal: Triple) -> Matrix:
+    """The rotation that lays a plane's thickness along `normal`, by the shortest way from -z.
+
+    RoboComp's viewer turns z to the normal in its own frame, whose z is backwards.
+    """
+    length = math.sqrt(sum(part * part for part in normal))
+    if not 0 < length < math.inf:
+        return np.eye(3)
+    x, y, z = (part / length for part in normal)
+    if z > 1 - 1e-12:  # the other way round: half a turn about y
+        return np.diag([-1.0, 1.0, -1.0])
+    # Rodrigues' formula for -z turned to (x, y, z); the axis is their product, the cosine is -z
+    skew = np.array([[0, 0, -x], [0, 0, -y], [x, y, 0.0]])
+    made: Matrix = np.eye(3) + skew + skew @ skew / (1 - z)
+    return made
+
+
+def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
+    """Put a mesh on `body`, or the box that stands for one that cannot be had."""
+    placed = {
+        "name": mesh.id,
+        "pos": axes.point(*mesh.place),
+        "quat": axes.quaternion(rotation(*mesh.turn)),
+    }
+    try:
+        surface = read_mesh(Path(mesh.file))
+    except MeshError as error:
+        notes.append(f"the mesh `{mesh.id}` ({mesh.file}) is a box: {error}")
+        half = _sized(mesh.scale, mesh.id, notes)
+        body.add_geom(
+            type=_GEOM.mjGEOM_BOX, size=half, rgba=_PLACEHOLDER, **placed, **_touch(False)
+        )
+        return
+    points = surface.points * mesh.scale
+    low, high = points.min(axis=0), points.max(axis=0)
+    if len(surface.faces) and not _is_flat(points):
+        asset = spec.add_mesh(
+            name=mesh.id,
+            uservert=axes.points(points).ravel().tolist(),
+            userface=_outside(surface).ravel().tolist(),
+            inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+        )
+        body.add_geom(
+            type=_GEOM.mjGEOM_MESH,
+            meshname=asset.name,
+            rgba=_GREY,
+            **placed,
+            **_touch(mesh.collide),
+        )
+        return
+    if not len(surface.faces):
+        notes.append(f"the mesh `{mesh.id}` ({mesh.file}) is its bounding box; convert it to .obj")
+    centre = rotation(*mesh.turn) @ ((low + high) / 2) + mesh.place
+    placed["pos"] = axes.point(*centre)
+    half = _half(tuple((high - low).tolist()))
+    body.add_geom(type=_GEOM.mjGEOM_BOX, size=half, rgba=_GREY, **placed, **_touch(mesh.collide))
+
+
+def _outside(surface: Surface) -> Any:
+    """Faces whose outside is right again: the exchange of two axes mirrors them."""
+    return surface.faces[:, ::-1]
+
+
+def _is_flat(points: Matrix) -> bool:
+    """Whether the points lie in a plane, of which MuJoCo makes no mesh."""
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return len(points) < 4 or spread[2] < 1e-6 * spread[0]
+
+
+def _sized(size: Triple, name: str, notes: list[str]) -> list[float]:
+    if any(part <= 0 or not math.isfinite(part) for part in size):
+        notes.append(f"`{name}` has no size that can be built: {size}")
+    return _half(size)
+
+
+def _half(size: Triple) -> list[float]:
+    """Half of a size in m along MuJoCo's axes, and never nothing."""
+    x, y, z = np.clip(np.nan_to_num(np.abs(size)) * MM / 2, _THINNEST, _LARGEST).tolist()
+    return [x, z, y]
+
+
+def _colour(written: str, name: str, notes: list[str]) -> tuple[float, float, float, float]:
+    if not written:
+        return _GREY
+    try:
+        red, green, blue = bytes.fromhex(written[1:])
+    except ValueError:
+        notes.append(f"`{name}` is grey: `{written}` is no colour")
+        return _GREY
+    return red / 255, green / 255, blue / 255, 1.0
+
+
+def _touch(collide: bool) -> dict[str, int | float]:
+    return {"contype": int(collide), "conaffinity": int(collide), "mass": 0.0}

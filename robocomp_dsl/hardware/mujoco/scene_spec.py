@@ -1,0 +1,105 @@
+"""A scene to a MuJoCo model: a body for every frame, a joint for all that moves, a geom per shape.
+
+In: a `Scene`. Out: an `MjSpec` whose bodies, joints and geoms have the scene's ids, and what had to
+be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of `xpos`
+and `xmat` gives its matrices.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.scene_shapes import add_box, add_mesh
+from robocomp_dsl.hardware.rotations import rotation
+from robocomp_dsl.hardware.scene import ROOT, Frame, Motion, Scene, Triple
+
+_LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
+_UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def build_spec(scene: Scene) -> tuple[Any, list[str]]:
+    """The model of `scene`, and notes on what is not as described. Raises `SceneError`."""
+    spec = mujoco.MjSpec()
+    spec.compiler.degree = False
+    spec.compiler.boundmass = _LIGHTEST
+    spec.compiler.boundinertia = _LIGHTEST * 1e-3
+    notes: list[str] = []
+    bodies = {ROOT: spec.worldbody}
+    for frame in scene.frames:
+        if frame.id != ROOT:
+            bodies[frame.id] = _add_frame(bodies, frame, notes)
+    for box in scene.boxes:
+        add_box(bodies[box.frame], box, notes)
+    for mesh in scene.meshes:
+        add_mesh(spec, bodies[mesh.frame], mesh, notes)
+    return spec, notes
+
+
+def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
+    if frame.parent not in bodies:
+        raise SceneError(f"`{frame.id}` stands in `{frame.parent}`, which is no frame before it")
+    body = bodies[frame.parent].add_body(
+        name=frame.id,
+        pos=axes.point(*frame.place),
+        quat=axes.quaternion(rotation(*frame.turn)),
+    )
+    if frame.mass > 0:
+        body.explicitinertial = True
+        body.mass = frame.mass
+        body.inertia = [0.4 * frame.mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
+    if frame.physics and frame.parent == ROOT:
+        body.add_freejoint()
+        return body
+    body.gravcomp = 1.0
+    if frame.physics:
+        notes.append(f"`{frame.id}` stands in another frame and is moved by that, not by physics")
+    if frame.motion:
+        _add_joint(body, frame, frame.motion)
+    elif frame.drives:
+        _add_wheels(body, frame)
+    return body
+
+
+def _add_joint(body: Any, frame: Frame, motion: Motion) -> None:
+    hinge = motion.kind == "hinge"
+    at = "xyz".index(motion.axis)
+    if hinge:
+        # Rx·Ry·Rz: the turns behind the joint's own stand between it and the body
+        behind = [turn if i > at else 0.0 for i, turn in enumerate(frame.turn)]
+        axis = axes.turn_axis(rotation(*behind).T @ _UNIT[motion.axis])
+        now, unit = frame.turn[at], 1.0
+    else:
+        axis = axes.direction(_UNIT[motion.axis])
+        now, unit = frame.place[at] - motion.offset, MM
+    joint = body.add_joint(
+        name=frame.id,
+        type=mujoco.mjtJoint.mjJNT_HINGE if hinge else mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=axis,
+        ref=now * unit,
+        damping=[0.1, 0, 0] if hinge else [10.0, 0, 0],
+    )
+    if motion.low < motion.high and math.isfinite(motion.low) and math.isfinite(motion.high):
+        joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+        joint.range = [motion.low * unit, motion.high * unit]
+
+
+def _add_wheels(body: Any, frame: Frame) -> None:
+    """A base slides along its first x and z and turns about its y; nothing lets it fall."""
+    for name, axis in (("x", (1.0, 0.0, 0.0)), ("z", (0.0, 0.0, 1.0))):
+        body.add_joint(
+            name=f"{frame.id}.{name}",
+            type=mujoco.mjtJoint.mjJNT_SLIDE,
+            axis=axes.direction(axis),
+        )
+    body.add_joint(
+        name=f"{frame.id}.alpha",
+        type=mujoco.mjtJoint.mjJNT_HINGE,
+        axis=axes.turn_axis(np.array(_UNIT["y"])),
+    )

@@ -1,0 +1,119 @@
+"""A body and its world as devices and simulators take it: frames, shapes and devices, no text.
+
+In: plain data, as it is written beside a generated component. Out: frozen values. Lengths are mm,
+angles rad, in the frame of `axes` (x right, y up, z ahead).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+Axis: TypeAlias = Literal["x", "y", "z"]
+Triple: TypeAlias = tuple[float, float, float]
+
+ROOT = "root"
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """How a frame moves: a hinge (rad) or a slide (mm) along an axis.
+
+    The value of a hinge is its angle about the axis, that of a slide its way from `offset`.
+    `force` (N·m or N), `gear` and `velocity` are those of its motor.
+    """
+
+    kind: Literal["hinge", "slide"]
+    axis: Axis
+    low: float = -math.inf
+    high: float = math.inf
+    home: float = 0.0
+    offset: float = 0.0
+    force: float = math.inf
+    gear: float = 1.0
+    velocity: float = math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A frame in its `parent`: T(place) · Rx · Ry · Rz of `turn`, at the start.
+
+    `drives` marks a mobile base, which leaves its place along x and z and turns about y. With
+    `physics` it falls and is pushed; `mass` is in kg.
+    """
+
+    id: str
+    parent: str = ROOT
+    place: Triple = (0.0, 0.0, 0.0)
+    turn: Triple = (0.0, 0.0, 0.0)
+    motion: Motion | None = None
+    drives: bool = False
+    physics: bool = False
+    mass: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box in a frame; `size` is its extent, the last along `normal`. `colour` is `#rrggbb`."""
+
+    id: str
+    frame: str
+    size: Triple
+    place: Triple = (0.0, 0.0, 0.0)
+    normal: Triple = (0.0, 0.0, -1.0)
+    colour: str = ""
+    collide: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """A mesh in a frame, from `file`, scaled along the axes of the file."""
+
+    id: str
+    frame: str
+    file: str
+    place: Triple = (0.0, 0.0, 0.0)
+    turn: Triple = (0.0, 0.0, 0.0)
+    scale: Triple = (1.0, 1.0, 1.0)
+    collide: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Device:
+    """Something to be served: its kind (the tag), the frame it sits on, and its settings."""
+
+    id: str
+    kind: str
+    frame: str
+    settings: Mapping[str, float | int | bool | str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """All of it. Frames come after their parents; the first is the root."""
+
+    frames: tuple[Frame, ...] = (Frame(ROOT, ""),)
+    boxes: tuple[Box, ...] = ()
+    meshes: tuple[Mesh, ...] = ()
+    devices: tuple[Device, ...] = ()
+
+    @classmethod
+    def of_data(cls, data: Mapping[str, Any]) -> Scene:
+        """The scene in `data`, as `generate.scene` makes it."""
+        return cls(
+            tuple(_frame(one) for one in data["frames"]),
+            tuple(Box(**_tuples(one)) for one in data["boxes"]),
+            tuple(Mesh(**_tuples(one)) for one in data["meshes"]),
+            tuple(Device(**one) for one in data["devices"]),
+        )
+
+
+def _frame(one: Mapping[str, Any]) -> Frame:
+    motion = one.get("motion")
+    return Frame(**_tuples(one) | {"motion": Motion(**motion) if motion else None})
+
+
+def _tuples(one: Mapping[str, Any]) -> dict[str, Any]:
+    return {k: tuple(v) if isinstance(v, list) else v for k, v in one.items()}

@@ -1,0 +1,226 @@
+"""Bodies and their worlds, resolved from InnerModel: a tree of nodes with poses.
+
+Lengths are mm, angles rad; x is to the right, y up, z ahead, which is a left-handed frame. A pose
+turns a point p of the node into T + Rx(rx)·Ry(ry)·Rz(rz)·p of its parent, each R with the sines
+of a right-handed rotation matrix (RoboComp, classes RTMat and Rot3D). A field has the name of the
+attribute that it comes from, and its default.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from robocomp_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Node:
+    """Anything in the tree. `id` is unique; where none was written, it is made from the tag."""
+
+    id: str
+    tag: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Transform(Node):
+    """A frame; `translation` and `rotation` are the same with some attributes left out.
+
+    `engine` "bullet" wants physics for it, `mass` is in kg.
+    """
+
+    tx: float = 0.0
+    ty: float = 0.0
+    tz: float = 0.0
+    rx: float = 0.0
+    ry: float = 0.0
+    rz: float = 0.0
+    engine: str = "static"
+    mass: float = 0.0
+    children: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Joint(Transform):
+    """A hinge about `axis`: its angle takes the place of rx, ry or rz, which is the angle at first.
+
+    `home` is where it goes when it is told to go to zero. `l…` and `h…` are kept, nothing uses
+    them.
+    """
+
+    axis: str = "z"
+    min: float = -math.inf
+    max: float = math.inf
+    home: float = 0.0
+    port: int = 0
+    lx: float = 0.0
+    ly: float = 0.0
+    lz: float = 0.0
+    hx: float = 0.0
+    hy: float = 0.0
+    hz: float = 0.0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PrismaticJoint(Node):
+    """A slide along `axis`: `position` + `offset` mm from its parent."""
+
+    axis: str = "z"
+    min: float = -math.inf
+    max: float = math.inf
+    position: float = 0.0
+    offset: float = 0.0
+    home: float = 0.0
+    port: int = 0
+    children: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Motor(Node):
+    """What drives the joint it stands in: `force` in N·m (N for a slide) behind the `gear`."""
+
+    force: float = math.inf
+    gear: float = 1.0
+    velocity: float = math.inf
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Base(Transform):
+    """A `differentialrobot` or an `omnirobot`: a frame that drives on the floor.
+
+    `noise` is the standard deviation of its motion, `collide` whether it is stopped by obstacles.
+    """
+
+    port: int = 0
+    noise: float = 0.0
+    collide: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class TouchSensor(Node):
+    """Feels along its normal; `min` and `max` bound the value."""
+
+    type: str = "0"
+    nx: float = 0.0
+    ny: float = 0.0
+    nz: float = 0.0
+    min: float = -math.inf
+    max: float = math.inf
+    port: int = 0
+    children: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Plane(Node):
+    """A box around (px, py, pz): `size` is width, height and thickness, the last along the normal.
+
+    A `display` is a plane that shows images. `texture` is a file or a colour `#rrggbb`.
+    """
+
+    texture: str = ""
+    repeat: int = 1000
+    size: tuple[float, float, float] = (2500.0, 2500.0, 25.0)
+    nx: float = 0.0
+    ny: float = 0.0
+    nz: float = 0.0
+    px: float = 0.0
+    py: float = 0.0
+    pz: float = 0.0
+    collide: bool = False
+    port: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Mesh(Node):
+    """A mesh from a file, scaled along its own axes."""
+
+    file: str = ""
+    scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    render: str = "normal"
+    tx: float = 0.0
+    ty: float = 0.0
+    tz: float = 0.0
+    rx: float = 0.0
+    ry: float = 0.0
+    rz: float = 0.0
+    collide: bool = False
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Camera(Node):
+    """A `camera` or an `rgbd`: image size and focal length in pixels, looking along z."""
+
+    width: int = 0
+    height: int = 0
+    focal: float = 0.0
+    noise: float = 0.0
+    port: int = 0
+    ifconfig: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Laser(Node):
+    """A planar range finder that looks along z; `angle` is the width of its scan in rad."""
+
+    min: int = 0
+    max: int = 0
+    angle: float = 0.0
+    measures: int = 0
+    port: int = 0
+    ifconfig: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Imu(Node):
+    """An inertial measurement unit."""
+
+    port: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class PointCloud(Node):
+    """Points that are given while it runs."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Axes(Node):
+    """Three coloured sticks that show a frame; negative: as `length` and `width` say."""
+
+    length: float = 200.0
+    width: float = 15.0
+    lengthx: float = -1.0
+    widthx: float = -1.0
+    lengthy: float = -1.0
+    widthy: float = -1.0
+    lengthz: float = -1.0
+    widthz: float = -1.0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """One InnerModel file with all that it includes. `root` is the frame called `root`."""
+
+    path: Path
+    root: Transform
+
+    def nodes(self) -> Iterator[tuple[Node, Node | None]]:
+        """Every node with its parent, parents first, in order of writing."""
+        todo: list[tuple[Node, Node | None]] = [(self.root, None)]
+        while todo:
+            node, parent = todo.pop()
+            yield node, parent
+            todo.extend((child, node) for child in reversed(children(node)))
+
+
+def is_frame(node: Node) -> bool:
+    """Whether other nodes can stand in `node`."""
+    return hasattr(node, "children")
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The nodes in `node`."""
+    found: tuple[Node, ...] = getattr(node, "children", ())
+    return found

@@ -1,0 +1,39 @@
+"""The tree of an InnerModel file: XML elements as written, tags and attributes not judged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_dsl.syntax.ast_base import Name, Node, Text
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute(Node):
+    """`tx="100"`; in `value.value` the entities are replaced."""
+
+    name: Name
+    value: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Element(Node):
+    """`<tag …>…</tag>`; `span` covers all of it. No two attributes have the same name."""
+
+    tag: Name
+    attributes: tuple[Attribute, ...] = ()
+    children: tuple[Element, ...] = ()
+
+    def get(self, name: str) -> Attribute | None:
+        """The attribute called `name`."""
+        return next((one for one in self.attributes if one.name.text == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class File(Node):
+    """One file; `root` is None when there is no element to be seen.
+
+    `complete` is False when form errors were reported, so that something may be missing here.
+    """
+
+    root: Element | None
+    complete: bool = True

@@ -1,0 +1,199 @@
+"""InnerModel, from text to tree.
+
+In: a source. Out: its elements, nested. Lark cuts the text into tags and pieces of tags; this
+module matches the tags, and reports everything that XML forbids where it stands. It takes no help
+from an XML library: those stop at the first mistake, and every tenth of the files that people have
+repeats an attribute.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import cache
+
+from lark import Lark, Token, Tree
+
+from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.resources import GRAMMARS
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax import codes_xml as codes
+from robocomp_dsl.syntax.ast_base import Name
+from robocomp_dsl.syntax.ast_innermodel import Attribute, Element, File
+from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.innermodel_attributes import ends, read_attributes
+
+_CLOSED = re.compile(r"</\s*([^\s<>]*)\s*([^<>]*)(>?)")
+
+
+@cache
+def _lark() -> Lark:
+    grammar = (GRAMMARS / "innermodel.lark").read_text(encoding="utf-8")
+    return Lark(grammar, parser="lalr", lexer="contextual", maybe_placeholders=False)
+
+
+def parse(source: Source, report: Report) -> File:
+    """The tree of `source`; what is wrong with its form goes into `report`."""
+    builder = _Builder(source, Findings(source, report))
+    for item in _lark().parse(source.text).children:
+        if builder.findings.full:
+            break
+        if isinstance(item, Tree):
+            builder.tag([part for part in item.children if isinstance(part, Token)])
+        else:
+            builder.outside(item)
+    return builder.file()
+
+
+@dataclass(slots=True)
+class _Open:
+    """An element whose closing tag has not come yet."""
+
+    start: int
+    tag: Name
+    attributes: tuple[Attribute, ...]
+    told: bool = False  # that its end is missing
+    children: list[Element] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class _Builder:
+    source: Source
+    findings: Findings
+    roots: list[Element] = field(default_factory=list)
+    path: list[_Open] = field(default_factory=list)
+
+    def file(self) -> File:
+        """What has been built, when there is nothing more to come."""
+        size = len(self.source.text)
+        for one in reversed(self.path):
+            self._unclosed(one, "the end of the file")
+            self._pop(size)
+        if not self.roots:
+            span = self.source.whole
+            self.findings.add(
+                codes.XML_ROOT, span.start, span.end, "the file has no `<innerModel>` element"
+            )
+        for extra in self.roots[1:]:
+            self.findings.add(
+                codes.XML_ROOT,
+                extra.tag.span.start,
+                extra.tag.span.end,
+                f"`<{extra.tag.text}>` stands behind the end of the document",
+                label="a file has one outermost element",
+                notes=(Note(self.roots[0].tag.span, "this one"),),
+            )
+        root = self.roots[0] if self.roots else None
+        return File(self.source.span(0, size), root, complete=not self.findings.errors)
+
+    # -- tags ---------------------------------------------------------------------------------
+
+    def tag(self, parts: list[Token]) -> None:
+        """`<name attribute … >` or `… />`, from its tokens."""
+        (start, name_end), (_, end) = ends(parts[0]), ends(parts[-1])
+        ended = parts[-1].type in ("ENDED", "ENDED_EMPTY")
+        tag = Name(self.source.span(start + 1, name_end), str(parts[0])[1:])
+        written = parts[1:-1] if ended else parts[1:]
+        attributes = read_attributes(written, self.source, self.findings)
+        self.path.append(_Open(start, tag, attributes, told=not ended))
+        if not ended:
+            said = f"the tag `<{tag.text}` has no `>`"
+            self.findings.add(
+                codes.XML_TAG,
+                start,
+                end,
+                said,
+                fix=self.findings.fix("close the tag", (end, end, "/>")),
+            )
+        if parts[-1].type == "ENDED_EMPTY":
+            self._pop(end)
+
+    def _pop(self, end: int) -> None:
+        one = self.path.pop()
+        span = self.source.span(one.start, end)
+        made = Element(span, one.tag, one.attributes, tuple(one.children))
+        (self.path[-1].children if self.path else self.roots).append(made)
+
+    def _close(self, token: Token) -> None:
+        found = _CLOSED.match(token)
+        name, rest, ended = found.groups() if found else ("", "", "")
+        start, end = ends(token)
+        if rest or not ended:
+            self.findings.add(
+                codes.XML_TAG, start, end, f"the closing tag `</{name}` must end here with `>`"
+            )
+        depth = self._depth(name)
+        if depth is None:
+            said = f"`</{name}>` closes nothing"
+            self.findings.add(codes.XML_NESTING, start, end, said, label="no such tag is open here")
+            return
+        for one in reversed(self.path[depth + 1 :]):
+            self._unclosed(one, f"`</{name}>`", Note(self.source.span(start, end), "closed here"))
+            self._pop(start)
+        written = self.path[-1].tag
+        if written.text != name:
+            at = self.source.text.index(name, start)
+            self.findings.add(
+                codes.XML_NESTING,
+                at,
+                at + len(name),
+                f"`</{name}>` must be written as the tag that it closes, `{written.text}`",
+                fix=self.findings.fix(
+                    f"write `{written.text}`", (at, at + len(name), written.text)
+                ),
+            )
+        self._pop(end)
+
+    def _depth(self, name: str) -> int | None:
+        """Where on the path the innermost element called `name` is, in any case if need be."""
+        for wanted in (str, str.lower):
+            for i in range(len(self.path) - 1, -1, -1):
+                if wanted(self.path[i].tag.text) == wanted(name):
+                    return i
+        return None
+
+    def _unclosed(self, one: _Open, before: str, *notes: Note) -> None:
+        if one.told or self.findings.full:
+            return
+        span = one.tag.span
+        said = f"`<{one.tag.text}>` is not closed before {before}"
+        self.findings.add(
+            codes.XML_NESTING,
+            span.start,
+            span.end,
+            said,
+            notes=notes,
+            help=f"write `</{one.tag.text}>` where it ends, or `/>` instead of `>`",
+        )
+
+    # -- between tags -------------------------------------------------------------------------
+
+    def outside(self, token: Token) -> None:
+        """A closing tag, or something that is no tag at all."""
+        start, end = ends(token)
+        match token.type:
+            case "CLOSE":
+                self._close(token)
+            case "LONE":
+                said = "`<` begins no tag here; inside a text it is written `&lt;`"
+                self.findings.add(codes.XML_TAG, start, end, said)
+            case "OPEN_COMMENT":
+                said = "the comment is not closed"
+                self.findings.add(codes.XML_TAG, start, start + 4, said, help="close it with `-->`")
+            case "DOCTYPE":
+                said = "a document type is not read: InnerModel has none, and no entities"
+                self.findings.add(codes.XML_DOCTYPE, start, end, said)
+            case _:
+                self._text(token, start)
+
+    def _text(self, token: Token, start: int) -> None:
+        words = str(token).rstrip()
+        end = start + len(words)
+        if self.path:
+            said = "text between the tags means nothing"
+            self.findings.add(
+                codes.XML_TEXT, start, end, said, help="make it a comment: `<!-- … -->`"
+            )
+        else:
+            said = "this stands outside of the document and is no tag"
+            self.findings.add(codes.XML_ROOT, start, end, said)

@@ -1,0 +1,170 @@
+"""What InnerModel files mean: nodes with values, and findings where they make no sense."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import check_innermodel
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model import body
+from robocomp_dsl.model.body import Body
+
+
+def checked(folder: Path, text: str) -> tuple[Body, Report]:
+    path = folder / "world.xml"
+    path.write_text(f"<innerModel>{text}</innerModel>")
+    report = Report()
+    found = check_innermodel(path, Workspace(environ={}), report)
+    assert found is not None
+    return found, report
+
+
+def only(folder: Path, text: str) -> body.Node:
+    found, report = checked(folder, text)
+    assert [d.message for d in report] == []
+    (node,) = found.root.children
+    return node
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "values"),
+    [
+        ('<transform id="a"/>', body.Transform, {"tx": 0, "rz": 0, "engine": "static", "mass": 0}),
+        ('<TRANSFORM id="a" tx="-1.5e2"/>', body.Transform, {"tx": -150, "tag": "transform"}),
+        ('<rotation id="a" ry=" 1.5 "/>', body.Transform, {"ry": 1.5, "tag": "rotation"}),
+        (
+            '<joint id="a"/>',
+            body.Joint,
+            {"axis": "z", "min": -math.inf, "max": math.inf, "home": 0},
+        ),
+        ('<joint id="a" axis="X" port="10067"/>', body.Joint, {"axis": "x", "port": 10067}),
+        (
+            '<prismaticjoint id="a" position="5"/>',
+            body.PrismaticJoint,
+            {"position": 5, "offset": 0},
+        ),
+        (
+            '<plane id="a"/>',
+            body.Plane,
+            {"size": (2500, 2500, 25), "repeat": 1000, "collide": False},
+        ),
+        ('<plane id="a" size="200"/>', body.Plane, {"size": (200, 200, 2)}),
+        ('<plane id="a" size="200,100"/>', body.Plane, {"size": (200, 100, 1)}),
+        ('<plane id="a" size="200, 100 ,5" collide="1"/>', body.Plane, {"size": (200, 100, 5)}),
+        ('<mesh id="a" file="x.obj" scale="2,3"/>', body.Mesh, {"scale": (2, 3, 2)}),
+        ('<mesh id="a" file="x.obj"/>', body.Mesh, {"scale": (1, 1, 1), "render": "normal"}),
+        ('<differentialrobot id="a" noise="0.1"/>', body.Base, {"noise": 0.1, "port": 0}),
+        ('<laser id="a" measures="360" angle="3.14"/>', body.Laser, {"measures": 360, "min": 0}),
+        ('<rgbd id="a" width="640" focal="480"/>', body.Camera, {"width": 640, "focal": 480}),
+        ('<axes id="a" length="30"/>', body.Axes, {"length": 30, "width": 15, "lengthx": -1}),
+        ('<display id="a" port="5"/>', body.Plane, {"port": 5, "tag": "display"}),
+    ],
+)
+def test_values_and_defaults(
+    tmp_path: Path, text: str, kind: type[body.Node], values: dict[str, object]
+) -> None:
+    node = only(tmp_path, text)
+    assert type(node) is kind
+    assert {name: getattr(node, name) for name in values} == values
+
+
+@pytest.mark.parametrize(
+    ("text", "findings"),
+    [
+        ('<trasform id="a"/>', ["RC801 `trasform` did you mean `transform`?"]),
+        ('<innermodel id="a"/>', ["RC801 `innermodel` "]),
+        ('<transform id="a" TX="1"/>', ["RC802 `TX` did you mean `tx`?"]),
+        ('<translation id="a" x="1"/>', ["RC802 `x` did you mean `tx`?"]),
+        ('<camera id="a" port="1"/>', ["RC802 `port` it is not used"]),
+        ('<transform id="a" tx="0,5"/>', ['RC803 `"0,5"` ']),
+        ('<transform id="a" tx=""/>', ['RC803 `""` ']),
+        ('<transform id="a" tx="nan"/>', ['RC803 `"nan"` ']),
+        ('<joint id="a" axis="w"/>', ['RC803 `"w"` ']),
+        ('<joint id="a" port="1.5"/>', ['RC803 `"1.5"` ']),
+        (
+            '<mesh id="a" file="x" render="wirefram"/>',
+            ['RC803 `"wirefram"` did you mean `wireframe`?'],
+        ),
+        ('<plane id="a" size="1,2,3,4"/>', ['RC803 `"1,2,3,4"` ']),
+        ('<plane id="a" collide="true"/>', ['RC803 `"true"` ']),
+        ('<imu id="a"/><imu id="a"/>', ['RC804 `"a"` choose another one']),
+        ('<imu id="root"/>', ['RC804 `"root"` choose another one']),
+        ("<imu/>", ["RC805 `imu` nothing can refer to it"]),
+        ('<include path="gone.xml"/>', ['RC806 `"gone.xml"` ']),
+        ("<include/>", ["RC806 `include` "]),
+        ('<include path="world.xml"/>', ['RC806 `"world.xml"` ']),
+        ('<imu id="a"><imu id="b"/></imu>', ["RC807 `imu` "]),
+        ('<joint id="a" min="2" max="1"/>', ["RC808 `<joint` "]),
+        ('<motor id="a"/>', ["RC808 `<motor` "]),
+        ('<mesh id="a"/>', ["RC808 `<mesh` "]),
+        ('<mesh id="a" file="x" scale="0"/>', ["RC808 `<mesh` "]),
+        ('<plane id="a" size="-5"/>', ["RC808 `<plane` "]),
+        ('<transform id="a" mass="-5"/>', ["RC808 `<transform` "]),
+    ],
+)
+def test_findings(tmp_path: Path, text: str, findings: list[str]) -> None:
+    _, report = checked(tmp_path, text)
+    assert [f"{d.code.id} `{d.span.text}` {d.label}" for d in report] == findings
+
+
+def test_what_is_wrong_is_left_out_and_the_rest_stands(tmp_path: Path) -> None:
+    found, report = checked(
+        tmp_path,
+        '<transform id="a" tx="x" ty="7"><foo><imu id="lost"/></foo><imu id="a"/><imu/></transform>'
+        '<plane id="p"/>',
+    )
+    assert report.failed
+    names = [(n.id, p.id if p else "") for n, p in found.nodes()]
+    assert names == [("root", ""), ("a", "root"), ("a#2", "a"), ("imu#1", "a"), ("p", "root")]
+    (first, _) = found.root.children
+    assert isinstance(first, body.Transform)
+    assert (first.tx, first.ty) == (0, 7)
+
+
+def test_files_include_files(tmp_path: Path) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "robot.xml").write_text(
+        '<innermodel><include path="arm.xml"/><imu id="imu"/></innermodel>'
+    )
+    (tmp_path / "parts" / "arm.xml").write_text('<innermodel><joint id="elbow"/></innermodel>')
+    (tmp_path / "hand.xml").write_text('<innermodel><joint id="finger"/></innermodel>')
+    found, report = checked(
+        tmp_path,
+        '<transform id="base"><include path="parts/robot.xml"/></transform>'
+        '<include path="/home/robocomp/robots/hand.xml"/>',
+    )
+    assert [d.message for d in report] == []
+    names = [(n.id, p.id if p else "") for n, p in found.nodes()]
+    assert names == [
+        ("root", ""),
+        ("base", "root"),
+        ("elbow", "base"),
+        ("imu", "base"),
+        ("finger", "root"),
+    ]
+    paths = {n.id: n.span.source.path.name for n, _ in found.nodes()}
+    assert paths["elbow"] == "arm.xml"
+
+
+def test_a_cycle_of_includes_is_told_and_cut(tmp_path: Path) -> None:
+    (tmp_path / "b.xml").write_text('<innermodel><include path="world.xml"/></innermodel>')
+    found, report = checked(tmp_path, '<imu id="a"/><include path="b.xml"/>')
+    assert [d.message for d in report] == ["the file includes itself by way of `b.xml`"]
+    assert len(list(found.nodes())) == 2
+
+
+def test_includes_without_end_are_stopped(tmp_path: Path) -> None:
+    for i in range(7):
+        inside = f'<include path="f{i + 1}.xml"/>' * 10 if i < 6 else '<imu id="i"/>' * 10
+        (tmp_path / f"f{i}.xml").write_text(f"<innermodel>{inside}</innermodel>")
+    _, report = checked(tmp_path, '<include path="f1.xml"/>' * 10)
+    assert "RC809" in {d.code.id for d in report}
+
+
+def test_elements_too_deep_are_told(tmp_path: Path) -> None:
+    text = "".join(f'<transform id="t{i}">' for i in range(300)) + "</transform>" * 300
+    found, report = checked(tmp_path, text)
+    assert [d.code.id for d in report] == ["RC807"]
+    assert len(list(found.nodes())) == 202
