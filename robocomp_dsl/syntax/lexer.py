@@ -1,0 +1,92 @@
+"""From text to tokens, with the comments and the doc comments put aside.
+
+In: a source, the tables of its language, and where to report what is no token at all. Out: tokens
+one by one, so that a file of four million braces costs no more than the parser reads of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax import misspelt
+from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.tables import END, Tables
+
+COMMENTS = frozenset(("DOC_BLOCK", "DOC_LINE", "BLOCK_COMMENT", "LINE_COMMENT", "HASH_LINES"))
+_DOCS = frozenset(("DOC_BLOCK", "DOC_LINE"))
+_FRAME = re.compile(r"^[ \t]*\*(?!\*)[ \t]?|^[ \t]+|[ \t]+$", re.MULTILINE)
+
+
+@dataclass(slots=True)
+class Token:
+    """A word of the language; `kind` is the name of its terminal. Offsets count characters."""
+
+    kind: str
+    text: str
+    start: int
+    end: int
+
+
+class Lexer:
+    """The tokens of one source, and what stood beside them.
+
+    `docs` maps the offset of a token to the doc comment in front of it, cleaned. Characters that
+    are no token of the language come as tokens of the kind `STRAY`, which fits nowhere.
+    """
+
+    def __init__(self, source: Source, tables: Tables, findings: Findings) -> None:
+        self.docs: dict[int, str] = {}
+        self._text = source.text
+        self._tables = tables
+        self._findings = findings
+
+    def tokens(self) -> Iterator[Token]:
+        """The tokens in order, then endless `$END`."""
+        at = 0
+        while at < len(self._text) and not self._findings.full:
+            at = yield from self._stretch(at)
+        size = len(self._text)
+        while True:
+            yield Token(END, "", size, size)
+
+    def _stretch(self, at: int) -> Generator[Token, None, int]:
+        """The tokens from `at` on, up to characters that are not read; returns where to go on."""
+        keyword = self._tables.keywords.get
+        any_case = self._tables.any_case
+        doc: list[str] = []
+        for match in self._tables.scanner.finditer(self._text, at):
+            kind = match.lastgroup or ""
+            start, end = match.span(kind)
+            text = match[kind]
+            if kind == "ID":
+                kind = keyword(text.lower() if any_case else text, kind)
+            elif kind in COMMENTS:
+                if kind in _DOCS:
+                    doc.append(text)
+                elif kind == "HASH_LINES":
+                    misspelt.hash_lines(self._findings, start, text)
+                continue
+            elif kind == "_SEMI" and end - start > 1:
+                misspelt.repeated_semicolon(self._findings, start, end)
+            elif kind in misspelt.READ:
+                kind, text, end = misspelt.READ[kind](self._findings, start, end)
+                if not kind:
+                    return end
+            if doc:
+                self.docs[start] = _clean(doc)
+                doc.clear()
+            yield Token(kind, text, start, end)
+            if kind == "STRAY":
+                return end
+        return len(self._text)
+
+
+def _clean(comments: list[str]) -> str:
+    """The words of doc comments without slashes, stars and indentation."""
+    words = (
+        _FRAME.sub("", one[3:-2]) if one.startswith("/**") else one[3:].strip() for one in comments
+    )
+    return "\n".join(words).strip()

@@ -1,0 +1,55 @@
+"""The way of every language from text to tree.
+
+In: the name of a language, its builder, a source and the report of the run. Out: the file node.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax import codes
+from robocomp_dsl.syntax.builder import Builder
+from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.parser import Parser
+from robocomp_dsl.syntax.tables import load
+
+_HEADS = {
+    "module": ("idsl", "an interface description"),
+    "component": ("cdsl", "a component description"),
+    "componentparams": ("pdsl", "a parameter description"),
+    "deployment": ("ddsl", "a deployment description"),
+}
+_HEAD = re.compile(rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{", re.MULTILINE | re.IGNORECASE)
+
+
+def read(language: str, builder: type[Builder], source: Source, report: Report) -> Any:
+    """The file node that `builder` makes of `source`."""
+    own = Report()
+    findings = Findings(source, own)
+    made = builder(findings)
+    file = Parser(load(language), made, findings).run()
+    other = None if made.has_block else _other_language(language, source)
+    if other:
+        what, start, end = other
+        report.add(
+            codes.WRONG_LANGUAGE,
+            source.span(start, end),
+            f"this is {what}",
+            label=f"but the file is called `{source.path.name}`",
+            help="rename the file, or check which file was meant",
+        )
+    else:
+        report.extend(own)
+    return file
+
+
+def _other_language(language: str, source: Source) -> tuple[str, int, int] | None:
+    """What the file describes instead, and where that is seen."""
+    for head in _HEAD.finditer(source.text):
+        other, what = _HEADS[head[1].lower()]
+        if other != language:
+            return what, head.start(1), head.end()
+    return None

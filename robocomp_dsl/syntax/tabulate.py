@@ -1,0 +1,157 @@
+"""From a Lark grammar to parse tables as plain data: made with Lark.
+
+In: the name of a grammar. Out: what `tables.load` reads; `python -m robocomp_dsl.syntax.tabulate`
+writes it beside the grammars. The states are numbered in the order in which a walk over sorted
+symbols meets them, so the same grammar always gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Collection, Iterator
+from typing import Any
+
+from lark import Lark
+from lark.grammar import Rule, Terminal
+from lark.lexer import PatternStr, TerminalDef
+from lark.parsers.lalr_analysis import Shift
+
+from robocomp_dsl.resources import GRAMMARS
+from robocomp_dsl.syntax.tables import END, fingerprint
+
+LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
+START = "start"
+_WORD = re.compile(r"[A-Za-z_]\w*")
+
+# Spellings that are no part of a language but are understood, to be reported well: text in other
+# quotes, text and comment without an end, the marks of a failed merge, and any other character.
+_MERGE_MARK = r"^(?:<{7}|\|{7}|={7}|>{7})(?=[ \r\n]|\Z)[^\n]*"
+_MISSPELT = {
+    "OTHER_QUOTES": r"'[^'\n]*'|[“”„][^“”„\n]*[“”]",
+    "OPEN_STRING": r'"[^"\n]*?(?=\s*[;,]?\s*$)',
+    "OPEN_COMMENT": r"/\*",
+    "STRAY": r"\S",
+}
+
+
+def lark(language: str) -> Lark:
+    """Lark's own parser of the grammar, which the tests hold ours against."""
+    return Lark(
+        (GRAMMARS / f"{language}.lark").read_text(encoding="utf-8"),
+        parser="lalr",
+        lexer="contextual",
+        maybe_placeholders=True,
+        import_paths=[str(GRAMMARS)],
+    )
+
+
+def tabulate(language: str) -> dict[str, Any]:
+    """The tables of one grammar, as JSON can hold them."""
+    made = lark(language)
+    table = made.parser.parser._parse_table
+    rules = {rule: number for number, rule in enumerate(made.rules)}
+    order = _numbering(table.states, table.start_states[START])
+    actions: list[dict[str, int]] = []
+    gotos: list[dict[str, int]] = []
+    for state in order:
+        row = sorted(table.states[state].items())
+        shifts = {s: order[to] for s, (act, to) in row if act is Shift}
+        reduces = {s: -1 - rules[rule] for s, (act, rule) in row if act is not Shift}
+        actions.append({s: to for s, to in shifts.items() if _is_terminal(s)} | reduces)
+        gotos.append({s: to for s, to in shifts.items() if not _is_terminal(s)})
+    keywords = {t.pattern.value: t for t in made.terminals if _is_keyword(t)}
+    any_case = all("i" in t.pattern.flags for t in keywords.values())
+    return {
+        "language": language,
+        "fingerprint": fingerprint(language),
+        "accept": order[table.end_states[START]],
+        "any_case": any_case,
+        "keywords": {w.lower() if any_case else w: t.name for w, t in keywords.items()},
+        "texts": {t.name: t.pattern.value for t in made.terminals if _is_text(t)} | {"_SEMI": ";"},
+        "scanner": _scanner(made.terminals),
+        "rules": [_rule(rule) for rule in made.rules],
+        "actions": actions,
+        "gotos": gotos,
+    }
+
+
+def _is_terminal(symbol: str) -> bool:
+    return symbol == END or not symbol.lstrip("_")[0].islower()
+
+
+def _is_text(terminal: TerminalDef) -> bool:
+    return isinstance(terminal.pattern, PatternStr)
+
+
+def _is_keyword(terminal: TerminalDef) -> bool:
+    return _is_text(terminal) and bool(_WORD.fullmatch(terminal.pattern.value))
+
+
+def _numbering(states: dict[int, dict[str, Any]], start: int) -> dict[int, int]:
+    """Lark's state to ours, breadth first; the start is 0."""
+    order = {start: 0}
+    todo = [start]
+    for state in todo:
+        for _, (action, to) in sorted(states[state].items(), key=lambda item: item[0]):
+            if action is Shift and to not in order:
+                order[to] = len(order)
+                todo.append(to)
+    return order
+
+
+def _scanner(terminals: Collection[TerminalDef]) -> str:
+    """One expression for all tokens; the name of the group that matched is the terminal."""
+    named = {t.name: t.pattern.to_regexp() for t in sorted(terminals, key=_rank)}
+    del named["WS"]
+    groups = [
+        f"(?P<{name}>{pattern})"
+        for name, pattern in ({"MERGE_MARK": _MERGE_MARK} | named | _MISSPELT).items()
+        if name not in {t.name for t in terminals if _is_keyword(t)}
+    ]
+    return r"\s*+(?:" + "|".join(groups) + ")"
+
+
+def _rank(terminal: TerminalDef) -> tuple[int, bool, bool, int, str]:
+    """Names come last, or they would eat the beginning of `on-failure`; longer texts come first."""
+    text = _is_text(terminal)
+    length = len(terminal.pattern.value) if text else 0
+    return -terminal.priority, terminal.name == "ID", text, -length, terminal.name
+
+
+def _rule(rule: Rule) -> list[Any]:
+    picks = list(_picks(rule))
+    inline = rule.origin.name.startswith("_")
+    unwraps = bool(rule.options.expand1 and not rule.alias and len(picks) == 1 and not picks[0][2])
+    method = "" if inline or unwraps else rule.alias or rule.origin.name
+    return [rule.origin.name, len(rule.expansion), method, unwraps, picks]
+
+
+def _picks(rule: Rule) -> Iterator[list[Any]]:
+    """The children to keep: no texts that the grammar spells out, but None for an absent `[x]`."""
+    absent = rule.options.empty_indices or (False,) * len(rule.expansion)
+    index = 0
+    for empty in absent:
+        if empty:
+            yield [-1, "", False]
+            continue
+        symbol = rule.expansion[index]
+        if isinstance(symbol, Terminal):
+            if not symbol.filter_out:
+                yield [index, symbol.name, False]
+        else:
+            yield [index, "", symbol.name.startswith("_")]
+        index += 1
+
+
+def main() -> None:
+    """Write the tables of all grammars."""
+    folder = GRAMMARS / "tables"
+    folder.mkdir(exist_ok=True)
+    for language in LANGUAGES:
+        text = json.dumps(tabulate(language), indent=None, separators=(",", ":"))
+        (folder / f"{language}.json").write_text(text + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
