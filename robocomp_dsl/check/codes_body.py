@@ -127,8 +127,8 @@ BODY_RULE = Code(
     Severity.ERROR,
     "the attributes of a node do not fit together",
     """\
-Limits have their smaller number first, sizes and scales are above 0, a motor stands in the joint
-that it drives, a mesh has a file.
+Limits have their smaller number first, no scale is 0, a motor stands in the joint that it drives,
+a mesh has a file. A negative size or scale is allowed; it mirrors.
 
 Wrong:
 

@@ -44,8 +44,8 @@ def _complaints(node: Node, parent: Node | None) -> list[str]:
             said += ["a motor drives the joint it stands in; this one stands in none"]
         case Transform() if node.mass < 0:
             said += [f"`mass` is {node.mass:g} kg"]
-        case Plane() if min(node.size) <= 0 or not all(map(math.isfinite, node.size)):
-            said += [f"every number of `size` must be above 0, not {_shown(node.size)}"]
+        case Plane() if not all(map(math.isfinite, node.size)):
+            said += [f"`size` must be made of finite numbers, not {_shown(node.size)}"]
         case Mesh():
             said += _mesh(node)
         case Laser() if node.min > node.max:
@@ -57,8 +57,8 @@ def _complaints(node: Node, parent: Node | None) -> list[str]:
 
 def _mesh(node: Mesh) -> list[str]:
     said = [] if node.file else ["a mesh needs a `file`"]
-    if min(node.scale) <= 0 or not all(map(math.isfinite, node.scale)):
-        said.append(f"every number of `scale` must be above 0, not {_shown(node.scale)}")
+    if 0 in node.scale or not all(map(math.isfinite, node.scale)):
+        said.append(f"`scale` must be made of finite numbers and no 0, not {_shown(node.scale)}")
     return said
 
 

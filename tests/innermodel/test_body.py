@@ -100,7 +100,9 @@ def test_values_and_defaults(
         ('<motor id="a"/>', ["RC808 `<motor` "]),
         ('<mesh id="a"/>', ["RC808 `<mesh` "]),
         ('<mesh id="a" file="x" scale="0"/>', ["RC808 `<mesh` "]),
-        ('<plane id="a" size="-5"/>', ["RC808 `<plane` "]),
+        ('<plane id="a" size="inf"/>', ["RC808 `<plane` "]),
+        ('<plane id="a" size="-216,279,10"/>', []),  # a mirrored picture
+        ('<mesh id="a" file="x" scale="-1,1,1"/>', []),
         ('<transform id="a" mass="-5"/>', ["RC808 `<transform` "]),
     ],
 )

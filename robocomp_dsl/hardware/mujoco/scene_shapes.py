@@ -78,7 +78,7 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
         asset = spec.add_mesh(
             name=mesh.id,
             uservert=axes.points(points).ravel().tolist(),
-            userface=_outside(surface).ravel().tolist(),
+            userface=_outside(surface, mesh.scale).ravel().tolist(),
             inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
         )
         body.add_geom(
@@ -97,9 +97,9 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
     body.add_geom(type=_GEOM.mjGEOM_BOX, size=half, rgba=_GREY, **placed, **_touch(mesh.collide))
 
 
-def _outside(surface: Surface) -> Any:
-    """Faces whose outside is right again: the exchange of two axes mirrors them."""
-    return surface.faces[:, ::-1]
+def _outside(surface: Surface, scale: Triple) -> Any:
+    """Faces whose outside is right again: the exchange of two axes mirrors them, a scale may."""
+    return surface.faces if math.prod(scale) < 0 else surface.faces[:, ::-1]
 
 
 def _is_flat(points: Matrix) -> bool:
@@ -109,7 +109,7 @@ def _is_flat(points: Matrix) -> bool:
 
 
 def _sized(size: Triple, name: str, notes: list[str]) -> list[float]:
-    if any(part <= 0 or not math.isfinite(part) for part in size):
+    if any(part == 0 or not math.isfinite(part) for part in size):
         notes.append(f"`{name}` has no size that can be built: {size}")
     return _half(size)
 
