@@ -12,8 +12,9 @@ import json
 import socket
 from collections import deque
 from collections.abc import Callable, Iterator
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy import folder
 from robocomp_dsl.deploy.logs import Record
@@ -21,7 +22,7 @@ from robocomp_dsl.deploy.status import Row
 
 KEPT = 10_000
 """Records that `logs` can show of the past; a slow reader falls back by as many, too."""
-_LONGEST_REQUEST = 4096
+Wanted: TypeAlias = Callable[[Record], bool]
 
 
 class Journal:
@@ -39,9 +40,9 @@ class Journal:
                 queue.get_nowait()
             queue.put_nowait(record)
 
-    def last(self, count: int) -> list[Record]:
-        """The latest `count` records, oldest first."""
-        kept = list(self._kept)
+    def last(self, count: int, of: Wanted) -> list[Record]:
+        """The latest `count` records that are wanted, oldest first."""
+        kept = [record for record in self._kept if of(record)]
         return kept[-count:] if count > 0 else []
 
     @contextlib.contextmanager
@@ -107,9 +108,18 @@ class Server:
     async def _logs(
         self, request: dict[str, Any], reader: asyncio.StreamReader, writer: asyncio.StreamWriter
     ) -> None:
+        names = request.get("components")
+
+        def wanted(record: Record) -> bool:
+            return not names or record.component in names
+
+        async def send(record: Record) -> None:
+            if wanted(record):
+                await _send(writer, asdict(record))
+
         with self._journal.follow() as queue:
-            for record in self._journal.last(int(request.get("last", KEPT))):
-                await _send(writer, json.loads(record.as_json()))
+            for record in self._journal.last(int(request.get("last", KEPT)), wanted):
+                await send(record)
             if not request.get("follow"):
                 return
             assert self._ended is not None  # noqa: S101 - it was opened
@@ -119,11 +129,11 @@ class Server:
                 any_of: list[asyncio.Future[Any]] = [item, gone, self._ended]
                 await asyncio.wait(any_of, return_when=asyncio.FIRST_COMPLETED)
                 if item.done():
-                    await _send(writer, json.loads(item.result().as_json()))
+                    await send(item.result())
                 item.cancel()
             gone.cancel()
             while not queue.empty():
-                await _send(writer, json.loads(queue.get_nowait().as_json()))
+                await send(queue.get_nowait())
 
 
 async def _send(writer: asyncio.StreamWriter, answer: dict[str, Any]) -> None:

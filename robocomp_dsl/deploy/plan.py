@@ -18,6 +18,7 @@ from robocomp_dsl.model.types import Literal
 PYTHONS = ("python3", "python")
 """Program names that mean the interpreter that runs rcdeploy, which has the runtime installed."""
 DEFAULT_CONFIG = Path("etc") / "config.yaml"
+"""The configuration of a component that the deployment gives none, in the component's folder."""
 PRIORITIES = ("background", "low", "normal", "high", "realtime")
 
 
@@ -26,8 +27,8 @@ class Process:
     """One component as a process.
 
     `env` is added to the environment of rcdeploy. `after`: what must be ready before it starts;
-    `stops_after`: what must have ended before it is asked to stop. `config` and `settings` are
-    those in `argv` (settings as `key=value`). `port` 0: any.
+    `stops_after`: what must have ended before it is asked to stop. `config` (below `cwd` if it is
+    relative) and `settings` (`key=value`) are those in `argv`. `port` 0: any.
     """
 
     name: str
@@ -82,11 +83,6 @@ def waves(waits_for: dict[str, set[str]]) -> list[list[str]]:
     return made
 
 
-def config_of(instance: Instance) -> Path:
-    """The configuration file it uses, whether it exists or not."""
-    return instance.config or instance.component.path.parent / DEFAULT_CONFIG
-
-
 def settings_of(instance: Instance) -> tuple[str, ...]:
     """Its `set` lines as `key=value`."""
     return tuple(f"{key}={shown(value)}" for key, value in instance.settings)
@@ -98,7 +94,8 @@ def shown(value: Literal) -> str:
 
 
 def _process(deployment: Deployment, one: Instance, domain: str, interpreter: str) -> Process:
-    config = config_of(one) if one.config or one.component.parameters else None
+    own = DEFAULT_CONFIG if one.component.parameters else None
+    config = one.config or own
     settings = settings_of(one)
     command = shlex.split(one.executable)
     if command and command[0] in PYTHONS:

@@ -43,7 +43,7 @@ def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
         return
     cdsl = _short(instance.component.path)
     if script == "main.py":
-        said = f"`{process.component}` has not been generated: there is no {script} beside {cdsl}"
+        said = f"its code has not been generated, there is no {script} beside {cdsl}"
         yield _at(instance, codes.NOT_GENERATED, said, f"rcgen component {cdsl}")
     else:
         yield _at(instance, codes.EXECUTABLE, f"there is no {script} in {_short(process.cwd)}")
@@ -59,10 +59,11 @@ def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
     """The component would refuse it at its start; here it is told before anything starts."""
     own = instance.component.parameters
     known = schema(own.parameters) if own else ()
+    config = process.cwd / process.config if process.config else None
     try:
-        load_values(known, process.config, process.settings)
+        load_values(known, config, process.settings)
     except ConfigError as error:
-        return [_in_configuration(instance, process.config, one) for one in error.findings]
+        return [_in_configuration(instance, config, one) for one in error.findings]
     return []
 
 
@@ -89,16 +90,10 @@ def _span(path: Path, line: int, column: int, width: int) -> Span:
 
 
 def _ports(deployment: Deployment) -> Iterator[Diagnostic]:
-    owners: dict[int, str] = {}
     for instance in deployment.instances:
-        port = instance.port
-        if not port:
-            continue
-        if port in owners:
-            yield _at(instance, codes.PORT_TAKEN, f"port {port} is that of `{owners[port]}`, too")
-        elif reason := _taken(port):
-            yield _at(instance, codes.PORT_TAKEN, f"port {port} cannot be used: {reason}")
-        owners.setdefault(port, instance.name)
+        if instance.port and (reason := _taken(instance.port)):
+            said = f"port {instance.port} cannot be used: {reason}"
+            yield _at(instance, codes.PORT_TAKEN, said)
 
 
 def _taken(port: int) -> str:

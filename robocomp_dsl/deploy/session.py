@@ -14,6 +14,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 from robocomp_dsl.deploy import folder
@@ -38,8 +39,8 @@ class Display:
     def record(self, record: Record) -> None:
         """A line of output."""
 
-    def attach(self, rows: Callable[[], list[Row]], stop: Callable[[str], None]) -> None:
-        """How to get the status, and how to stop when nobody reads any more."""
+    def attach(self, rows: Callable[[], list[Row]], stop: Callable[[str], object]) -> None:
+        """How to get the status, and how to stop when nobody reads any more; from any thread."""
 
     def changed(self) -> None:
         """The status is another one now."""
@@ -62,14 +63,15 @@ def run(
 
 
 async def _run(engine: Local, journal: Journal, claim: folder.Claim, display: Display) -> Outcome:
+    loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
-        asyncio.get_running_loop().add_signal_handler(number, engine.stop, reason)
+        loop.add_signal_handler(number, engine.stop, reason)
     plan = engine.plan
     server = Server(journal, engine.rows, engine.stop)
     await server.open(claim.folder / folder.SOCKET)
     path = str(plan.path.resolve())
     claim.tell(folder.Running(plan.name, path, plan.domain, os.getpid(), time.time()))
-    display.attach(engine.rows, engine.stop)
+    display.attach(engine.rows, lambda why: loop.call_soon_threadsafe(partial(engine.stop, why)))
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
         outcome = await engine.run()

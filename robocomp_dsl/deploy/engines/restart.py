@@ -33,4 +33,4 @@ def judge(policy: Restart, restarts: Sequence[float], now: float, *, failed: boo
     if recent >= policy.max:
         times = "once" if recent == 1 else f"{recent} times"
         return Verdict(None, f"restarted {times} in {policy.window_s:g} s, that is enough")
-    return Verdict(min(FIRST_WAIT_S * 2.0**recent, LONGEST_WAIT_S))
+    return Verdict(min(FIRST_WAIT_S * 2.0 ** min(recent, 30), LONGEST_WAIT_S))

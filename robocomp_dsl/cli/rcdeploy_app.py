@@ -1,0 +1,54 @@
+"""From a DDSL file to something that can run: all checks of the text and of this machine.
+
+In: a path and the options. Out: the deployment and its plan, or the findings that forbid it.
+"""
+
+from __future__ import annotations
+
+import secrets
+import sys
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.deploy.plan import Plan, plan
+from robocomp_dsl.diagnostics import Diagnostic, Report
+
+app = click.argument("app", metavar="APP.ddsl", type=click.Path(path_type=Path))
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """`plan` is None when there are errors among `findings`."""
+
+    findings: Sequence[Diagnostic]
+    plan: Plan | None
+
+
+def check(
+    path: Path, folders: Iterable[Path], name: str | None = None, domain: str | None = None
+) -> Checked:
+    """Judge a deployment: first the text and all it imports, then what this machine has."""
+    from robocomp_dsl.check import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
+    from robocomp_dsl.check.workspace import Workspace  # noqa: PLC0415
+    from robocomp_dsl.deploy.freshness import outdated  # noqa: PLC0415
+    from robocomp_dsl.deploy.preflight import preflight  # noqa: PLC0415
+
+    report = Report()
+    workspace = Workspace(folders)
+    deployment = check_ddsl(path, workspace, report)
+    if deployment is None or report.failed:
+        return Checked(report.sorted(), None)
+    running = name or deployment.name
+    made = plan(
+        deployment,
+        name=running,
+        domain=domain or f"{running}-{secrets.token_hex(3)}",
+        interpreter=sys.executable,
+    )
+    report.extend(preflight(deployment, made))
+    if not report.failed:
+        report.extend(outdated(deployment, workspace.middlewares))
+    return Checked(report.sorted(), None if report.failed else made)

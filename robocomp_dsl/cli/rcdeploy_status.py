@@ -1,0 +1,42 @@
+"""`rcdeploy status`: how the components are. In: a running deployment. Out: a table or JSON."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import time
+from dataclasses import asdict
+from typing import Any
+
+import click
+
+from robocomp_dsl.cli import options, rcdeploy_running
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.deploy import control, folder, status
+
+
+@click.command()
+@rcdeploy_running.which
+@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
+def command(which: str | None, form: str) -> None:
+    """Show the components of a running deployment. Exit code 0: all are ready or ended well."""
+    one = rcdeploy_running.find(which)
+    try:
+        answer = next(control.ask(one.name, {"verb": "status"}))
+    except (folder.Unavailable, StopIteration):
+        rcdeploy_running.fail(f"`{one.name}` does not answer; it may be ending")
+    rows = [status.Row(**row) for row in answer["rows"]]
+    if form == "json":
+        print(json.dumps(_data(one, rows), indent=1))
+    else:
+        since = status.duration(time.time() - one.since)
+        print(f"{one.name}: {one.path}, pid {one.pid}, domain {one.domain}, up {since}")
+        width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
+        print("\n".join(status.table(rows, width, colours=options.colours_on(sys.stdout))))
+    if any(row.state not in (status.READY, status.ENDED) for row in rows):
+        sys.exit(FINDINGS)
+
+
+def _data(one: folder.Running, rows: list[status.Row]) -> dict[str, Any]:
+    return {**asdict(one), "components": [row.as_dict() for row in rows]}

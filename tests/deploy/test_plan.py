@@ -1,0 +1,248 @@
+"""The pure parts: plans, restarts, waves, lines, records, tables."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from robocomp_dsl.deploy import logs, status
+from robocomp_dsl.deploy.engines.restart import judge
+from robocomp_dsl.deploy.plan import plan, qos_text, strictest, waves
+from robocomp_dsl.model.component import Component, Port, Role
+from robocomp_dsl.model.deployment import Connection, Deployment, Host, Instance, Qos, Restart
+from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.source import Source
+
+SPAN = Source(Path("x.ddsl"), "x").whole
+HERE = Host("", "127.0.0.1")
+LASER = Interface("RoboCompLaser", "Laser", SPAN, "", ())
+SCAN = Interface("RoboCompScan", "Scan", SPAN, "", ())
+
+
+def component(name: str, *ports: Port, parameters: bool = False) -> Component:
+    path = Path("/robot") / name / f"{name}.cdsl"
+    own = ParameterSet(name, path, SPAN, ()) if parameters else None
+    return Component(name, path, SPAN, "Python", (), ports, own)
+
+
+def port(role: Role, interface: Interface, name: str = "") -> Port:
+    return Port(role, interface, name or interface.name, SPAN)
+
+
+def instance(name: str, of: Component, **fields: Any) -> Instance:
+    return Instance(name, of, SPAN, HERE, **fields)
+
+
+def wire(source: Instance, source_port: int, target: Instance, target_port: int, qos: Qos) -> Any:
+    ends = (source.component.ports[source_port], target.component.ports[target_port])
+    return Connection(source, ends[0], target, ends[1], SPAN, qos)
+
+
+BASE = component(
+    "base",
+    port(Role.IMPLEMENTS, LASER, "front"),
+    port(Role.IMPLEMENTS, LASER, "back"),
+    port(Role.PUBLISHES, SCAN),
+    parameters=True,
+)
+NAV = component("nav", port(Role.REQUIRES, LASER, "laser"), port(Role.SUBSCRIBES, SCAN))
+ONE = component("one", port(Role.IMPLEMENTS, LASER))
+
+
+def deployment(instances: list[Instance], *connections: Connection) -> Deployment:
+    return Deployment("robot", Path("robot.ddsl"), SPAN, "zenoh", tuple(instances), connections)
+
+
+def commands(one: Deployment) -> dict[str, tuple[str, ...]]:
+    made = plan(one, name="robot", domain="d-1", interpreter="/py")
+    return {p.name: p.argv for p in made.processes}
+
+
+COMMON = ("--domain", "d-1", "--middleware", "zenoh", "--log-format", "json")
+
+
+def test_command_lines() -> None:
+    base = instance(
+        "body",
+        BASE,
+        settings=(("rate", 20.5), ("on", True), ("name", "a b"), ("motors[1].id", 3)),
+        port=7451,
+    )
+    nav = instance("nav", NAV, config=Path("/etc/nav.yaml"), executable="./nav --fast 'x y'")
+    found = commands(deployment([base, nav], wire(nav, 0, base, 1, Qos())))
+    assert found["body"] == (
+        "/py", "main.py", "--name", "body", *COMMON, "--config", "etc/config.yaml",
+        "--set", "rate=20.5", "--set", "on=true", "--set", "name=a b", "--set", "motors[1].id=3",
+        "--listen-port", "7451",
+    )  # fmt: skip
+    assert found["nav"] == (
+        "./nav", "--fast", "x y", "--name", "nav", *COMMON, "--config", "/etc/nav.yaml",
+        "--connect", "laser=body.back",
+    )  # fmt: skip
+
+
+def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
+    base, one, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
+    best = Qos(reliable=False, depth=1, deadline_ms=40)
+    found = commands(
+        deployment(
+            [base, one, nav], wire(nav, 0, one, 0, Qos(reliable=True)), wire(base, 2, nav, 1, best)
+        )
+    )
+    tail = len(("/py", "main.py", "--name", "x", *COMMON))
+    assert found["nav"][tail:] == (
+        "--connect", "laser=one", "--connect", "Scan=base",
+        "--qos", "laser=reliable", "--qos", "Scan=best_effort,depth=1,deadline=40",
+    )  # fmt: skip
+    assert found["base"][tail:] == (
+        "--config", "etc/config.yaml", "--qos", "Scan=best_effort,depth=1,deadline=40",
+    )  # fmt: skip
+    assert found["one"][tail:] == ("--qos", "Laser=reliable")
+
+
+def test_users_stop_before_what_they_use() -> None:
+    base, one, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
+    spare = instance("spare", NAV, after=("base",))
+    made = plan(
+        deployment(
+            [base, one, nav, spare], wire(nav, 0, one, 0, Qos()), wire(base, 2, nav, 1, Qos())
+        ),
+        name="r", domain="d", interpreter="/py",
+    )  # fmt: skip
+    assert [p.stops_after for p in made.processes] == [("nav", "spare"), ("nav",), (), ()]
+    assert made.stop_waves() == [["nav", "spare"], ["base", "one"]]
+    assert [p.after for p in made.processes] == [(), (), (), ("base",)]
+
+
+@pytest.mark.parametrize(
+    ("waits", "expected"),
+    [
+        ({}, []),
+        ({"a": set(), "b": set()}, [["a", "b"]]),
+        ({"a": {"b"}, "b": set(), "c": {"a"}}, [["b"], ["a"], ["c"]]),
+        ({"a": {"b"}, "b": {"a"}, "c": set()}, [["c"], ["a", "b"]]),
+        ({"a": {"elsewhere"}}, [["a"]]),
+    ],
+)
+def test_waves(waits: dict[str, set[str]], expected: list[list[str]]) -> None:
+    assert waves(waits) == expected
+
+
+@pytest.mark.parametrize(
+    ("wanted", "expected"),
+    [
+        ([Qos()], ""),
+        ([Qos(reliable=False, priority="low", depth=1, deadline_ms=40)],
+         "best_effort,depth=1,priority=low,deadline=40"),
+        ([Qos(reliable=False, depth=1), Qos(reliable=True, depth=9)], "reliable,depth=9"),
+        ([Qos(priority="low"), Qos(priority="realtime"), Qos()], "priority=realtime"),
+        ([Qos(deadline_ms=40), Qos(deadline_ms=12.5)], "deadline=12.5"),
+    ],
+)  # fmt: skip
+def test_qualities(wanted: list[Qos], expected: str) -> None:
+    assert qos_text(strictest(wanted)) == expected
+
+
+@pytest.mark.parametrize(
+    ("policy", "failed", "restarts", "wait"),
+    [
+        (Restart("never"), True, [], None),
+        (Restart("on-failure"), False, [], None),
+        (Restart("on-failure"), True, [], 0.1),
+        (Restart("always"), False, [], 0.1),
+        (Restart("on-failure", max=5), True, [99.0], 0.2),
+        (Restart("on-failure", max=5), True, [90.0, 99.0], 0.4),
+        (Restart("on-failure", max=90), True, [99.0] * 20, 10.0),
+        (Restart("on-failure", max=2, window_s=60), True, [50.0, 99.0], None),
+        (Restart("on-failure", max=2, window_s=60), True, [40.0, 99.0], 0.2),
+        (Restart("on-failure", max=2000), True, [99.0] * 1999, 10.0),
+    ],
+)
+def test_restarts(policy: Restart, failed: bool, restarts: list[float], wait: float | None) -> None:
+    assert judge(policy, restarts, 100.0, failed=failed).wait_s == wait
+
+
+CHUNKS = [
+    # what arrives, the texts of the records
+    ([b"a\nb\n"], ["a", "b"]),
+    ([b"a", b"b\nc"], ["ab", "c"]),
+    ([b"\n\nx"], ["", "", "x"]),
+    ([b"dos\r\n"], ["dos"]),
+    ([b"\xff\n"], ["\N{REPLACEMENT CHARACTER}"]),
+    (["größe".encode()[:3], "größe".encode()[3:]], ["größe"]),
+    ([b'{"message": "m", "level": "info"}\n'], ["m"]),
+    ([b'{"message": "m", "level": "error", "exception": "Trace"}\n'], ["m\nTrace"]),
+    ([b'{"message": "no level"}\n'], ['{"message": "no level"}']),
+    ([b'{"broken\n'], ['{"broken']),
+    ([b"{" * 5000 + b"\n"], ["{" * 5000]),
+    ([b'{"message": "m", "level": "info", "time": 1e999}\n'], ["m"]),
+    ([], []),
+]
+
+
+@pytest.mark.parametrize(("chunks", "texts"), CHUNKS)
+def test_lines(chunks: list[bytes], texts: list[str]) -> None:
+    lines = logs.Lines("c", "stdout")
+    found = [record for chunk in chunks for record in lines.feed(chunk, 5.0)] + lines.end(5.0)
+    assert [record.text for record in found] == texts
+    assert all(record.time == 5.0 for record in found)
+    assert [logs.Record.of_json(record.as_json()) for record in found] == found
+
+
+@pytest.mark.parametrize("size", [1, 7, 4096, 100_000])
+def test_long_lines_come_in_pieces_that_keep_every_character(size: int) -> None:
+    data = ("ä" * 100_000 + "\n" + "€" * 50_001).encode()
+    lines = logs.Lines("c", "stdout")
+    texts = [
+        record.text
+        for at in range(0, len(data), size)
+        for record in lines.feed(data[at : at + size], 0.0)
+    ] + [record.text for record in lines.end(0.0)]
+    assert "".join(texts) == "ä" * 100_000 + "€" * 50_001
+    assert all(len(text.encode()) <= logs.LONGEST for text in texts)
+
+
+def test_the_time_of_a_log_line_is_believed_unless_it_is_far_off() -> None:
+    for told, believed in ((1000.25, 1000.25), (5e9, 1001.0), ("noon", 1001.0)):
+        line = json.dumps({"message": "m", "level": "INFO", "time": told}).encode() + b"\n"
+        assert logs.Lines("c", "stdout").feed(line, 1001.0)[0].time == believed
+
+
+def test_records_as_text() -> None:
+    record = logs.Record(3600.0625, "arm", "WARNING", "hot\x1b[2J\a\nsecond \x1b[31mred")
+    shown = logs.as_text(record, 6, colours=False)
+    stamp, _, rest = shown.partition(" ")
+    assert stamp.endswith(":00:00.062")
+    assert rest == (
+        "arm    | warning: hot\N{REPLACEMENT CHARACTER}[2J\N{REPLACEMENT CHARACTER}\n"
+        + " " * 20 + "| second \x1b[31mred"
+    )  # fmt: skip
+    coloured = logs.as_text(record, 6, colours=True)
+    assert "\x1b[33mwarning: hot" in coloured
+    assert f"\x1b[{logs.colour('arm')}marm   \x1b[0m" in coloured
+
+
+def test_table() -> None:
+    rows = [
+        status.Row("arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "emergency"),
+        status.Row("base", status.WAITING, note="for arm"),
+    ]
+    assert status.table(rows, 200, colours=False) == [
+        "NAME  STATE    PID   UP         RESTARTS  CPU   MEMORY",
+        "arm   ready    4711  1 h 2 min  2         26 %  52 MB   emergency",
+        "base  waiting  -     -          0         -     -       for arm",
+    ]
+    assert all(len(line) <= 20 for line in status.table(rows, 20, colours=False))
+    assert status.table(rows, 200, colours=True)[1].startswith("\x1b[32marm")
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.04, "0.0 s"), (59.94, "59.9 s"), (60, "1 min 0 s"), (3600, "1 h 0 min")],
+)
+def test_durations(seconds: float, text: str) -> None:
+    assert status.duration(seconds) == text

@@ -1,0 +1,245 @@
+"""Everything is checked before anything is started, and each finding has its place."""
+
+from __future__ import annotations
+
+import json
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import check_cdsl
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.rcdeploy import ordered
+from robocomp_dsl.cli.rcdeploy_app import Checked, check
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.write import write
+
+ARM = """
+import "Laser.idsl";
+Component arm
+{
+    Communications { implements Laser; };
+    language Python;
+    parameters "arm.pdsl";
+};
+"""
+PARAMETERS = """
+ComponentParams arm
+{
+    rate float 50 [Hz] 1:1000 live;
+    serial string;
+    motors[0:4] { id int 0 0:127; };
+};
+"""
+EYE = """
+import "Laser.idsl";
+Component eye
+{
+    Communications { requires Laser; };
+    language Python;
+};
+"""
+APP = """
+import "arm/arm.cdsl";
+import "eye/eye.cdsl";
+Deployment app
+{
+    component arm { set serial = "abc"; ARM };
+    component eye { after arm; EYE };
+};
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Two generated components and no deployment yet, the working folder of the test."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in (("arm", ARM), ("eye", EYE)):
+        cdsl = tmp_path / name / f"{name}.cdsl"
+        cdsl.parent.mkdir()
+        cdsl.write_text(text)
+        (cdsl.parent / "arm.pdsl").write_text(PARAMETERS)
+        report = Report()
+        component = check_cdsl(cdsl, Workspace(), report)
+        assert component
+        assert not report.failed
+        write(cdsl.parent, plan(component))
+    return tmp_path
+
+
+def judged(folder: Path, arm: str = "", eye: str = "", app: str = APP) -> Checked:
+    path = folder / "app.ddsl"
+    path.write_text(app.replace("ARM", arm).replace("EYE", eye))
+    return check(path, ())
+
+
+def told(checked: Checked, folder: Path) -> list[str]:
+    made = []
+    for one in checked.findings:
+        path = one.span.source.path.absolute().relative_to(folder)
+        place = ":".join(map(str, one.span.begin))
+        made.append(f"{path}:{place} {one.code.id} {one.message}")
+    return made
+
+
+def test_a_right_deployment_has_a_plan(folder: Path) -> None:
+    checked = judged(folder, "set rate = 20;")
+    assert told(checked, folder) == []
+    assert checked.plan
+    assert [p.name for p in checked.plan.processes] == ["arm", "eye"]
+    assert checked.plan.domain.startswith("app-")
+    again = judged(folder, "set rate = 20;").plan
+    assert again
+    assert again.domain != checked.plan.domain
+
+
+def spoil_config(folder: Path) -> None:
+    (folder / "own.yaml").write_text("rate: 5000\nserail: x\nmotors:\n  - id: 300\n")
+
+
+def remove_main(folder: Path) -> None:
+    (folder / "eye" / "main.py").unlink()
+
+
+def remove_config(folder: Path) -> None:
+    (folder / "arm" / "etc" / "config.yaml").unlink()
+
+
+def touch_generated(folder: Path) -> None:
+    with (folder / "arm" / "generated" / "params.py").open("a") as stream:
+        stream.write("# changed\n")
+
+
+def nothing(_: Path) -> None:
+    pass
+
+
+NO_ENTRY = (
+    "app.ddsl:6:15 RC901 `motors` has 1 entries, there is no [2] (they count from 0) "
+    "(`set motors[2].id=5` of `arm`)"
+)
+NO_FILE = (
+    "arm/etc/config.yaml:1:1 RC901 the configuration cannot be used: there is no such file (`arm`)"
+)
+NO_MAIN = (
+    "app.ddsl:7:15 RC903 `eye`: its code has not been generated, "
+    "there is no main.py beside eye/eye.cdsl"
+)
+CASES = [
+    # what is done to the folder, `component arm`, `component eye`, the findings
+    (spoil_config, 'config "own.yaml";', "", [
+        "own.yaml:1:7 RC901 `rate` is 5000 Hz, its highest value is 1000 Hz (`arm`)",
+        "own.yaml:2:1 RC901 there is no parameter `serail` (`arm`)",
+        "own.yaml:4:9 RC901 `motors[0].id` is 300, its highest value is 127 (`arm`)",
+    ]),
+    (nothing, "set motors[0].id = 5; set motors[2].id = 5;", "", [NO_ENTRY]),
+    (remove_config, "", "", [NO_FILE]),
+    (remove_main, "", "", [NO_MAIN]),
+    (nothing, 'executable "./arm --fast";', 'executable "no-such-program-anywhere main.py";', [
+        "app.ddsl:6:15 RC902 `arm`: there is no program `./arm` for it",
+        "app.ddsl:7:15 RC902 `eye`: there is no program `no-such-program-anywhere` for it",
+    ]),
+    (nothing, "", 'executable "python3 other.py";', [
+        "app.ddsl:7:15 RC902 `eye`: there is no other.py in eye",
+    ]),
+    (touch_generated, "", "", [
+        "app.ddsl:6:15 RC905 the generated code of `arm` is not what its description gives now",
+    ]),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("change", "arm", "eye", "expected"), CASES)
+def test_what_the_machine_lacks(
+    folder: Path, change: Callable[[Path], None], arm: str, eye: str, expected: list[str]
+) -> None:
+    change(folder)
+    checked = judged(folder, arm, eye)
+    assert told(checked, folder) == expected
+    assert (checked.plan is None) == any("RC905" not in line for line in expected)
+
+
+def test_a_port_in_use(folder: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        found = told(judged(folder, f"port {port};"), folder)
+    said = f"`arm`: port {port} cannot be used: Address already in use"
+    assert found == [f"app.ddsl:6:15 RC904 {said}"]
+    assert told(judged(folder, f"port {port};"), folder) == []
+
+
+def test_all_findings_come_in_one_run(folder: Path) -> None:
+    spoil_config(folder)
+    remove_main(folder)
+    found = told(judged(folder, 'config "own.yaml";'), folder)
+    assert [line.split()[1] for line in found] == ["RC903", "RC901", "RC901", "RC901"]
+
+
+@pytest.mark.parametrize("content", [b"", b"\0\1\2", b"Deployment", b"\xff\xfe", b"{" * 100_000])
+def test_bad_files_are_findings(folder: Path, content: bytes) -> None:
+    (folder / "app.ddsl").write_bytes(content)
+    checked = check(folder / "app.ddsl", ())
+    assert checked.plan is None
+    assert checked.findings
+
+
+ORDERS = [
+    ([], []),
+    (["app.ddsl"], ["up", "app.ddsl"]),
+    (["app.ddsl", "plan"], ["plan", "app.ddsl"]),
+    (["app.ddsl", "status", "--format", "json"], ["status", "app.ddsl", "--format", "json"]),
+    (["plan", "app.ddsl"], ["plan", "app.ddsl"]),
+    (["--duration", "3", "app.ddsl"], ["up", "--duration", "3", "app.ddsl"]),
+    (["app.ddsl", "--name", "stop"], ["up", "app.ddsl", "--name", "stop"]),
+    (["status"], ["status"]),
+    (["status", "app"], ["status", "app"]),
+    (["--help"], ["--help"]),
+    (["app.ddsl", "sttus"], ["sttus", "app.ddsl"]),
+]
+
+
+@pytest.mark.parametrize(("written", "meant"), ORDERS)
+def test_the_file_may_stand_before_the_command(written: list[str], meant: list[str]) -> None:
+    assert ordered(written) == meant
+
+
+def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
+    program = "from robocomp_dsl.cli.rcdeploy import main; main()"
+    return subprocess.run(
+        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False
+    )
+
+
+def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))
+    judged(folder, 'env MODE = "a b";')
+    shown = rcdeploy("app.ddsl", "plan")
+    assert (shown.returncode, shown.stderr) == (0, "")
+    assert "2. eye (eye) after arm\n" in shown.stdout
+    assert f"cd arm && MODE='a b' {sys.executable} main.py --name arm --domain" in shown.stdout
+    assert shown.stdout.endswith("stops: eye, then arm\n")
+    data = json.loads(rcdeploy("plan", "app.ddsl", "--format", "json", "--domain", "d").stdout)
+    assert data["domain"] == "d"
+    assert data["processes"][1]["after"] == ["arm"]
+    assert data["processes"][0]["env"] == {"MODE": "a b"}
+    right = rcdeploy("check", "app.ddsl")
+    assert (right.returncode, right.stdout) == (0, "app.ddsl: 2 components can be started\n")
+    judged(folder, 'executable "nothing";')
+    wrong = rcdeploy("check", "app.ddsl", "--format", "json")
+    assert wrong.returncode == 1
+    assert [one["code"] for one in json.loads(wrong.stdout)] == ["RC902"]
+    started = rcdeploy("app.ddsl")
+    assert started.returncode == 1
+    assert "nothing was started (1 error)" in started.stderr
+    for verb in ("status", "logs", "stop"):
+        absent = rcdeploy("app.ddsl", verb)
+        assert (absent.returncode, absent.stdout) == (1, "")
+        assert absent.stderr == "error: `app.ddsl` is not running\n"
+    assert rcdeploy("stop").stderr == "error: no deployment is running\n"
+    assert rcdeploy("missing.ddsl").returncode == 1
+    assert rcdeploy("app.ddsl", "sttus").returncode == 2
+    assert rcdeploy("--no-such-option").returncode == 2

@@ -1,0 +1,122 @@
+"""What a user sees: lines of all components, the table below them, and slow or absent readers."""
+
+from __future__ import annotations
+
+import io
+import os
+import threading
+from pathlib import Path
+
+from robocomp_dsl.cli import rcdeploy_terminal
+from robocomp_dsl.cli.rcdeploy_terminal import Terminal
+from robocomp_dsl.deploy.logs import Record
+from robocomp_dsl.deploy.status import READY, Row
+
+
+def record(text: str, component: str = "arm") -> Record:
+    return Record(0.0, component, "INFO", text)
+
+
+class Stream(io.StringIO):
+    """A stream whose writer can be held, as Ctrl-S holds a terminal."""
+
+    encoding = "ascii"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.free = threading.Event()
+        self.free.set()
+        self.asked = threading.Event()
+        self.news = threading.Condition()
+
+    def write(self, text: str) -> int:
+        self.asked.set()
+        self.free.wait()
+        with self.news:
+            self.news.notify_all()
+            return super().write(text)
+
+    def wait_for(self, text: str) -> None:
+        with self.news:
+            assert self.news.wait_for(lambda: text in self.getvalue(), 20), self.getvalue()
+
+
+def terminal(stream: io.StringIO, *, live: bool = False, as_json: bool = False) -> Terminal:
+    return Terminal(stream, ["arm"], live=live, colours=False, as_json=as_json)
+
+
+def test_lines_of_all_components_in_order() -> None:
+    stream = Stream()
+    shown = terminal(stream)
+    for text in ("one", "größe", "a\nb"):
+        shown.record(record(text))
+    shown.close()
+    lines = [line.partition(" ")[2] for line in stream.getvalue().splitlines()]
+    assert [line.split("| ")[1] for line in lines] == ["one", "gr\\xf6\\xdfe", "a", "b"]
+    assert lines[0].startswith("arm      |")
+
+
+def test_json_has_one_record_a_line() -> None:
+    stream = Stream()
+    shown = terminal(stream, as_json=True)
+    made = [record("one"), record("two\nlines", "eye")]
+    for one in made:
+        shown.record(one)
+    shown.close()
+    assert [Record.of_json(line) for line in stream.getvalue().splitlines()] == made
+
+
+def test_the_table_stays_below_the_lines_and_goes_at_the_end() -> None:
+    stream = Stream()
+    shown = terminal(stream, live=True)
+    rows = [Row("arm", READY, 4711, 1.0), Row("eye", READY, 4712, 1.0)]
+    shown.attach(lambda: rows, lambda _: None)
+    shown.changed()
+    stream.wait_for("4712")
+    shown.record(record("hello"))
+    stream.wait_for("hello")
+    shown.close()
+    text = stream.getvalue()
+    assert text.index("4712") < text.index("\x1b[3F\x1b[J") < text.index("hello")
+    assert text.rstrip("\n").rsplit("\x1b[3F\x1b[J", 1)[1] == ""
+
+
+def test_a_held_terminal_holds_nobody_and_the_lost_are_counted() -> None:
+    stream = Stream()
+    stream.free.clear()
+    shown = terminal(stream)
+    shown.record(record("first"))
+    assert stream.asked.wait(20)
+    for i in range(rcdeploy_terminal.WAITING_LINES + 10):
+        shown.record(record(f"line {i}"))
+    stream.free.set()
+    stream.wait_for(f"line {rcdeploy_terminal.WAITING_LINES + 9}")
+    shown.close()
+    text = stream.getvalue()
+    counted = sum(int(line.split()[1]) for line in text.splitlines() if "too slow" in line)
+    assert counted == 10
+    assert len(text.splitlines()) == 1 + 1 + rcdeploy_terminal.WAITING_LINES
+
+
+def test_a_reader_that_is_gone_stops_the_deployment() -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    told = threading.Event()
+    with os.fdopen(writer, "w") as stream:
+        shown = Terminal(stream, ["arm"], live=False, colours=False, as_json=False)
+        shown.attach(list, lambda _: told.set())
+        shown.record(record("nobody reads this"))
+        assert told.wait(20)
+        shown.close()
+        # What is still in the buffer has nowhere to go.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
+def test_many_components_leave_room_for_the_lines(tmp_path: Path) -> None:
+    stream = Stream()
+    shown = terminal(stream, live=True)
+    shown.attach(lambda: [Row(f"c{i}", READY, i + 1) for i in range(100)], lambda _: None)
+    shown.changed()
+    stream.wait_for("more (rcdeploy status)")
+    shown.close()
+    assert "c99" not in stream.getvalue()
