@@ -122,12 +122,12 @@ class Report:
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known name that `word` most likely means, or None; a wrong case always counts as near."""
-    names = list(known)
-    for name in names:
-        if name.lower() == word.lower():
-            return name
-    found = get_close_matches(word, names, n=1, cutoff=0.7)
-    return found[0] if found else None
+    by_letters: dict[str, str] = {}
+    for name in known:
+        by_letters.setdefault(name.lower(), name)
+    letters = word.lower()
+    found = [letters] if letters in by_letters else get_close_matches(letters, by_letters, 1, 0.7)
+    return by_letters[found[0]] if found else None
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

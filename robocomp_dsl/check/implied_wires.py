@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.components import Imported
 from robocomp_dsl.check.literals import listing
-from robocomp_dsl.check.wiring import same_interface
+from robocomp_dsl.check.wiring import Written, same_interface
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Instance
@@ -21,35 +21,40 @@ End = tuple[Instance, Port]
 
 def implied_wires(
     instances: Sequence[Instance],
-    written: Sequence[Connection],
+    written: Written,
     imported: Imported,
     report: Report,
     *,
     whole: bool,
 ) -> Iterator[Connection]:
     """The wires that follow. Unless `whole`, an instance is not known: nothing is then missed."""
+    wired = {(id(one.source), id(one.source_port)) for one in written.wires}
+    wired |= {(id(one.target), id(one.target_port)) for one in written.wires}
     servers = list(_ends(instances, Role.IMPLEMENTS))
-    publishers = list(_ends(instances, Role.PUBLISHES))
-    wired = {(id(one.source), id(one.source_port)) for one in written}
-    wired |= {(id(one.target), id(one.target_port)) for one in written}
     for instance, port in _ends(instances, Role.REQUIRES):
-        if (id(instance), id(port)) in wired:
-            continue
-        found = [end for end in _serving(port, servers) if end[0] is not instance]
-        if len(found) == 1:
-            yield Connection(instance, port, *found[0], instance.span, implied=True)
-        elif found:
-            _report_several(instance, port, found, report)
-        elif whole:
-            _report_unserved(instance, port, imported, report)
+        if (id(instance), id(port)) not in wired:
+            found = [end for end in _serving(port, servers) if end[0] is not instance]
+            if len(found) == 1:
+                yield Connection(instance, port, *found[0], instance.span, implied=True)
+            elif instance.name not in written.troubled:
+                _judge_requirement((instance, port), found, imported, report, whole=whole)
+    publishers = list(_ends(instances, Role.PUBLISHES))
     for instance, port in _ends(instances, Role.SUBSCRIBES):
-        if (id(instance), id(port)) in wired:
-            continue
-        heard = _serving(port, publishers)
-        for publisher, topic in heard:
-            yield Connection(publisher, topic, instance, port, instance.span, implied=True)
-        if not heard and whole:
-            _report_unheard(instance, port, report)
+        if (id(instance), id(port)) not in wired:
+            heard = _serving(port, publishers)
+            for publisher, topic in heard:
+                yield Connection(publisher, topic, instance, port, instance.span, implied=True)
+            if not heard and whole:
+                _report_unheard(instance, port, report)
+
+
+def _judge_requirement(
+    end: End, found: Sequence[End], imported: Imported, report: Report, *, whole: bool
+) -> None:
+    if found:
+        _report_several(*end, found, report)
+    elif whole:
+        _report_unserved(*end, imported, report)
 
 
 def _ends(instances: Sequence[Instance], role: Role) -> Iterator[End]:

@@ -59,20 +59,29 @@ def report_cycle(steps: Sequence[Step], report: Report) -> None:
     start = min(range(len(steps)), key=lambda i: steps[i][0])
     turned = [*steps[start:], *steps[:start]]
     names = [Path(file).name for file, _ in turned]
+    if len(names) == 1:
+        statement = turned[0][1]
+        report.add(
+            codes.IMPORT_CYCLE,
+            statement.path.span,
+            f"`{names[0]}` imports itself",
+            fix=Fix("remove the import", (Edit(statement.span, ""),)),
+        )
+        return
     chain = " → ".join(f"`{name}`" for name in (*names, names[0]))
-    following = zip(turned[1:], (*names[2:], names[0]), strict=True)
+    links = list(zip(turned, (*names[1:], names[0]), strict=True))
     report.add(
         codes.IMPORT_CYCLE,
         turned[0][1].path.span,
         f"`{names[0]}` imports itself: {chain}",
-        notes=[Note(s.path.span, f"`{name}` is imported here") for (_, s), name in following],
+        notes=[Note(s.path.span, f"`{name}` is imported here") for (_, s), name in links[1:]],
         help="move what both need into a third file, and import that from both",
     )
 
 
 def replace(span: Span, text: str) -> Fix:
     """The fix for a name that was meant otherwise."""
-    return Fix(f"change to `{text.strip(chr(34))}`", (Edit(span, text),))
+    return Fix(f"change to `{text}`", (Edit(span, text),))
 
 
 def _report_missing(
@@ -81,13 +90,15 @@ def _report_missing(
     guess = search.guess(name, root)
     looked = ", ".join(str(folder) for folder in search.folders(root))
     written = statement.path.value
-    outside = "" if name == written else f" Only the last part, `{name}`, is looked for."
+    outside = "" if name == written else f"; only the last part, `{name}`, is looked for"
+    place = statement.path.span
+    option = "" if place.text.startswith('"') else f", which the option `{place.text}` imports"
     report.add(
         codes.MISSING_IMPORT,
-        statement.path.span,
-        f"cannot find `{name}`",
+        place,
+        f"cannot find `{name}`{option}",
         label=f"did you mean `{guess}`?" if guess else "",
-        help=f"looked in {looked}; add a folder with `-I` or ROBOCOMP_INTERFACES.{outside}",
+        help=f"looked in {looked}{outside}; `-I` and ROBOCOMP_INTERFACES add folders",
         fix=replace(statement.path.span, f'"{guess}"') if guess else None,
     )
 
@@ -100,7 +111,7 @@ def _report_no_idsl(
     report.add(
         codes.NOT_IMPORTABLE,
         statement.path.span,
-        f"`{statement.path.value}` is not an `{SUFFIX}` file",
+        f"`{statement.path.value}` is not an `{SUFFIX}` file" if name else "no file is named here",
         label=f"did you mean `{guess}`?" if guess else "",
         help=f"an import names an interface description, such as `Laser{SUFFIX}`; it is looked for "
         "beside the file and in the interface folders only, wherever the written path leads",

@@ -28,15 +28,15 @@ def find_interface(name: QualifiedName, visible: Visible, report: Report) -> Int
 
 
 def _report_ambiguous(name: QualifiedName, found: list[Interface], report: Report) -> None:
-    several = len({one.qualified for one in found}) > 1
+    choices = list(dict.fromkeys(one.qualified for one in found))
     report.add(
         codes.AMBIGUOUS_INTERFACE,
         name.span,
-        f"`{name.text}` can mean {listing([one.qualified for one in found])}",
+        f"`{name.text}` can mean {listing(choices)}"
+        if len(choices) > 1
+        else f"several imported files declare `{choices[0]}`",
         notes=[Note(one.span, f"`{one.qualified}` is declared here") for one in found],
-        help=f"write the module in front of it: `{found[0].qualified}`"
-        if several
-        else "two imported files declare it: import only one of them",
+        help="write the module in front of it" if len(choices) > 1 else "import only one",
     )
 
 
@@ -61,7 +61,7 @@ def _report_unknown(name: QualifiedName, visible: Visible, report: Report) -> No
             codes.INTERFACE_NOT_IMPORTED,
             name.span,
             f"interface `{name.text}` is not imported",
-            help=f"`{offer.path}` declares it",
+            help=offer.help,
             fix=offer.fix,
         )
         return

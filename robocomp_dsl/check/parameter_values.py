@@ -41,17 +41,17 @@ def check_range(value: types.Literal, parameter: Parameter) -> None:
     below = parameter.low is not None and value < parameter.low
     above = parameter.high is not None and value > parameter.high
     if below or above:
-        raise OutOfRange(f"{plain(value)} is outside {bounds(parameter)}")
+        raise OutOfRange(f"{plain(value)} is not {bounds(parameter)}")
 
 
 def bounds(parameter: Parameter) -> str:
-    """`1 to 1000`, `at least 1` or `at most 1000`, with the unit."""
+    """`within 1 to 1000`, `at least 1` or `at most 1000`, with the unit."""
     unit = f" {parameter.unit}" if parameter.unit else ""
     low = None if parameter.low is None else plain(parameter.low)
     high = None if parameter.high is None else plain(parameter.high)
     if high is None:
         return f"at least {low}{unit}"
-    return f"at most {high}{unit}" if low is None else f"{low} to {high}{unit}"
+    return f"at most {high}{unit}" if low is None else f"within {low} to {high}{unit}"
 
 
 def plain(number: float) -> str:

@@ -52,7 +52,7 @@ def resolve_ddsl(
         span=tree.name.span,
         middleware=middleware_of(tree.middleware, workspace.middlewares, report),
         instances=tuple(order),
-        connections=(*written, *implied),
+        connections=(*written.wires, *implied),
         hosts=tuple(hosts.values()),
         doc=tree.doc,
     )

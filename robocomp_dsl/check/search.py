@@ -58,7 +58,9 @@ class Search:
 
     def guess(self, name: str, root: Path) -> str | None:
         """The file that a wrong `name` most likely means."""
-        return nearest(name, self.known(root))
+        known = {one[: -len(SUFFIX)]: one for one in self.known(root) if one != root.name}
+        stem = nearest(name.removesuffix(SUFFIX), known)
+        return known[stem] if stem else None
 
     def mentioning(self, name: str, root: Path) -> list[Path]:
         """The importable files that seem to declare `name`.

@@ -1,6 +1,6 @@
 """The import that is missing: which file declares a name that nothing imported declares.
 
-In: the name and the file that uses it. Out: the file to import and the edit that does it.
+In: the name and the file that uses it. Out: the files that could be imported, and the edit.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.check.files import Files
+from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.search import Search
 from robocomp_dsl.diagnostics import Edit, Fix
 from robocomp_dsl.source import Source, UnreadableSource
@@ -19,21 +20,28 @@ from robocomp_dsl.syntax.ast_base import Import, QualifiedName
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """A file that would declare the name, and the edit that imports it."""
+    """Files that declare a name, and the edit that imports the only one."""
 
-    path: Path
-    fix: Fix
+    paths: tuple[Path, ...]
+    fix: Fix | None
+
+    @property
+    def help(self) -> str:
+        """What to say about it."""
+        verb = "declares" if len(self.paths) == 1 else "declare"
+        return f"{listing([str(path) for path in self.paths], most=3)} {verb} it"
 
 
 def offer_import(
     name: QualifiedName, source: Source, imports: Sequence[Import], files: Files, search: Search
 ) -> Offer | None:
-    """The one file that declares `name`; None when there is none, or more than one."""
+    """The files that declare `name`, if there are any; an edit only where there is one."""
     seen = search.mentioning(name.name.text, source.path)
     found = [path for path in seen if path != source.path and _declares(path, name, files)]
-    if len(found) != 1:
+    if not found:
         return None
-    return Offer(found[0], add_import(found[0].name, source, imports))
+    fix = add_import(found[0].name, source, imports) if len(found) == 1 else None
+    return Offer(tuple(found), fix)
 
 
 def add_import(file: str, source: Source, imports: Sequence[Import]) -> Fix:

@@ -105,24 +105,28 @@ class TypeNames:
         self._report.add(
             codes.AMBIGUOUS_TYPE,
             name.span,
-            f"`{name.text}` can mean {listing([one.qualified for one in found])}",
-            notes=[Note(one.span, f"`{one.qualified}` is declared here") for one in found],
-            help="write the module in front of it"
+            f"`{name.text}` can mean {listing(choices)}"
             if len(choices) > 1
-            else "two imported files declare it: import only one of them",
+            else f"several imported files declare `{choices[0]}`",
+            notes=[Note(one.span, f"`{one.qualified}` is declared here") for one in found],
+            help="write the module in front of it" if len(choices) > 1 else "import only one",
         )
 
     def _report_unknown(self, name: QualifiedName) -> None:
+        if name.text == "void":
+            self._report.add(codes.NOT_A_TYPE, name.span, "`void` can only be a result")
+            return
         guess = self._guess(name)
         if self._visible.is_excused(name, guess):
             return
-        way_out = "a type is built in, declared in this module, or in an imported file"
+        way_out = "" if guess else "it is built in, declared in this module, or in an imported file"
         fix: Fix | None = replace(name.span, guess) if guess else None
         same_letters = guess is not None and guess.lower() == name.text.lower()
-        offer = None if same_letters else self._visible.importable(name)
+        own = name.module is not None and name.module.text == self._module
+        offer = None if same_letters or own else self._visible.importable(name)
         if offer is not None:
             guess, fix = None, offer.fix
-            way_out = f"`{offer.path}` declares it and is not imported"
+            way_out = f"{offer.help}, but is not imported"
         self._report.add(
             codes.UNKNOWN_TYPE,
             name.span,

@@ -6,21 +6,29 @@ In: `connect` lines and instances. Out: `Connection` values, and findings.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.imports import replace
 from robocomp_dsl.check.literals import listing
-from robocomp_dsl.check.restarts import count_of, seconds_of
+from robocomp_dsl.check.qos import qos_of
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
-from robocomp_dsl.model.deployment import Connection, Instance, Qos
+from robocomp_dsl.model.deployment import Connection, Instance
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax.ast_base import Name
 
-PRIORITIES = ("background", "low", "normal", "high", "realtime")
 SOURCES = (Role.REQUIRES, Role.PUBLISHES)
 TARGETS = (Role.IMPLEMENTS, Role.SUBSCRIBES)
 _FITTING = {Role.REQUIRES: Role.IMPLEMENTS, Role.PUBLISHES: Role.SUBSCRIBES}
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What is connected, and the instances for which something is written that is not right."""
+
+    wires: list[Connection]
+    troubled: set[str]
 
 
 def written_wires(
@@ -28,13 +36,15 @@ def written_wires(
     instances: Mapping[str, Instance],
     unclear: frozenset[str],
     report: Report,
-) -> list[Connection]:
+) -> Written:
     """The wires that are right. `unclear` are instances whose component is not known."""
-    made: list[Connection] = []
+    made = Written([], set())
     for tree in trees:
         one = _wire(tree, instances, unclear, report)
-        if one is not None and not _is_second(one, made, report):
-            made.append(one)
+        if one is None or _is_second(one, made.wires, report):
+            made.troubled.update((tree.source.instance.text, tree.target.instance.text))
+        else:
+            made.wires.append(one)
     return made
 
 
@@ -175,32 +185,3 @@ def _is_second(wire: Connection, earlier: Sequence[Connection], report: Report) 
             )
             return True
     return False
-
-
-def qos_of(tree: ast.Qos | None, report: Report) -> Qos:
-    """What the braces of a connection say."""
-    if tree is None:
-        return Qos()
-    priority = _priority(tree.priority, report) if tree.priority else None
-    deadline = seconds_of(tree.deadline, "deadline", 0, report) if tree.deadline else 0
-    return Qos(
-        reliable=tree.reliability.text.lower() == "reliable" if tree.reliability else None,
-        priority=priority,
-        depth=count_of(tree.depth, "depth", 1, report) if tree.depth else None,
-        deadline_ms=deadline * 1000 if deadline else None,
-    )
-
-
-def _priority(written: Name, report: Report) -> str | None:
-    if written.text.lower() in PRIORITIES:
-        return written.text.lower()
-    guess = nearest(written.text, PRIORITIES)
-    report.add(
-        codes.UNKNOWN_PRIORITY,
-        written.span,
-        f"there is no priority `{written.text}`",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help=f"it is one of {listing(PRIORITIES)}",
-        fix=replace(written.span, guess) if guess else None,
-    )
-    return None
