@@ -1,0 +1,137 @@
+"""mobile_base: a MuJoCo world that follows the clock, its two devices served as interfaces."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import HardwareFailedException, LaserConfData, TBaseState, TLaserData
+from simulation import Simulation, simulate
+
+from robocomp_dsl.hardware.differential_robot import BaseState
+from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.planar import ORIGIN, Pose
+
+MOST_BEHIND = 0.1
+"""Seconds that one `compute` may make up for; behind a longer pause the world was asleep."""
+
+
+class SpecificWorker(GenericWorker):
+    """A simulated base with two driven wheels and a planar laser in a room."""
+
+    simulation: Simulation
+
+    def initialize(self) -> None:
+        """Build the world."""
+        self.simulation = simulate(self.params)
+        self.last = time.monotonic()
+        self.next_publication = 0.0
+
+    def compute(self) -> None:
+        """Let the world catch up with the clock, and tell where the base is."""
+        now = time.monotonic()
+        passed, self.last = min(now - self.last, MOST_BEHIND), now
+        world = self.simulation.world
+        world.advance(passed * self.params.speed)
+        if world.time >= self.next_publication:
+            period = self.params.publish_period / 1000
+            self.next_publication = max(self.next_publication + period, world.time)
+            state = self.simulation.base.state()
+            self.differentialrobotpub_proxy.pushBaseState(_told(state), state.time)
+
+    # implements RoboCompDifferentialRobot::DifferentialRobot
+
+    def DifferentialRobot_getBaseState(self) -> TBaseState:
+        """The whole state."""
+        return _told(self.simulation.base.state())
+
+    def DifferentialRobot_getBasePose(self) -> tuple[int, int, float]:
+        """The odometry pose alone, in whole millimetres."""
+        pose = self.simulation.base.state().odometry
+        return round(pose.x), round(pose.z), pose.alpha
+
+    def DifferentialRobot_setSpeedBase(self, adv: float, rot: float) -> None:
+        """Drive; refused when the numbers are none or beyond the limits."""
+        with _failures():
+            self.simulation.base.set_speed(adv, rot)
+
+    def DifferentialRobot_stopBase(self) -> None:
+        """Stop as fast as the base can."""
+        self.simulation.base.stop()
+
+    def DifferentialRobot_resetOdometer(self) -> None:
+        """The odometry starts again at x = z = alpha = 0."""
+        self.simulation.base.set_odometry(ORIGIN)
+
+    def DifferentialRobot_setOdometer(self, state: TBaseState) -> None:
+        """The odometry goes on from the pose in `state`."""
+        with _failures():
+            self.simulation.base.set_odometry(Pose(state.x, state.z, state.alpha))
+
+    def DifferentialRobot_setOdometerPose(self, x: int, z: int, alpha: float) -> None:
+        """The odometry goes on from this pose."""
+        with _failures():
+            self.simulation.base.set_odometry(Pose(x, z, alpha))
+
+    def DifferentialRobot_correctOdometer(self, x: int, z: int, alpha: float) -> None:
+        """The corrected pose goes on from this pose."""
+        with _failures():
+            self.simulation.base.correct(Pose(x, z, alpha))
+
+    # implements RoboCompLaser::Laser
+
+    def Laser_getLaserData(self) -> TLaserData:
+        """The latest scan."""
+        scan = self.simulation.laser.scan()
+        return TLaserData.from_columns(angle=scan.angles, dist=scan.distances)
+
+    def Laser_getLaserAndBStateData(self) -> tuple[TLaserData, TBaseState]:
+        """The latest scan, and the state of the base."""
+        return self.Laser_getLaserData(), self.DifferentialRobot_getBaseState()
+
+    def Laser_getLaserConfData(self) -> LaserConfData:
+        """How the laser is set up."""
+        it = self.simulation.laser.settings
+        half = it.degrees / 2
+        return LaserConfData(
+            driver="MuJoCo",
+            device=self.simulation.laser.name,
+            staticConf=1,
+            maxMeasures=it.measures,
+            maxDegrees=math.ceil(it.degrees),
+            maxRange=round(it.max_range),
+            minRange=round(it.min_range),
+            iniRange=-math.ceil(half),
+            endRange=math.ceil(half),
+            cluster=1,
+            sampleRate=round(it.period * 1000),
+            angleRes=it.degrees / max(it.measures - 1, 1),
+            angleIni=-half,
+        )
+
+
+@contextmanager
+def _failures() -> Iterator[None]:
+    """What a device refuses, as the exception that its interface declares."""
+    try:
+        yield
+    except HardwareError as error:
+        raise HardwareFailedException(what=str(error)) from None
+
+
+def _told(state: BaseState) -> TBaseState:
+    return TBaseState(
+        x=state.odometry.x,
+        correctedX=state.corrected.x,
+        z=state.odometry.z,
+        correctedZ=state.corrected.z,
+        alpha=state.odometry.alpha,
+        correctedAlpha=state.corrected.alpha,
+        advVx=0.0,
+        advVz=state.adv,
+        rotV=state.rot,
+        isMoving=state.moving,
+    )

@@ -1,0 +1,47 @@
+"""path_logger: keeps what the base says of itself, and writes it to a file at the end."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import PathSummary, TBaseState
+from path_record import PathRecord
+
+log = logging.getLogger("path_logger")
+
+
+class SpecificWorker(GenericWorker):
+    """Keeps the path of a base and writes it to a file at the end."""
+
+    def initialize(self) -> None:
+        """Begin with an empty path."""
+        self.record = PathRecord(self.params.interval / 1000)
+
+    def finalize(self) -> None:
+        """Write the path."""
+        if not self.params.file:
+            return
+        path = Path(self.params.file)
+        try:
+            self.record.write(path)
+        except OSError as error:
+            log.error("the path cannot be written to %s: %s", path, error.strerror)  # noqa: TRY400
+        else:
+            log.info("%d samples are in %s", len(self.record.samples), path.resolve())
+
+    # implements RoboCompPathLog::PathLog
+
+    def PathLog_getSummary(self) -> PathSummary:
+        """The path so far."""
+        it = self.record
+        return PathSummary(len(it.samples), it.runs, it.time, it.distance)
+
+    # subscribesTo RoboCompDifferentialRobotPub::DifferentialRobotPub
+
+    def DifferentialRobotPub_pushBaseState(self, state: TBaseState, time: float) -> None:
+        """Keep it."""
+        pose = (state.correctedX, state.correctedZ, state.correctedAlpha)
+        odometry = (state.x, state.z, state.alpha)
+        self.record.add(time, (*pose, *odometry, state.advVz, state.rotV))
