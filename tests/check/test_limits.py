@@ -1,0 +1,142 @@
+"""What no one writes by hand: unreadable, endless and exploding files; findings, no traceback."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import CHECKS, check_ddsl, check_file, check_idsl, check_syntax
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+
+
+def _found(path: Path) -> list[str]:
+    report = Report()
+    check_file(path, Workspace(environ={}, shipped=Path("nowhere")), report)
+    return [one.code.id for one in report]
+
+
+@pytest.mark.parametrize("suffix", CHECKS)
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"\n \n",
+        b"\0\1\2\xff",
+        b"\xff\xfe" + "module".encode("utf-16-le"),
+        b"caf\xe9",
+        b"{" * 3000,
+    ],
+    ids=["empty", "blank", "binary", "utf-16", "latin-1", "braces"],
+)
+def test_content_that_is_no_description(tmp_path: Path, suffix: str, content: bytes) -> None:
+    path = tmp_path / f"x{suffix}"
+    path.write_bytes(content)
+    found = _found(path)
+    assert found
+    assert all(one.startswith(("RC0", "RC1")) for one in found)
+
+
+@pytest.mark.parametrize("suffix", CHECKS)
+def test_a_file_that_is_not_there_is_a_folder_or_is_huge(tmp_path: Path, suffix: str) -> None:
+    assert _found(tmp_path / f"x{suffix}") == ["RC001"]
+    (tmp_path / f"folder{suffix}").mkdir()
+    assert _found(tmp_path / f"folder{suffix}") == ["RC001"]
+    (tmp_path / f"huge{suffix}").write_bytes(b" " * (5 * 1024 * 1024))
+    assert _found(tmp_path / f"huge{suffix}") == ["RC001"]
+
+
+def test_a_language_that_is_not_known(tmp_path: Path) -> None:
+    path = tmp_path / "x.txt"
+    path.write_text("module M { };\n")
+    assert _found(path) == ["RC220"]
+    report = Report()
+    check_syntax(path, Workspace(environ={}), report)
+    assert [one.code.id for one in report] == ["RC220"]
+
+
+def test_imports_that_nest_without_end(tmp_path: Path) -> None:
+    for number in range(300):
+        text = f'import "F{number + 1}.idsl";\nmodule M{number} {{ struct S {{ int a; }}; }};\n'
+        (tmp_path / f"F{number}.idsl").write_text(text)
+    assert _found(tmp_path / "F0.idsl") == ["RC210"]
+
+
+def test_imports_that_branch_without_end(tmp_path: Path) -> None:
+    for number in range(40):
+        imports = f'import "F{number + 1}.idsl";\nimport "G{number + 1}.idsl";\n'
+        for name in "FG":
+            path = tmp_path / f"{name}{number}.idsl"
+            path.write_text(f"{imports}module {name}{number} {{ struct S {{ int a; }}; }};\n")
+    for name in "FG":
+        (tmp_path / f"{name}40.idsl").write_text(f"module {name}40 {{ }};\n")
+    assert _found(tmp_path / "F0.idsl") == []
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_types_that_nest_without_end(tmp_path: Path, order: int) -> None:
+    structs = [f"struct S{n} {{ S{n - 1} a; }};" for n in range(1, 1500)]
+    path = tmp_path / "x.idsl"
+    path.write_text("module M { struct S0 { int a; }; " + " ".join(structs[::order]) + " };\n")
+    assert _found(path)
+    assert set(_found(path)) == {"RC317"}
+
+
+def test_types_that_grow_without_end(tmp_path: Path) -> None:
+    structs = [f"struct S{n} {{ S{n - 1} a; S{n - 1} b; }};" for n in range(1, 60)]
+    path = tmp_path / "x.idsl"
+    path.write_text("module M { struct S0 { int a; }; " + " ".join(structs) + " };\n")
+    assert set(_found(path)) == {"RC317"}
+
+
+def test_types_that_nest_over_many_files(tmp_path: Path) -> None:
+    (tmp_path / "F0.idsl").write_text("module M0 { struct S { int a; }; };\n")
+    for number in range(1, 45):
+        before = f"M{number - 1}::S"
+        text = f"module M{number} {{ struct T {{ {before} a; }}; struct S {{ T a; }}; }};\n"
+        path = tmp_path / f"F{number}.idsl"
+        path.write_text(f'import "F{number - 1}.idsl";\n{text}')
+    assert "RC317" in _found(tmp_path / "F44.idsl")
+
+
+def test_numbers_without_end(tmp_path: Path) -> None:
+    digits, power = "9" * 6000, "1e999999"
+    texts = {
+        "a.idsl": f"module M {{ enum E {{ A = {digits}, B = {power} }}; "
+        f"struct S {{ int a = {digits}; float b = {digits}; double c = {power}; }}; }};",
+        "a.cdsl": f"Component c {{ Communications {{ }}; language Python; period {digits}; "
+        f"threads {power}; }};",
+        "a.pdsl": f"ComponentParams p {{ a int {digits} 0:{power}; b float {power} {digits}:; "
+        f"c[{digits}] {{ d int 1; }}; }};",
+        "a.ddsl": f'import "a.cdsl"; Deployment d {{ component c {{ port {digits}; '
+        f"ready within {digits} s; restart always max {power} in {power} s; "
+        f"set a = {digits}; }}; }};",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    for name in texts:
+        assert _found(tmp_path / name), name
+
+
+def test_a_long_chain_of_after(tmp_path: Path) -> None:
+    (tmp_path / "c.cdsl").write_text("Component c { Communications { }; language Python; };\n")
+    lines = [f"component c{n} : c {{ after c{n + 1}; }};" for n in range(3000)]
+    path = tmp_path / "x.ddsl"
+    path.write_text(
+        'import "c.cdsl"; Deployment d { ' + "\n".join(lines) + "component c3000 : c; };"
+    )
+    report = Report()
+    deployment = check_ddsl(path, Workspace(environ={}), report)
+    assert deployment is not None
+    assert not report.failed
+    assert [one.name for one in deployment.instances] == [f"c{n}" for n in range(3000, -1, -1)]
+
+
+def test_unreadable_imports_are_findings(tmp_path: Path) -> None:
+    (tmp_path / "Bad.idsl").write_bytes(b"\0\0\0")
+    path = tmp_path / "x.idsl"
+    path.write_text('import "Bad.idsl";\nmodule M { };\n')
+    report = Report()
+    assert check_idsl(path, Workspace(environ={}), report) is not None
+    assert [one.code.id for one in report] == ["RC209"]

@@ -1,0 +1,149 @@
+"""What is kept between runs, and what a change makes of it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import check_cdsl, check_file, check_idsl, check_syntax
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model.interface import Module
+
+BASE = "module Base { struct Pose { int x; }; };\n"
+ARM = 'import "Base.idsl";\nmodule Arm { interface Arm { void go(Base::Pose to); }; };\n'
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "Base.idsl").write_text(BASE)
+    (tmp_path / "Arm.idsl").write_text(ARM)
+    return tmp_path
+
+
+def _workspace() -> Workspace:
+    return Workspace(environ={}, shipped=Path("nowhere"))
+
+
+def _module(path: Path, workspace: Workspace) -> tuple[Module, list[str]]:
+    report = Report()
+    modules = check_idsl(path, workspace, report)
+    assert modules is not None
+    return modules[0], [one.code.id for one in report]
+
+
+def _rewrite(path: Path, text: str) -> None:
+    """As an editor saves: the time of the file moves on."""
+    later = path.stat().st_mtime_ns + 1_000_000
+    path.write_text(text)
+    os.utime(path, ns=(later, later))
+
+
+def test_what_did_not_change_is_the_same_object(folder: Path) -> None:
+    workspace = _workspace()
+    first, _ = _module(folder / "Arm.idsl", workspace)
+    second, _ = _module(folder / "Arm.idsl", workspace)
+    assert first is second
+    (base,) = first.imports
+    assert base is _module(folder / "Base.idsl", workspace)[0]
+
+
+def test_a_change_behind_an_import_is_seen(folder: Path) -> None:
+    workspace = _workspace()
+    first, found = _module(folder / "Arm.idsl", workspace)
+    assert found == []
+    _rewrite(folder / "Base.idsl", "module Base { struct Place { int x; }; };\n")
+    second, found = _module(folder / "Arm.idsl", workspace)
+    assert found == ["RC301"]
+    assert second is not first
+    _rewrite(folder / "Base.idsl", BASE)
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+
+
+def test_a_file_that_appears_nearer_is_used(folder: Path) -> None:
+    (folder / "shipped").mkdir()
+    (folder / "Base.idsl").rename(folder / "shipped" / "Base.idsl")
+    workspace = Workspace(environ={}, shipped=folder / "shipped")
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+    (folder / "Base.idsl").write_text("module Base { };\n")
+    assert _module(folder / "Arm.idsl", workspace)[1] == ["RC301"]
+    (folder / "Base.idsl").unlink()
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+
+
+def test_a_missing_import_is_found_when_it_appears(folder: Path) -> None:
+    workspace = _workspace()
+    (folder / "Base.idsl").unlink()
+    assert _module(folder / "Arm.idsl", workspace)[1] == ["RC201"]
+    (folder / "Base.idsl").write_text(BASE)
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+
+
+def test_buffers_win_over_files(folder: Path) -> None:
+    workspace = _workspace()
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+    workspace.files.open_buffer(folder / "Base.idsl", "module Base { };\n")
+    assert _module(folder / "Arm.idsl", workspace)[1] == ["RC301"]
+    workspace.files.open_buffer(folder / "Base.idsl", BASE)
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+    workspace.files.open_buffer(folder / "Base.idsl", "module Base { };\n")
+    workspace.files.close_buffer(folder / "Base.idsl")
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+
+
+def test_a_buffer_needs_no_file(folder: Path) -> None:
+    workspace = _workspace()
+    workspace.files.open_buffer(folder / "New.idsl", 'import "Newer.idsl";\nmodule New { };\n')
+    workspace.files.open_buffer(folder / "Newer.idsl", "module Newer { };\n")
+    assert _module(folder / "New.idsl", workspace)[1] == []
+
+
+def test_a_cycle_is_forgotten_when_it_is_mended(folder: Path) -> None:
+    workspace = _workspace()
+    _rewrite(folder / "Base.idsl", f'import "Arm.idsl";\n{BASE}')
+    first = _module(folder / "Arm.idsl", workspace)[1]
+    assert first == _module(folder / "Base.idsl", workspace)[1] == ["RC202"]
+    _rewrite(folder / "Base.idsl", BASE)
+    assert _module(folder / "Arm.idsl", workspace)[1] == []
+
+
+def test_a_cycle_is_the_same_finding_from_every_side(folder: Path) -> None:
+    workspace = _workspace()
+    _rewrite(folder / "Base.idsl", f'import "Arm.idsl";\n{BASE}')
+    report = Report()
+    check_file(folder / "Arm.idsl", workspace, report)
+    check_file(folder / "Base.idsl", workspace, report)
+    assert len(report) == 1
+
+
+def test_syntax_follows_no_imports(folder: Path) -> None:
+    (folder / "Base.idsl").unlink()
+    report = Report()
+    check_syntax(folder / "Arm.idsl", _workspace(), report)
+    assert len(report) == 0
+
+
+def test_a_link_and_its_file_are_one(folder: Path) -> None:
+    (folder / "sub").mkdir()
+    (folder / "sub" / "Base.idsl").symlink_to(folder / "Base.idsl")
+    workspace = _workspace()
+    assert (
+        _module(folder / "sub" / "Base.idsl", workspace)[0]
+        is _module(folder / "Base.idsl", workspace)[0]
+    )
+
+
+def test_a_component_sees_the_saved_parameters(folder: Path) -> None:
+    (folder / "x.pdsl").write_text("ComponentParams x { rate int 5 1:10; };\n")
+    text = 'Component x { Communications { }; language Python; parameters "x.pdsl"; };\n'
+    (folder / "x.cdsl").write_text(text)
+    workspace = _workspace()
+    component = check_cdsl(folder / "x.cdsl", workspace, Report())
+    assert component is not None
+    assert component.parameters is not None
+    workspace.files.open_buffer(folder / "x.pdsl", "ComponentParams x { rate int 50 1:10; };\n")
+    report = Report()
+    check_cdsl(folder / "x.cdsl", workspace, report)
+    assert [one.code.id for one in report] == ["RC404"]
