@@ -21,18 +21,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.files import Parsed, Parser
 from robocomp_dsl.check.loaded import errors_behind
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model.body import Body
-from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Deployment
-from robocomp_dsl.model.interface import Module
-from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax import (
     LANGUAGES,
@@ -45,9 +40,17 @@ from robocomp_dsl.syntax import (
     codes as form,
 )
 
+if TYPE_CHECKING:  # what a run does not need is not loaded: see the imports in the functions
+    from robocomp_dsl.model.body import Body
+    from robocomp_dsl.model.component import Component
+    from robocomp_dsl.model.deployment import Deployment
+    from robocomp_dsl.model.interface import Module
+    from robocomp_dsl.model.parameter import ParameterSet
+
+    Model: TypeAlias = tuple[Module, ...] | Component | ParameterSet | Deployment | Body
+    Check: TypeAlias = Callable[[Path, Workspace, Report], Model | None]
+
 Tree = TypeVar("Tree")
-Model: TypeAlias = tuple[Module, ...] | Component | ParameterSet | Deployment | Body
-Check: TypeAlias = Callable[[Path, Workspace, Report], Model | None]
 
 
 def check_file(path: Path, workspace: Workspace, report: Report) -> Model | None:

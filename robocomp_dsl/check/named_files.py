@@ -9,7 +9,6 @@ from pathlib import Path
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.imports import replace
-from robocomp_dsl.check.resolve_pdsl import resolve_pdsl
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity, nearest
 from robocomp_dsl.model.component import StateMachineRef
@@ -61,6 +60,8 @@ def parameters_of(
     except UnreadableSource as error:
         report.add(codes.UNREADABLE_IMPORT, written.span, f"cannot read `{path}`: {error}")
         return None
+    from robocomp_dsl.check.resolve_pdsl import resolve_pdsl  # noqa: PLC0415 - on first use
+
     found = Report()
     found.extend(parsed.findings)
     made = resolve_pdsl(parsed, found)
