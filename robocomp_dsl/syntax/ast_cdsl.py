@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from robocomp_dsl.syntax.ast_base import Import, Name, Node, Number, QualifiedName, Text
@@ -10,7 +9,6 @@ from robocomp_dsl.syntax.ast_base import Import, Name, Node, Number, QualifiedNa
 Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
 
 
-@dataclass(frozen=True, slots=True)
 class Port(Node):
     """One interface of a list: `requires Laser(ice) as front` gives a port.
 
@@ -23,7 +21,6 @@ class Port(Node):
     middleware: Name | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Gui(Node):
     """`gui Qt(QWidget);`; the legacy `gui QWidget;` has no toolkit."""
 
@@ -31,7 +28,6 @@ class Gui(Node):
     toolkit: Name | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class StateMachine(Node):
     """`statemachine "path";`, with `visual` where it was asked for."""
 
@@ -39,7 +35,6 @@ class StateMachine(Node):
     visual: bool = False
 
 
-@dataclass(frozen=True, slots=True)
 class Component(Node):
     """`Component Name { … };`; None where the user wrote nothing.
 
@@ -60,7 +55,6 @@ class Component(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class File(Node):
     """One CDSL file; `component` is None when there is none to be seen.
 

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.syntax.ast_base import Duration, Import, Literal, Name, Node, Number, Text
 
 
-@dataclass(frozen=True, slots=True)
 class Host(Node):
     """`host robot { address "10.0.0.2"; user robot; labels arm, gpu; };`."""
 
@@ -18,7 +15,6 @@ class Host(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Setting(Node):
     """`set motors[2].min = -1.5;`; `key.text` is the dotted key without spaces."""
 
@@ -26,7 +22,6 @@ class Setting(Node):
     value: Literal
 
 
-@dataclass(frozen=True, slots=True)
 class Environment(Node):
     """`env LOG_LEVEL = debug;`; `value` as the process gets it."""
 
@@ -34,7 +29,6 @@ class Environment(Node):
     value: Text
 
 
-@dataclass(frozen=True, slots=True)
 class Restart(Node):
     """`restart on-failure max 5 in 60 s;`; `policy.text` is `on-failure`, `always` or `never`."""
 
@@ -43,7 +37,6 @@ class Restart(Node):
     window: Duration | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
@@ -65,7 +58,6 @@ class Instance(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class PortRef(Node):
     """`body.SkinFrame`: a port of an instance or of a group."""
 
@@ -73,7 +65,6 @@ class PortRef(Node):
     port: Name
 
 
-@dataclass(frozen=True, slots=True)
 class Qos(Node):
     """`{ best_effort; depth 1; deadline 40 ms; priority high; }`; None where nothing was written.
 
@@ -86,7 +77,6 @@ class Qos(Node):
     deadline: Duration | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Connection(Node):
     """`connect reflex.Skin -> body.Skin { … };`; `qos` is None without braces."""
 
@@ -95,7 +85,6 @@ class Connection(Node):
     qos: Qos | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Export(Node):
     """`export JointMotor from motor;`: port of the group that is a port of an instance inside.
 
@@ -106,7 +95,6 @@ class Export(Node):
     target: PortRef
 
 
-@dataclass(frozen=True, slots=True)
 class Group(Node):
     """`group arm { … };`: several components that appear as one outside."""
 
@@ -118,7 +106,6 @@ class Group(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Deployment(Node):
     """`Deployment name { … };`."""
 
@@ -131,7 +118,6 @@ class Deployment(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class File(Node):
     """One DDSL file; `deployment` is None when there is none to be seen.
 

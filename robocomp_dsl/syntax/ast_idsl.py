@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.syntax.ast_base import Import, Literal, Name, Node, Number, QualifiedName, Unit
 
 
-@dataclass(frozen=True, slots=True)
 class Field(Node):
     """A field of a struct or exception: `float x = 0 [mm];`."""
 
@@ -19,7 +17,6 @@ class Field(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Struct(Node):
     """`struct Name { fields };`."""
 
@@ -28,7 +25,6 @@ class Struct(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class ExceptionDecl(Node):
     """`exception Name { fields };`."""
 
@@ -37,7 +33,6 @@ class ExceptionDecl(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Enumerator(Node):
     """One name of an enumeration, with its value where one is written."""
 
@@ -46,7 +41,6 @@ class Enumerator(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Enum(Node):
     """`enum Name { A, B = 2 };`."""
 
@@ -55,7 +49,6 @@ class Enum(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Sequence(Node):
     """`sequence<element> Name;`."""
 
@@ -64,7 +57,6 @@ class Sequence(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Dictionary(Node):
     """`dictionary<key, value> Name;`."""
 
@@ -74,7 +66,6 @@ class Dictionary(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Param(Node):
     """A parameter of an operation.
 
@@ -88,7 +79,6 @@ class Param(Node):
     unit: Unit | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Operation(Node):
     """`[query] idempotent float distance(int sensor, out State state) throws Failed;`.
 
@@ -105,7 +95,6 @@ class Operation(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Interface(Node):
     """`interface Name { operations };`."""
 
@@ -117,7 +106,6 @@ class Interface(Node):
 Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary | Interface
 
 
-@dataclass(frozen=True, slots=True)
 class Module(Node):
     """`module Name { declarations };`."""
 
@@ -126,7 +114,6 @@ class Module(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class File(Node):
     """One IDSL file. There may be no module (an empty file) or, as legacy, several.
 

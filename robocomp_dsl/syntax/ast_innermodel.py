@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.syntax.ast_base import Name, Node, Text
 
 
-@dataclass(frozen=True, slots=True)
 class Attribute(Node):
     """`tx="100"`; in `value.value` the entities are replaced."""
 
@@ -15,7 +12,6 @@ class Attribute(Node):
     value: Text
 
 
-@dataclass(frozen=True, slots=True)
 class Element(Node):
     """`<tag …>…</tag>`; `span` covers all of it. No two attributes have the same name."""
 
@@ -28,7 +24,6 @@ class Element(Node):
         return next((one for one in self.attributes if one.name.text == name), None)
 
 
-@dataclass(frozen=True, slots=True)
 class File(Node):
     """One file; `root` is None when there is no element to be seen.
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.syntax.ast_base import Literal, Name, Node, Number, Unit
 
 
-@dataclass(frozen=True, slots=True)
 class Range(Node):
     """`low:high`, both inclusive; one side may be left open (`0:`, `:100`)."""
 
@@ -16,14 +14,12 @@ class Range(Node):
     high: Number | None
 
 
-@dataclass(frozen=True, slots=True)
 class Enumeration(Node):
     """`{position, velocity}` in the place of a type."""
 
     choices: tuple[Name, ...]
 
 
-@dataclass(frozen=True, slots=True)
 class Parameter(Node):
     """`rate float 50 [Hz] 1:1000 live;`.
 
@@ -40,7 +36,6 @@ class Parameter(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class Group(Node):
     """`motors[1:32] { … };` is a list of groups, `pid { … };` (no `count`) a single one.
 
@@ -56,7 +51,6 @@ class Group(Node):
 Member: TypeAlias = Parameter | Group
 
 
-@dataclass(frozen=True, slots=True)
 class ParameterSet(Node):
     """`ComponentParams name { … };`."""
 
@@ -65,7 +59,6 @@ class ParameterSet(Node):
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True)
 class File(Node):
     """One PDSL file; `parameters` is None when there is no block to be seen.
 

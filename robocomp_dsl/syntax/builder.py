@@ -6,8 +6,7 @@ In: what the parser recognised. Out: the leaves of the trees.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, ClassVar, TypeVar
 
 from robocomp_dsl.diagnostics import Code, Fix, Note, did_you_mean, nearest
@@ -22,7 +21,6 @@ _ESCAPE = re.compile(r"\\(.)")
 _ESCAPED = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
 
 
-@dataclass(frozen=True, slots=True)
 class Setting(Node):
     """A statement that gives a block one of its values, called `field` in the block's node."""
 
@@ -45,16 +43,24 @@ class Builder:
         self.docs: dict[int, str] = {}
         self.has_block = False
 
-    def leaf(self, terminal: str, token: Token) -> Name | Text | Number | Unit:
-        """The node of a token that the grammar keeps."""
+    def leaf(self, terminal: str) -> Callable[[Token], Node]:
+        """What makes a node of a token that the grammar keeps as `terminal`."""
+        known = {"STRING": self._text, "NUMBER": self._number, "BRACKETED": self._unit}
+        return known.get(terminal, self._name)
+
+    def _name(self, token: Token) -> Name:
+        return Name(Span(self.findings.source, token.start, token.end), token.text)
+
+    def _text(self, token: Token) -> Text:
         span = Span(self.findings.source, token.start, token.end)
-        if terminal == "STRING":
-            return Text(span, _ESCAPE.sub(_unescape, token.text[1:-1]))
-        if terminal == "NUMBER":
-            return Number(span, number(token.text))
-        if terminal == "BRACKETED":
-            return Unit(span, token.text[1:-1].strip())
-        return Name(span, token.text)
+        return Text(span, _ESCAPE.sub(_unescape, token.text[1:-1]))
+
+    def _number(self, token: Token) -> Number:
+        return Number(Span(self.findings.source, token.start, token.end), number(token.text))
+
+    def _unit(self, token: Token) -> Unit:
+        span = Span(self.findings.source, token.start, token.end)
+        return Unit(span, token.text[1:-1].strip())
 
     def import_file(self, span: Span, path: Text) -> Import:
         """`import "path";`."""

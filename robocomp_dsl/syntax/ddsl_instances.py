@@ -9,7 +9,8 @@ from typing import Any
 
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax import ast_ddsl as ast
-from robocomp_dsl.syntax.ast_base import Bool, Duration, Literal, Name, Number, Text
+from robocomp_dsl.syntax import codes
+from robocomp_dsl.syntax.ast_base import Bool, Duration, Literal, Name, Number, Text, Unit
 from robocomp_dsl.syntax.builder import Builder, Setting, only
 
 POLICIES = ("on-failure", "always", "never")
@@ -51,8 +52,16 @@ class Instances(Builder):
         """`set key = value;`."""
         return ast.Setting(span, key, _literal(value))
 
-    def key(self, span: Span, *_parts: Name) -> Name:
+    def key(self, span: Span, *parts: Name | Unit) -> Name:
         """`motors[2].min`."""
+        for index in only(Unit, parts):
+            if not index.text.isdecimal():
+                self.say(
+                    codes.UNEXPECTED,
+                    index.span,
+                    f"expected the number of a group, found `{index.text}`",
+                    help="the first group is `[0]`",
+                )
         return Name(span, "".join(span.text.split()))
 
     def environment(self, span: Span, name: Name, value: Name | Text | Number) -> ast.Environment:
@@ -71,6 +80,10 @@ class Instances(Builder):
     def after(self, span: Span, *names: Any) -> Setting:
         """`after a, b;`."""
         return Setting(span, "after", tuple(self.without_comma(names)))
+
+    def policy(self, span: Span, *_words: Name) -> Name:
+        """`on-failure`, which is three tokens, or one word."""
+        return Name(span, "".join(span.text.split()))
 
     def restart(
         self, span: Span, policy: Name, most: Number | None, window: Duration | None

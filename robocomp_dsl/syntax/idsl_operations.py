@@ -6,7 +6,7 @@ In: what the parser recognised of an operation. Out: nodes of `ast_idsl`.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable
 from typing import Any
 
 from robocomp_dsl.source import Span
@@ -19,7 +19,6 @@ PATTERNS = ("command", "query", "publish")
 _SEQUENCES = ("vector", "list", "array", "set", "deque", "sequence")
 
 
-@dataclass(frozen=True, slots=True)
 class Template(Node):
     """`vector<X>`, `map<K, V>`: no form of IDSL, but of the languages it is read beside."""
 
@@ -37,7 +36,6 @@ class Template(Node):
         return Span(self.span.source, self.span.start, self.span.start + length)
 
 
-@dataclass(frozen=True, slots=True)
 class Throws(Node):
     """The exceptions of an operation."""
 
@@ -196,10 +194,10 @@ class Operations(Builder):
             fix=self.rewrite("delete it", word.span),
         )
 
-    def _without_inner_comma(self, children: Any) -> list[Any]:
+    def _without_inner_comma(self, children: Iterable[Any]) -> list[Any]:
         """The comma behind the last parameter may be followed by more."""
-        children = [child for child in children if child is not None]
-        at = next((i for i, c in enumerate(children) if isinstance(c, Name) and c.text == ","), -1)
+        kept = [child for child in children if child is not None]
+        at = next((i for i, c in enumerate(kept) if isinstance(c, Name) and c.text == ","), -1)
         if at < 0:
-            return children
-        return [*self.without_comma(children[: at + 1]), *children[at + 1 :]]
+            return kept
+        return [*self.without_comma(kept[: at + 1]), *kept[at + 1 :]]

@@ -11,12 +11,14 @@ from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import misspelt
 from robocomp_dsl.syntax.findings import Findings
 from robocomp_dsl.syntax.tables import END, Tables
 
-COMMENTS = frozenset(("DOC_BLOCK", "DOC_LINE", "BLOCK_COMMENT", "LINE_COMMENT", "HASH_LINES"))
+_COMMENTS = frozenset(("DOC_BLOCK", "DOC_LINE", "BLOCK_COMMENT", "LINE_COMMENT"))
 _DOCS = frozenset(("DOC_BLOCK", "DOC_LINE"))
+_MISSPELT = frozenset(
+    ("OTHER_QUOTES", "OPEN_STRING", "OPEN_COMMENT", "MERGE_MARK", "HASH_LINES", "STRAY")
+)
 _FRAME = re.compile(r"^[ \t]*\*(?!\*)[ \t]?|^[ \t]+|[ \t]+$", re.MULTILINE)
 
 
@@ -54,25 +56,23 @@ class Lexer:
 
     def _stretch(self, at: int) -> Generator[Token, None, int]:
         """The tokens from `at` on, up to characters that are not read; returns where to go on."""
-        keyword = self._tables.keywords.get
+        keyword, sign = self._tables.keywords.get, self._tables.signs.get
         any_case = self._tables.any_case
         doc: list[str] = []
         for match in self._tables.scanner.finditer(self._text, at):
             kind = match.lastgroup or ""
-            start, end = match.span(kind)
-            text = match[kind]
+            text, end = match[kind], match.end()
+            start = end - len(text)
             if kind == "ID":
                 kind = keyword(text.lower() if any_case else text, kind)
-            elif kind in COMMENTS:
+            elif kind == "SIGN":
+                kind = sign(text, "STRAY")
+            elif kind in _COMMENTS:
                 if kind in _DOCS:
                     doc.append(text)
-                elif kind == "HASH_LINES":
-                    misspelt.hash_lines(self._findings, start, text)
                 continue
-            elif kind == "_SEMI" and end - start > 1:
-                misspelt.repeated_semicolon(self._findings, start, end)
-            elif kind in misspelt.READ:
-                kind, text, end = misspelt.READ[kind](self._findings, start, end)
+            if kind in _MISSPELT or (kind == "_SEMI" and text != ";"):
+                kind, text, end = self._misspelt(kind, start, end)
                 if not kind:
                     return end
             if doc:
@@ -82,6 +82,11 @@ class Lexer:
             if kind == "STRAY":
                 return end
         return len(self._text)
+
+    def _misspelt(self, kind: str, start: int, end: int) -> tuple[str, str, int]:
+        from robocomp_dsl.syntax import misspelt  # noqa: PLC0415 - most files need none of it
+
+        return misspelt.READ[kind](self._findings, start, end)
 
 
 def _clean(comments: list[str]) -> str:

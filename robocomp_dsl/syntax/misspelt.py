@@ -95,30 +95,22 @@ def _stray(findings: Findings, start: int, _end: int) -> Read:
     return "STRAY", text[start:end], end
 
 
-READ: Mapping[str, Callable[[Findings, int, int], Read]] = {
-    "OTHER_QUOTES": _other_quotes,
-    "OPEN_STRING": _open_string,
-    "OPEN_COMMENT": _open_comment,
-    "MERGE_MARK": _merge_mark,
-    "STRAY": _stray,
-}
-"""Group of the scanner to what understands it."""
-
-
-def hash_lines(findings: Findings, start: int, text: str) -> None:
+def _hash_lines(findings: Findings, start: int, end: int) -> Read:
     """Lines that begin with `#`: comments of an older tool, or what a preprocessor left."""
-    marks = (start + mark.end() for mark in _HASH.finditer(text))
+    text = findings.source.text
+    marks = (mark.end() for mark in _HASH.finditer(text, text.rfind("\n", 0, start) + 1, end))
     findings.add(
         codes.HASH_COMMENT,
         start,
-        start + len(text.partition("\n")[0]),
+        start + len(text[start:end].partition("\n")[0]),
         "a comment begins with `//`",
         label="ignored",
-        fix=findings.fix("write `//`", *((end - 1, end, "//") for end in marks)),
+        fix=findings.fix("write `//`", *((at - 1, at, "//") for at in marks)),
     )
+    return "", "", end
 
 
-def repeated_semicolon(findings: Findings, start: int, end: int) -> None:
+def _repeated_semicolon(findings: Findings, start: int, end: int) -> Read:
     """`;;`, also with space between."""
     findings.add(
         codes.EMPTY_STATEMENT,
@@ -127,3 +119,16 @@ def repeated_semicolon(findings: Findings, start: int, end: int) -> None:
         "this `;` ends nothing",
         fix=findings.fix("delete it", (start + 1, end, "")),
     )
+    return "_SEMI", ";", end
+
+
+READ: Mapping[str, Callable[[Findings, int, int], Read]] = {
+    "OTHER_QUOTES": _other_quotes,
+    "OPEN_STRING": _open_string,
+    "OPEN_COMMENT": _open_comment,
+    "MERGE_MARK": _merge_mark,
+    "HASH_LINES": _hash_lines,
+    "_SEMI": _repeated_semicolon,
+    "STRAY": _stray,
+}
+"""Group of the scanner to what understands it."""

@@ -13,7 +13,7 @@ from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.builder import Builder
 from robocomp_dsl.syntax.findings import Findings
-from robocomp_dsl.syntax.parser import Parser
+from robocomp_dsl.syntax.parser import parse
 from robocomp_dsl.syntax.tables import load
 
 _HEADS = {
@@ -22,7 +22,7 @@ _HEADS = {
     "componentparams": ("pdsl", "a parameter description"),
     "deployment": ("ddsl", "a deployment description"),
 }
-_HEAD = re.compile(rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{", re.MULTILINE | re.IGNORECASE)
+_HEAD = rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{"
 
 
 def read(language: str, builder: type[Builder], source: Source, report: Report) -> Any:
@@ -30,7 +30,7 @@ def read(language: str, builder: type[Builder], source: Source, report: Report) 
     own = Report()
     findings = Findings(source, own)
     made = builder(findings)
-    file = Parser(load(language), made, findings).run()
+    file = parse(load(language), made, findings)
     other = None if made.has_block else _other_language(language, source)
     if other:
         what, start, end = other
@@ -48,7 +48,7 @@ def read(language: str, builder: type[Builder], source: Source, report: Report) 
 
 def _other_language(language: str, source: Source) -> tuple[str, int, int] | None:
     """What the file describes instead, and where that is seen."""
-    for head in _HEAD.finditer(source.text):
+    for head in re.finditer(_HEAD, source.text, re.MULTILINE | re.IGNORECASE):
         other, what = _HEADS[head[1].lower()]
         if other != language:
             return what, head.start(1), head.end()

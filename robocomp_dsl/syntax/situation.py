@@ -18,7 +18,7 @@ WINDOW = 5
 _UNSAID = frozenset(("PLUS", "_INHERITS", "EXTENDS"))
 """Terminals that only serve to understand mistakes: nobody is told to write them."""
 
-_RARE = frozenset(("LESSTHAN", "_SCOPE", "BRACKETED", "INDEX"))
+_RARE = frozenset(("LESSTHAN", "_SCOPE", "BRACKETED"))
 """Terminals not worth telling of where others may stand, too."""
 
 _NAMES = {
@@ -26,7 +26,6 @@ _NAMES = {
     "NUMBER": "a number",
     "STRING": 'a "text"',
     "BRACKETED": "`[`",
-    "INDEX": "`[`",
     END: "the end of the file",
 }
 

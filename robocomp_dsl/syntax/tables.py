@@ -1,9 +1,9 @@
 """The parse tables of a language: made from its grammar by Lark, kept beside it as JSON.
 
 In: the name of a grammar. Out: `Tables`, ready for the parser. The tables in `grammars/tables/` are
-rewritten by `python -m robocomp_dsl.syntax.tabulate` and carry the hash of the grammar they were
-made from. As long as it fits, Lark is not even imported, which halves the start-up time; after a
-change of the grammar the tables are made in memory. They are data, so reading them is always safe.
+rewritten by `python -m robocomp_dsl.syntax.tabulate` and carry the checksum of the grammar they
+were made from. As long as it fits, Lark is not even imported, which halves the start-up time; after
+a change of the grammar the tables are made in memory. They are data, so reading them is safe.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ import json
 import re
 from dataclasses import dataclass
 from functools import cache
-from hashlib import sha256
-from typing import Any
+from typing import Any, NamedTuple
+from zlib import crc32
 
 from robocomp_dsl.resources import GRAMMARS
 
@@ -21,8 +21,19 @@ SHARED = GRAMMARS / "terminals.lark"
 END = "$END"
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Pick(NamedTuple):
+    """A child that the builder gets: symbol `index` of the rule, or None for an absent `[x]` (-1).
+
+    `terminal` names the terminal that the child is, if it is one; the children of a child that is
+    `spliced` take its place.
+    """
+
+    index: int
+    terminal: str
+    spliced: bool
+
+
+class Rule(NamedTuple):
     """What a reduction does.
 
     `method` of the builder is called with the picked children. Without a method, a rule that
@@ -33,20 +44,7 @@ class Rule:
     length: int
     method: str
     unwraps: bool
-    picks: tuple[Pick, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Pick:
-    """A child that the builder gets: symbol `index` of the rule, or None for an absent `[x]` (-1).
-
-    `terminal` names the terminal that the child is, if it is one; the children of a child that is
-    `spliced` take its place.
-    """
-
-    index: int
-    terminal: str = ""
-    spliced: bool = False
+    picks: list[Pick]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,6 +66,7 @@ class Tables:
     keywords: dict[str, str]
     words: frozenset[str]
     texts: dict[str, str]
+    signs: dict[str, str]
     any_case: bool
     scanner: re.Pattern[str]
 
@@ -84,10 +83,10 @@ def name_action(row: dict[str, int], keyword: str) -> int | None:
     return action
 
 
-def fingerprint(language: str) -> str:
-    """Hash of everything that the tables of `language` are made from."""
+def fingerprint(language: str) -> int:
+    """Checksum of everything that the tables of `language` are made from."""
     grammar = GRAMMARS / f"{language}.lark"
-    return sha256(SHARED.read_bytes() + b"\0" + grammar.read_bytes()).hexdigest()
+    return crc32(grammar.read_bytes(), crc32(SHARED.read_bytes()))
 
 
 @cache
@@ -107,7 +106,7 @@ def load(language: str) -> Tables:
 
 def _tables(data: dict[str, Any]) -> Tables:
     rules = [
-        Rule(origin, length, method, unwraps, tuple(Pick(*pick) for pick in picks))
+        Rule(origin, length, method, unwraps, [Pick(*pick) for pick in picks])
         for origin, length, method, unwraps, picks in data["rules"]
     ]
     gotos: list[dict[str, int]] = data["gotos"]
@@ -123,6 +122,7 @@ def _tables(data: dict[str, Any]) -> Tables:
         keywords=data["keywords"],
         words=frozenset(data["keywords"].values()),
         texts=data["texts"],
+        signs={text: kind for kind, text in data["texts"].items() if not text[0].isalpha()},
         any_case=data["any_case"],
         scanner=re.compile(data["scanner"], re.MULTILINE),
     )

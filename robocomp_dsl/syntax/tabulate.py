@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 from lark import Lark
@@ -24,14 +24,17 @@ LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
 START = "start"
 _WORD = re.compile(r"[A-Za-z_]\w*")
 
-# Spellings that are no part of a language but are understood, to be reported well: text in other
-# quotes, text and comment without an end, the marks of a failed merge, and any other character.
-_MERGE_MARK = r"^(?:<{7}|\|{7}|={7}|>{7})(?=[ \r\n]|\Z)[^\n]*"
+# What the scanner knows besides the terminals: first the marks of a failed merge, last what is
+# understood only to be reported well, and signs, which each language has its own of.
+_FIRST = {"MERGE_MARK": r"^(?:<{7}|\|{7}|={7}|>{7})(?=[ \r\n]|\Z)[^\n]*"}
+_LAST = {
+    "SIGN": r"->|::|[!-/:-@\[-`{-~]",
+    "STRAY": r"\S",
+}
 _MISSPELT = {
     "OTHER_QUOTES": r"'[^'\n]*'|[“”„][^“”„\n]*[“”]",
     "OPEN_STRING": r'"[^"\n]*?(?=\s*[;,]?\s*$)',
     "OPEN_COMMENT": r"/\*",
-    "STRAY": r"\S",
 }
 
 
@@ -69,7 +72,7 @@ def tabulate(language: str) -> dict[str, Any]:
         "any_case": any_case,
         "keywords": {w.lower() if any_case else w: t.name for w, t in keywords.items()},
         "texts": {t.name: t.pattern.value for t in made.terminals if _is_text(t)} | {"_SEMI": ";"},
-        "scanner": _scanner(made.terminals),
+        "scanner": _scanner(),
         "rules": [_rule(rule) for rule in made.rules],
         "actions": actions,
         "gotos": gotos,
@@ -100,29 +103,26 @@ def _numbering(states: dict[int, dict[str, Any]], start: int) -> dict[int, int]:
     return order
 
 
-def _scanner(terminals: Collection[TerminalDef]) -> str:
-    """One expression for all tokens; the name of the group that matched is the terminal."""
-    named = {t.name: t.pattern.to_regexp() for t in sorted(terminals, key=_rank)}
-    del named["WS"]
-    groups = [
-        f"(?P<{name}>{pattern})"
-        for name, pattern in ({"MERGE_MARK": _MERGE_MARK} | named | _MISSPELT).items()
-        if name not in {t.name for t in terminals if _is_keyword(t)}
-    ]
-    return r"\s*+(?:" + "|".join(groups) + ")"
+def _scanner() -> str:
+    """One expression for the tokens of all languages; the group that matched names the terminal.
 
-
-def _rank(terminal: TerminalDef) -> tuple[int, bool, bool, int, str]:
-    """Names come last, or they would eat the beginning of `on-failure`; longer texts come first."""
-    text = _is_text(terminal)
-    length = len(terminal.pattern.value) if text else 0
-    return -terminal.priority, terminal.name == "ID", text, -length, terminal.name
+    Python compiles it once for all of them, which takes as long as parsing two hundred lines.
+    """
+    shared = (GRAMMARS / "terminals.lark").read_text(encoding="utf-8")
+    names = [name for name in re.findall(r"^(\w+)[.\d]*:", shared, re.MULTILINE) if name != "WS"]
+    used = f"%import .terminals ({', '.join(names)})\nstart: ({' | '.join(names)})*"
+    terminals = Lark(used, parser="lalr", import_paths=[str(GRAMMARS)]).terminals
+    ranked = sorted(terminals, key=lambda terminal: -terminal.priority)
+    groups = _FIRST | {t.name: t.pattern.to_regexp() for t in ranked} | _MISSPELT | _LAST
+    return r"\s*+(?:" + "|".join(f"(?P<{name}>{regexp})" for name, regexp in groups.items()) + ")"
 
 
 def _rule(rule: Rule) -> list[Any]:
     picks = list(_picks(rule))
     inline = rule.origin.name.startswith("_")
-    unwraps = bool(rule.options.expand1 and not rule.alias and len(picks) == 1 and not picks[0][2])
+    unwraps = bool(
+        rule.options.expand1 and not rule.alias and len(picks) == 1 and not any(picks[0][1:])
+    )
     method = "" if inline or unwraps else rule.alias or rule.origin.name
     return [rule.origin.name, len(rule.expansion), method, unwraps, picks]
 

@@ -1,0 +1,103 @@
+"""The stack of an LR parser, and what happens to it when a rule is complete.
+
+In: tables, a builder, the tokens. Out: the values that the builder makes, on the stack.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.builder import Builder
+from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.lexer import Lexer, Token
+from robocomp_dsl.syntax.node import Node
+from robocomp_dsl.syntax.stream import Stream
+from robocomp_dsl.syntax.tables import Rule, Tables
+
+TRAIL = 64
+"""Tokens that are remembered, to be read again in another way."""
+
+Entry: TypeAlias = tuple[int, Any, int, int]
+"""State, value of the symbol that led to it, and the characters [start, end) of that symbol."""
+
+
+class Plan(NamedTuple):
+    """A rule made ready for its builder.
+
+    `passes`: the only child is the value. `picks` are, for each child, the index of its symbol (-1:
+    absent), what makes a node of a token, and whether it is a list whose items are the children.
+    """
+
+    origin: str
+    length: int
+    passes: bool
+    call: Callable[..., Any] | None
+    picks: list[tuple[int, Callable[[Token], Node] | None, bool]]
+
+    @classmethod
+    def of(cls, rule: Rule, builder: Builder) -> Plan:
+        """The plan of `rule`."""
+        return cls(
+            rule.origin,
+            rule.length,
+            rule.unwraps and rule.length == 1,
+            getattr(builder, rule.method) if rule.method else None,
+            [
+                (pick.index, builder.leaf(pick.terminal) if pick.terminal else None, pick.spliced)
+                for pick in rule.picks
+            ],
+        )
+
+
+class Machine:
+    """One run over one source; `trail` holds the last tokens that were taken onto the stack."""
+
+    def __init__(self, tables: Tables, builder: Builder, findings: Findings) -> None:
+        lexer = Lexer(findings.source, tables, findings)
+        builder.docs = lexer.docs
+        self.tables = tables
+        self.builder = builder
+        self.findings = findings
+        self.stream = Stream(lexer.tokens())
+        self.stack: list[Entry] = [(0, None, 0, 0)]
+        self.trail: deque[Token] = deque(maxlen=TRAIL)
+        self.told_behind = -1
+        self._plans = [Plan.of(rule, builder) for rule in tables.rules]
+
+    def reduce(self, number: int, at: int) -> None:
+        """Replace the symbols of rule `number` by the one that it makes; an empty one is `at`."""
+        plan, stack = self._plans[number], self.stack
+        if plan.passes:
+            _, value, start, end = stack.pop()
+        elif plan.length:
+            symbols = stack[-plan.length :]
+            del stack[-plan.length :]
+            start, end = symbols[0][2], symbols[-1][3]
+            value = self._value(plan, symbols, start, end)
+        else:
+            start = end = at
+            value = self._value(plan, [], at, at)
+        stack.append((self.tables.gotos[stack[-1][0]][plan.origin], value, start, end))
+
+    def _value(self, plan: Plan, symbols: list[Entry], start: int, end: int) -> Any:
+        children: list[Any] = []
+        for index, leaf, spliced in plan.picks:
+            if leaf:
+                children.append(leaf(symbols[index][1]))
+            elif not spliced:
+                children.append(symbols[index][1] if index >= 0 else None)
+            elif children:
+                children += symbols[index][1]
+            else:
+                # The list of a repetition grows in place, or long files would take ages.
+                children = symbols[index][1]
+        span = Span(self.findings.source, start, end)
+        return plan.call(span, *children) if plan.call else children
+
+    def cut(self, at: int) -> None:
+        """Let the file end here, without a word on what is then missing."""
+        self.findings.cut = True
+        self.stream.cut(at)

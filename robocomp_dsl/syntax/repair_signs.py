@@ -1,0 +1,111 @@
+"""Corrections of signs: a `;` that is missing, a comma too many, one bracket for another.
+
+In: the situation of a parser that is stuck. Out: what could be meant, the likeliest first.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from robocomp_dsl.syntax import codes
+from robocomp_dsl.syntax.lexer import Token
+from robocomp_dsl.syntax.repair import Repair
+from robocomp_dsl.syntax.situation import Situation, quote
+from robocomp_dsl.syntax.tables import END
+
+_PUNCTUATION = re.compile(r"\W+")
+_MISSED = (",", ")", "(", "{", ">", "<", ":", "->", ".", "=")
+
+
+def semicolon(situation: Situation) -> Iterator[Repair]:
+    """Only the `;` is missing. Where the line or block ends anyway, nothing is in doubt."""
+    before, token = situation.before, situation.ahead[0]
+    clear = situation.new_line() or before.kind == "RBRACE" or token.kind in ("RBRACE", END)
+    yield Repair(
+        codes.LEGACY_SEMICOLON if clear else codes.MISSING_SEMICOLON,
+        before.end,
+        before.end,
+        f"`;` is missing behind {quote(before)}",
+        title="add `;`",
+        edits=((before.end, before.end, ";"),),
+        put=(Token("_SEMI", ";", before.end, before.end),),
+        need=0 if before.kind == "RBRACE" else 1 if clear else 3,
+    )
+
+
+def semicolon_earlier(situation: Situation, item: list[Token], keep: int) -> Iterator[Repair]:
+    """The last word that fitted began a line, and with a `;` before it all would fit."""
+    if len(item) < 2 or "\n" not in situation.source.text[item[-2].end : item[-1].start]:
+        return
+    end = item[-2].end
+    yield Repair(
+        codes.LEGACY_SEMICOLON,
+        end,
+        end,
+        f"`;` is missing behind {quote(item[-2])}",
+        title="add `;`",
+        edits=((end, end, ";"),),
+        put=(*item[:-1], Token("_SEMI", ";", end, end), item[-1]),
+        keep=keep,
+    )
+
+
+def _signs(situation: Situation, accepted: list[str]) -> list[tuple[str, str]]:
+    """Terminal and text of the punctuation that may come next, what is likely missed first."""
+    texts = {situation.tables.texts.get(kind, ""): kind for kind in accepted}
+    optional = "_SEMI" in accepted
+    return [(texts[t], t) for t in _MISSED if t in texts and not (t == "=" and optional)]
+
+
+def other_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """One punctuation mark for another."""
+    token = situation.ahead[0]
+    if not _PUNCTUATION.fullmatch(token.text) or token.kind == "RBRACE":
+        return
+    for kind, text in [*_signs(situation, accepted), ("_SEMI", ";")]:
+        if token.kind == "STRAY" and token.text not in text:
+            continue
+        yield Repair(
+            codes.UNEXPECTED,
+            token.start,
+            token.end,
+            title=f"write `{text}`",
+            edits=((token.start, token.end, text),),
+            put=(Token(kind, text, token.start, token.end),),
+            skip=1,
+        )
+
+
+def surplus(situation: Situation) -> Iterator[Repair]:
+    """One token too many."""
+    token = situation.ahead[0]
+    if token.kind in (END, "_SEMI", "RBRACE"):
+        return
+    stray = token.kind == "STRAY"
+    shown = quote(token) if token.text.isprintable() else f"U+{ord(token.text[0]):04X}"
+    yield Repair(
+        codes.STRAY_CHARACTER if stray else codes.UNEXPECTED,
+        token.start,
+        token.end,
+        message=f"{shown} has no meaning here" if stray else "",
+        title=f"delete {shown}",
+        edits=((token.start, token.end, ""),),
+        skip=1,
+        need=0 if stray else 3,
+    )
+
+
+def missing_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """A punctuation mark is missing."""
+    at = situation.before.end
+    for kind, text in _signs(situation, accepted):
+        yield Repair(
+            codes.MISSING_SIGN,
+            at,
+            at,
+            f"`{text}` is missing behind {quote(situation.before)}",
+            title=f"add `{text}`",
+            edits=((at, at, text),),
+            put=(Token(kind, text, at, at),),
+        )
