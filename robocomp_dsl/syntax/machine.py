@@ -46,7 +46,7 @@ class Plan(NamedTuple):
             rule.unwraps and rule.length == 1,
             getattr(builder, rule.method) if rule.method else None,
             [
-                (pick.index, builder.leaf(pick.terminal) if pick.terminal else None, pick.spliced)
+                (pick.symbol, builder.leaf(pick.terminal) if pick.terminal else None, pick.spliced)
                 for pick in rule.picks
             ],
         )

@@ -22,13 +22,13 @@ END = "$END"
 
 
 class Pick(NamedTuple):
-    """A child that the builder gets: symbol `index` of the rule, or None for an absent `[x]` (-1).
+    """A child that the builder gets: number `symbol` of the rule, or None for an absent `[x]` (-1).
 
     `terminal` names the terminal that the child is, if it is one; the children of a child that is
     `spliced` take its place.
     """
 
-    index: int
+    symbol: int
     terminal: str
     spliced: bool
 
