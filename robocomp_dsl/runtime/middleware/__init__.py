@@ -1,0 +1,40 @@
+"""The middlewares, by name. In: a name. Out: a `Middleware` for one component, loaded on demand."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from importlib.metadata import entry_points
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.middleware.base import Host, Middleware
+
+GROUP = "robocomp_dsl.middleware"
+OWN = {
+    "inproc": "robocomp_dsl.runtime.middleware.inproc",
+    "zenoh": "robocomp_dsl.runtime.middleware.zenoh",
+}
+
+
+class UnknownMiddleware(Exception):
+    """No middleware has this name; the message lists those that there are."""
+
+
+def names() -> list[str]:
+    """All that can be opened here."""
+    return sorted({*OWN, *(one.name for one in entry_points(group=GROUP))})
+
+
+def open_middleware(name: str, host: Host) -> Middleware:
+    """The middleware called `name`, connected for one component.
+
+    Raises `UnknownMiddleware`, or `MiddlewareError` when it cannot be opened.
+    """
+    if name in OWN:
+        opened: Middleware = import_module(OWN[name]).open_for(host)
+        return opened
+    for one in entry_points(group=GROUP):
+        if one.name == name:
+            opened = one.load()(host)
+            return opened
+    raise UnknownMiddleware(f"there is no middleware `{name}`; there are {', '.join(names())}")

@@ -1,0 +1,63 @@
+"""Who is there: the ports of a domain, kept up to date by liveliness tokens.
+
+In: a session. Out: the ports that are served at this moment, and waiting for one to appear.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+import zenoh
+
+from robocomp_dsl.runtime.middleware.zenoh.keys import Present, parse_present, root
+
+
+class Directory:
+    """The ports of a domain."""
+
+    def __init__(self, session: zenoh.Session, domain: str) -> None:
+        self._present: dict[str, Present] = {}
+        self._changed = threading.Condition()
+        self.over = False
+        self._subscriber = session.liveliness().declare_subscriber(
+            f"{root(domain)}/p/**", self._hear, history=True
+        )
+
+    def _hear(self, sample: zenoh.Sample) -> None:
+        key = str(sample.key_expr)
+        with self._changed:
+            if sample.kind == zenoh.SampleKind.DELETE:
+                self._present.pop(key, None)
+            else:
+                found = parse_present(key)
+                if found:
+                    self._present[key] = found
+            self._changed.notify_all()
+
+    def find(self, role: str, interface: str) -> list[Present]:
+        """The ports of a role with an interface."""
+        with self._changed:
+            return self._matching(role, interface)
+
+    def _matching(self, role: str, interface: str) -> list[Present]:
+        every = self._present.values()
+        return [one for one in every if one.role == role and one.interface == interface]
+
+    def wait(
+        self, role: str, interface: str, fits: Callable[[Present], bool], seconds: float
+    ) -> list[Present]:
+        """Those that fit, waiting at most `seconds` for the first one."""
+
+        def fitting() -> list[Present]:
+            return [one for one in self._matching(role, interface) if fits(one)]
+
+        with self._changed:
+            self._changed.wait_for(lambda: fitting() or self.over, max(seconds, 0.0))
+            return fitting()
+
+    def interrupt(self) -> None:
+        """Let all who wait go on."""
+        with self._changed:
+            self.over = True
+            self._changed.notify_all()
