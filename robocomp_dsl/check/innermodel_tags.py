@@ -12,6 +12,7 @@ from typing import TypeAlias
 from robocomp_dsl.model import body
 
 NUMBER = "a number"
+LIMIT = "a number or `inf`"
 WHOLE = "a whole number"
 TEXT = "a text"
 FLAG = "0 or 1"
@@ -36,13 +37,17 @@ def _numbers(*names: str) -> dict[str, Kind]:
     return dict.fromkeys(names, NUMBER)
 
 
+def _limits(*names: str) -> dict[str, Kind]:
+    return dict.fromkeys(names, LIMIT)
+
+
 AXIS: Kind = ("x", "y", "z")
 _ID: dict[str, Kind] = {"id": TEXT}
 _MOVED = _numbers("tx", "ty", "tz")
 _TURNED = _numbers("rx", "ry", "rz")
 _PHYSICS: dict[str, Kind] = {"engine": ("static", "bullet"), "mass": NUMBER}
 _PORT: dict[str, Kind] = {"port": WHOLE}
-_JOINT: dict[str, Kind] = {**_numbers("min", "max", "home"), "axis": AXIS, **_PORT}
+_JOINT: dict[str, Kind] = {**_limits("min", "max"), "home": NUMBER, "axis": AXIS, **_PORT}
 _BASE = _ID | _MOVED | _TURNED | _PORT | {"noise": NUMBER, "collide": FLAG}
 _PLANE = (
     _ID
@@ -66,12 +71,12 @@ TAGS: Mapping[str, Tag] = {
     "prismaticjoint": Tag(
         body.PrismaticJoint, _ID | _JOINT | _numbers("position", "offset"), holds=True
     ),
-    "motor": Tag(body.Motor, _ID | _numbers("force", "gear", "velocity")),
+    "motor": Tag(body.Motor, _ID | _limits("force", "velocity") | _numbers("gear")),
     "differentialrobot": Tag(body.Base, _BASE, holds=True),
     "omnirobot": Tag(body.Base, _BASE, holds=True),
     "touchsensor": Tag(
         body.TouchSensor,
-        _ID | {"type": TEXT} | _numbers("nx", "ny", "nz", "min", "max") | _PORT,
+        _ID | {"type": TEXT} | _numbers("nx", "ny", "nz") | _limits("min", "max") | _PORT,
         holds=True,
     ),
     "plane": Tag(body.Plane, _PLANE),

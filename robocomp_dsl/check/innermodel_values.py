@@ -6,6 +6,7 @@ the model's defaults stand in for the others, which are reported.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 
@@ -13,6 +14,7 @@ from robocomp_dsl.check import codes_body as codes
 from robocomp_dsl.check.innermodel_tags import (
     EXTENT,
     FLAG,
+    LIMIT,
     NUMBER,
     SCALE,
     TEXT,
@@ -56,9 +58,13 @@ def _value(text: str, kind: Kind) -> object:
     if kind in (EXTENT, SCALE):
         return _triple([_number(part.strip()) for part in text.split(",")], kind)
     number = _number(text)
+    if kind == LIMIT:
+        return number
+    if math.isinf(number):
+        raise _Unfit
     if kind == NUMBER:
         return number
-    if number != number // 1 or abs(number) > _LARGEST_WHOLE:
+    if not number.is_integer() or abs(number) > _LARGEST_WHOLE:
         raise _Unfit
     if kind == FLAG:
         return number > 0

@@ -81,6 +81,9 @@ def test_values_and_defaults(
         ('<transform id="a" tx="0,5"/>', ['RC803 `"0,5"` ']),
         ('<transform id="a" tx=""/>', ['RC803 `""` ']),
         ('<transform id="a" tx="nan"/>', ['RC803 `"nan"` ']),
+        ('<transform id="a" rx="inf"/>', ['RC803 `"inf"` ']),
+        ('<transform id="a" rx="1e999"/>', ['RC803 `"1e999"` ']),
+        ('<joint id="a" min="-inf" max="INF"/>', []),
         ('<joint id="a" axis="w"/>', ['RC803 `"w"` ']),
         ('<joint id="a" port="1.5"/>', ['RC803 `"1.5"` ']),
         (

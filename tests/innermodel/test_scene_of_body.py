@@ -2,11 +2,14 @@
 
 import json
 import math
+import warnings
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from robocomp_dsl.check import check_innermodel
 from robocomp_dsl.check.workspace import Workspace
@@ -115,3 +118,31 @@ def test_a_point_by_hand(scene: Scene) -> None:
     expected = (500 + 1200 * math.sin(0.5), 140, -300 + 1200 * math.cos(0.5))
     assert found == pytest.approx(expected)
     assert np.allclose(tree.transform(found, "root", "laser_pose"), (0, 0, 1000))
+
+
+PIECES = [
+    "inf", "1e300", "-1", "0", '"', "<", ">", "/>", "</joint>", "<plane id='p' size='0'/>", "root",
+    'mass="1e9"', 'scale="0,1,1"', 'ny="1e-200"', '<transform id="robot">', 'axis="x"', "é", "",
+]  # fmt: skip
+
+CUTS = st.tuples(
+    st.integers(0, len(WORLD)), st.sampled_from([0, 0, 1, 3, 10, 40]), st.sampled_from(PIECES)
+)
+
+
+@settings(max_examples=80, deadline=None)
+@given(st.lists(CUTS, min_size=1, max_size=6))
+def test_whatever_is_written_there_is_a_world(cuts: list[tuple[int, int, str]]) -> None:
+    text = WORLD
+    for at, length, piece in cuts:
+        text = text[:at] + piece + text[at + length :]
+    workspace = Workspace(environ={})
+    path = Path("world.xml")
+    workspace.files.open_buffer(path, text)
+    found = check_innermodel(path, workspace, Report())
+    assert found is not None
+    scene = Scene.of_data(json.loads(json.dumps(lower(found))))
+    spec, _ = build_spec(scene)
+    with warnings.catch_warnings(action="ignore"):  # of inertias, where masses are absurd
+        assert spec.compile().nbody == len(scene.frames)
+    assert len(TransformTree(scene.frames)) == len(scene.frames)
