@@ -18,7 +18,6 @@ from robocomp_dsl.check.innermodel_tags import (
     NUMBER,
     SCALE,
     TEXT,
-    WHOLE,
     Kind,
     Tag,
 )
@@ -57,20 +56,17 @@ def _value(text: str, kind: Kind) -> object:
         return text
     if kind in (EXTENT, SCALE):
         return _triple([_number(part.strip()) for part in text.split(",")], kind)
-    number = _number(text)
-    if kind == LIMIT:
-        return number
-    if math.isinf(number):
+    return _one_number(_number(text), kind)
+
+
+def _one_number(number: float, kind: Kind) -> float:
+    if kind != LIMIT and math.isinf(number):
         raise _Unfit
-    if kind == NUMBER:
+    if kind in (NUMBER, LIMIT):
         return number
     if not number.is_integer() or abs(number) > _LARGEST_WHOLE:
         raise _Unfit
-    if kind == FLAG:
-        return number > 0
-    if kind == WHOLE:
-        return int(number)
-    raise AssertionError(kind)
+    return number > 0 if kind == FLAG else int(number)
 
 
 def _number(text: str) -> float:
