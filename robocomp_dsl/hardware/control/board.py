@@ -6,6 +6,7 @@ that keep to all limits. `Commands` gives it orders, `Calibrator` and `Parking` 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -46,6 +47,13 @@ class Board:
         self.torque, self.current = np.zeros(n), np.zeros(n)
         self._started = False
         self.refresh()
+
+    def begin(self, position: Floats, velocity: Floats) -> None:
+        """The first measurement: everything starts at rest from here, before any command."""
+        self._started = True
+        self.position = position + self.offset
+        self.velocity = velocity
+        self.references.reset(np.arange(len(position)), self.position)
 
     def step(
         self, position: Floats, velocity: Floats, dt: float, feedforward: Floats | None = None
@@ -134,37 +142,39 @@ class Board:
         self.refresh()
 
     def _sense(self, position: Floats, velocity: Floats, dt: float) -> None:
-        good = np.isfinite(position) & np.isfinite(velocity)
-        if not good.all():
-            bad = np.flatnonzero(~good)
-            self.fault(bad, Fault.ENCODER, "the encoder reads no number")
-            position = np.where(good, position, self.position - self.offset)
-            velocity = np.where(good, velocity, 0.0)
+        if not math.isfinite(float(position.dot(velocity))):
+            position, velocity = self._without_broken(position, velocity)
         self.position = position + self.offset
         if not self._started:
-            self._started = True
-            self.velocity = velocity
-            self.references.reset(np.arange(len(position)), self.position)
-        share = dt / (dt + SMOOTHING)
-        change = (velocity - self.velocity) / dt
-        self.acceleration = self.acceleration + share * (change - self.acceleration)
+            self.begin(position, velocity)
+        change = velocity - self.velocity
+        change *= 1.0 / (dt + SMOOTHING)
+        self.acceleration *= SMOOTHING / (dt + SMOOTHING)
+        self.acceleration += change
         self.velocity = velocity
+
+    def _without_broken(self, position: Floats, velocity: Floats) -> tuple[Floats, Floats]:
+        """Fault joints whose encoders read no number, and go on with their last angle."""
+        good = np.isfinite(position) & np.isfinite(velocity)
+        self._trip(np.flatnonzero(~good), Fault.ENCODER, "the encoder reads no number")
+        last = self.position - self.offset
+        return np.where(good, position, last), np.where(good, velocity, 0.0)
 
     def _watch(self, error: Floats) -> None:
         """Look for faults in what the step has led to."""
-        for bad, code, said in (
-            (overloaded(self.motors, self.current), Fault.OVERCURRENT, "the motor current is"),
-            (too_hot(self.motors), Fault.OVERTEMPERATURE, "the motor temperature is"),
-            (np.abs(error) > self.pid.error_limit, Fault.TRACKING, "the position error is"),
-        ):
-            if bad.any():
-                self._trip(np.flatnonzero(bad), code, said)
+        over = overloaded(self.motors, self.current)
+        if np.count_nonzero(over):
+            self._trip(np.flatnonzero(over), Fault.OVERCURRENT, "the motor current is too large")
+        hot = too_hot(self.motors)
+        if np.count_nonzero(hot):
+            self._trip(np.flatnonzero(hot), Fault.OVERTEMPERATURE, "the motor is too hot")
+        late = np.abs(error) > self.pid.error_limit
+        if np.count_nonzero(late):
+            held = np.flatnonzero(late & self.law.positioned)
+            self._trip(held, Fault.TRACKING, "the position error is too large")
 
-    def _trip(self, joints: Ints, code: Fault, said: str) -> None:
-        """Fault those of `joints` that are not off already; a late joint must be held to fault."""
-        modes = self.table.modes
-        fresh = [i for i in joints.tolist() if modes[i] is not Mode.HW_FAULT]
-        if code is Fault.TRACKING:
-            fresh = [i for i in fresh if self.law.positioned[i]]
+    def _trip(self, joints: Ints, code: Fault, message: str) -> None:
+        """Fault those of `joints` that have none yet."""
+        fresh = [i for i in joints.tolist() if self.table.modes[i] is not Mode.HW_FAULT]
         if fresh:
-            self.fault(np.array(fresh), code, f"{said} beyond its limit")
+            self.fault(np.array(fresh), code, message)

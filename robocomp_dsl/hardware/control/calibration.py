@@ -130,6 +130,7 @@ class Calibrator:
         if procedure.kind is Kind.HARD_STOP:
             self._board.drive_as(joint, Mode.CALIBRATING, Mode.PWM)
             self._board.law.duty[joint] = procedure.duty
+            self._board.law.apply()
         else:
             reading = self._board.position[joint] - self._board.offset[joint]
             self._zero(joint, procedure, reading - procedure.zero)
@@ -152,4 +153,4 @@ class Calibrator:
         one = np.array([joint])
         goal, _ = self._board.limits.clip(one, np.array([procedure.home]))
         speed = np.array([procedure.speed])
-        self._board.references.trajectory.move(one, goal, speed, self._board.dt)
+        self._board.references.move(one, goal, self._board.dt, speed)

@@ -147,9 +147,9 @@ class Commands:
                 raise WrongMode(f"`{name}` is in mode `{present}`; `{command}` needs {takes}")
         return chosen
 
-    @staticmethod
-    def _store(into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
+    def _store(self, into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
         kept = np.clip(values, -most, most)
         into[joints] = kept
+        self._board.law.apply()
         clipped: Bools = kept != values
         return clipped

@@ -1,7 +1,7 @@
 """The control law: joint torques from references, by mode and interaction of each joint.
 
 In: references, measurements, direct commands. Out: wished torques (n,), before the limits. Which
-terms a joint uses is worked out when its mode changes, so that a step costs the same in any mode.
+terms a joint uses is worked out when its mode or its command changes, not at every step.
 """
 
 from __future__ import annotations
@@ -20,32 +20,44 @@ from robocomp_dsl.hardware.control.pid import PidBank
 class Law:
     """`torque`, `duty` and `current` (n,) are the references of the modes of the same name.
 
-    `positioned` (n,) tells which joints hold a position now, `driven` which motors are on.
+    Whoever changes one of them calls `apply`. `positioned` (n,) tells which joints hold a position
+    now, `driven` which motors are on (1, else 0).
     """
 
     def __init__(self, pid: PidBank, impedance: Impedance, motors: Motors) -> None:
         n = len(pid.gains)
         self._pid, self._impedance, self._motors = pid, impedance, motors
         self.torque, self.duty, self.current = np.zeros(n), np.zeros(n), np.zeros(n)
-        self._stiff, self._spring, self._torque = np.zeros(n), np.zeros(n), np.zeros(n)
-        self._duty, self._current, self._held = np.zeros(n), np.zeros(n), np.zeros(n)
         self.positioned: Bools = np.zeros(n, bool)
-        self.driven = np.zeros(n)  # 0 where the motor is off, else 1
-        self._any = {"spring": False, "duty": False, "current": False}
+        self.driven = np.zeros(n)
+        self._modes: tuple[Mode, ...] = (Mode.IDLE,) * n
+        self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
+        self._back_emf: Floats | None = None
+        self._stiff = self._comply = False
 
     def choose(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
         """Work out which terms each joint uses."""
-        self.positioned = np.array([mode in POSITIONED for mode in modes])
+        self._modes = tuple(modes)
         comply = np.array([one is Interaction.COMPLIANT for one in interactions])
-        self._held = self.positioned.astype(float)
-        self._stiff = (self.positioned & ~comply).astype(float)
-        self._spring = (self.positioned & comply).astype(float)
-        self._torque = np.array([float(mode is Mode.TORQUE) for mode in modes])
-        self._duty = np.array([float(mode is Mode.PWM) for mode in modes])
-        self._current = np.array([float(mode is Mode.CURRENT) for mode in modes])
-        self.driven = np.maximum(self._held, self._torque + self._duty + self._current)
-        used = {"spring": self._spring, "duty": self._duty, "current": self._current}
-        self._any = {name: bool(one.any()) for name, one in used.items()}
+        self.positioned = np.array([mode in POSITIONED for mode in modes])
+        stiff, soft = self.positioned & ~comply, self.positioned & comply
+        self._pid.use(stiff)
+        self._stiff, self._comply = bool(stiff.any()), bool(soft.any())
+        self._held, self._spring = self.positioned.astype(float), soft.astype(float)
+        direct = self._mask(Mode.TORQUE) + self._mask(Mode.PWM) + self._mask(Mode.CURRENT)
+        self.driven = self._held + direct
+        duty = self._mask(Mode.PWM)
+        self._back_emf = duty[:, None] * self._motors.back_emf if duty.any() else None
+        self.apply()
+
+    def apply(self) -> None:
+        """Work out the torques that torque, duty and current commands make at standstill."""
+        torque, duty = self._mask(Mode.TORQUE), self._mask(Mode.PWM)
+        current = self._mask(Mode.CURRENT)
+        stalled = self._motors.stall_current(self.duty * duty)
+        self._direct = torque * self.torque
+        self._direct += duty * self._motors.torque_of_current(stalled)
+        self._direct += current * self._motors.torque_of_current(self.current * current)
 
     def step(
         self,
@@ -56,14 +68,16 @@ class Law:
         dt: float,
     ) -> Floats:
         """Wished torques. `feedforward` (n,) is added where a position is held: weight, mostly."""
-        wished = self._pid.step(error, velocity_error, dt, self._stiff)
-        wished = wished + self._torque * self.torque
+        wished = self._direct
+        if self._stiff:
+            wished = wished + self._pid.step(error, velocity_error, dt)
+        if self._comply:
+            wished = wished + self._spring * self._impedance.torque(error, velocity_error)
         if feedforward is not None:
-            wished += self._held * feedforward
-        if self._any["spring"]:
-            wished += self._spring * self._impedance.torque(error, velocity_error)
-        if self._any["duty"]:
-            wished += self._duty * self._motors.torque_of_duty(self.duty * self._duty, velocity)
-        if self._any["current"]:
-            wished += self._current * self._motors.torque_of_current(self.current * self._current)
+            wished = wished + self._held * feedforward
+        if self._back_emf is not None:
+            wished = wished - self._back_emf @ velocity
         return wished
+
+    def _mask(self, mode: Mode) -> Floats:
+        return np.array([float(one is mode) for one in self._modes])

@@ -1,8 +1,8 @@
 """Limits on position, speed and torque, applied before anything reaches a motor.
 
 In: wishes. Out: what the joint may do. Positions are clipped when they are commanded and on the
-way; a torque that would push a joint past a limit is taken away and a spring leads it back; a
-torque that would speed it up beyond its limit is taken away too.
+way; a torque that would push a joint past a limit, at its present speed, is taken away and a spring
+leads it back; a torque that would speed it up beyond its limit is taken away too.
 """
 
 from __future__ import annotations
@@ -13,8 +13,13 @@ from robocomp_dsl.hardware.control.errors import BadValue
 from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Floats, Ints
 
 _SPRING = 20.0
-_DAMPER = 1.0
-"""Strength of the soft stops, in torque limits per rad and per rad/s."""
+"""Strength of the soft stops, in torque limits per rad."""
+
+_AHEAD = 0.05
+"""How far ahead a fast joint is seen to run into its stop [s]."""
+
+_FAST = 0.5
+"""A joint slower than this is not braked before it is at its limit [rad/s]."""
 
 
 class Limits:
@@ -55,15 +60,16 @@ class Limits:
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
         """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
         low, high = self._stops
-        past = q - np.minimum(np.maximum(q, low), high)
+        ahead = q + _AHEAD * dq
+        past = ahead - np.minimum(np.maximum(ahead, low), high)
         fast = np.abs(dq) > self.speed
-        if past.any():
-            back = -self.torque * (_SPRING * past + _DAMPER * dq)
-            # the spring only helps: it never pushes further out than the wish would
-            above, below = past > 0.0, past < 0.0
-            torque = np.where(above, np.minimum(torque, back), torque)
-            torque = np.where(below, np.maximum(torque, back), torque)
-        if fast.any():
+        if np.count_nonzero(past):
+            # a slow joint is held only where it is past its limit already
+            there = (q < low) | (q > high) | (np.abs(dq) > _FAST)
+            back = -self.torque * _SPRING * past
+            torque = np.where(there & (past > 0.0), np.minimum(torque, back), torque)
+            torque = np.where(there & (past < 0.0), np.maximum(torque, back), torque)
+        if np.count_nonzero(fast):
             torque = np.where(fast & (torque * dq > 0.0), 0.0, torque)
         bounded: Floats = np.minimum(np.maximum(torque, -self.torque), self.torque)
         return bounded

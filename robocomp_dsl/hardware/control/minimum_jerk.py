@@ -20,7 +20,10 @@ PEAK = 1.875
 
 
 class MinimumJerk:
-    """The trajectories; `position` and `velocity` (n,) are the references after the last step."""
+    """The trajectories; `position` and `velocity` (n,) are the references after the last step.
+
+    `active` tells whether any joint moves.
+    """
 
     def __init__(self, position: Floats) -> None:
         n = len(position)
@@ -30,9 +33,9 @@ class MinimumJerk:
         self.moving = np.zeros(n, bool)
         self._time = np.zeros(n)
         self._rate = np.zeros(n)
-        self._start = position.copy()
-        self._powers = np.zeros((4, n))  # factors of t, t^3, t^4, t^5
-        self._any = False
+        # factors of t^0 to t^5, of the position and of its derivative by t: (6, 2, n)
+        self._factors = np.zeros((6, 2, n))
+        self.active = False
 
     def move(self, joints: Ints, goal: Floats, speed: Floats, dt: float) -> None:
         """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves."""
@@ -40,8 +43,10 @@ class MinimumJerk:
         duration = np.abs(way) / speed
         at_once = duration < dt
         v = self.velocity[joints] * duration
-        self._start[joints] = self.position[joints]
-        self._powers[:, joints] = (v, 10 * way - 6 * v, 8 * v - 15 * way, 6 * way - 3 * v)
+        third, fourth, fifth = 10 * way - 6 * v, 8 * v - 15 * way, 6 * way - 3 * v
+        none = np.zeros(len(joints))
+        self._factors[:, 0, joints] = (self.position[joints], v, none, third, fourth, fifth)
+        self._factors[:, 1, joints] = (v, none, 3 * third, 4 * fourth, 5 * fifth, none)
         self._rate[joints] = 1.0 / np.where(at_once, dt, duration)
         self._time[joints] = 0.0
         self.goal[joints] = goal
@@ -49,34 +54,38 @@ class MinimumJerk:
         done = joints[at_once]
         self.position[done] = self.goal[done]
         self.velocity[done] = 0.0
-        self._any = bool(self.moving.any())
+        self.active = bool(self.moving.any())
 
     def halt(self, joints: Ints, position: Floats) -> None:
         """Forget the motion of `joints`: at rest at `position`."""
         self.position[joints] = self.goal[joints] = position
         self.velocity[joints] = 0.0
         self.moving[joints] = False
-        self._any = bool(self.moving.any())
+        self.active = bool(self.moving.any())
 
     def shift(self, way: Floats, low: Floats, high: Floats) -> None:
         """Carry everything along by `way` (n,), between `low` and `high`."""
         self.position = np.minimum(np.maximum(self.position + way, low), high)
         self.goal = np.minimum(np.maximum(self.goal + way, low), high)
-        self._start += way
+        self._factors[0, 0] += way
 
     def step(self, dt: float) -> None:
         """Let `dt` seconds pass."""
-        if not self._any:
+        if not self.active:
             return
         moving = self.moving
         step = self._rate * dt
-        np.add(self._time, step, out=self._time, where=moving)
-        t, (first, third, fourth, fifth) = self._time, self._powers
-        square = t * t
-        x = self._start + t * (first + square * (third + t * (fourth + t * fifth)))
-        speed = first + square * (3 * third + t * (4 * fourth + t * (5 * fifth)))
-        np.copyto(self.position, x, where=moving)
-        np.copyto(self.velocity, speed * self._rate, where=moving)
-        done = moving & (t >= 1.0 - 0.5 * step)
-        if done.any():
+        t = self._time
+        np.add(t, step, out=t, where=moving)
+        value = self._factors[5] * t
+        for factor in self._factors[4:0:-1]:
+            value += factor
+            value *= t
+        value += self._factors[0]
+        np.copyto(self.position, value[0], where=moving)
+        np.multiply(value[1], self._rate, out=self.velocity, where=moving)
+        step *= 0.5
+        step += t
+        done = (step >= 1.0) & moving
+        if np.count_nonzero(done):
             self.halt(np.flatnonzero(done), self.goal[done])

@@ -32,7 +32,7 @@ class Motors:
         # joint torque per motor current, and the joint damping that the back EMF makes
         self._per_amp = self.to_motor.T * self.torque_constant
         bemf = self.torque_constant**2 / self.resistance
-        self._bemf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
+        self.back_emf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
 
     def current(self, torque: Floats) -> Floats:
         """Motor currents [A] that make the joint torques (n,) [N m]."""
@@ -44,10 +44,15 @@ class Motors:
         torque: Floats = self._per_amp @ current
         return torque
 
+    def stall_current(self, duty: Floats) -> Floats:
+        """Currents [A] of duty cycles [%] at standstill; motion takes `back_emf` off the torque."""
+        current: Floats = self.supply * duty / (100.0 * self.resistance)
+        return current
+
     def torque_of_duty(self, duty: Floats, joint_velocity: Floats) -> Floats:
         """Joint torques of duty cycles [%] at the joints' velocities."""
-        stalled = self.supply * duty / 100.0 / self.resistance
-        torque: Floats = self._per_amp @ stalled - self._bemf @ joint_velocity
+        stalled = self.torque_of_current(self.stall_current(duty))
+        torque: Floats = stalled - self.back_emf @ joint_velocity
         return torque
 
     def duty(self, torque: Floats, joint_velocity: Floats) -> Floats:

@@ -48,7 +48,7 @@ class Parking:
         self._board.set_modes(chosen, [Mode.POSITION] * len(chosen))
         speed = np.full(len(chosen), self._speed)
         goal = self.pose[chosen]
-        self._board.references.trajectory.move(chosen, goal, speed, self._board.dt)
+        self._board.references.move(chosen, goal, self._board.dt, speed)
         self._elapsed[chosen] = 0.0
         for joint in chosen.tolist():
             self.states[joint] = ParkState.PARKING

@@ -11,7 +11,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints
+from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,44 +45,63 @@ def default_gains(spec: BoardSpec) -> tuple[Gains, ...]:
 
 
 class PidBank:
-    """The regulators; `enabled` (n,) may be switched joint by joint."""
+    """The regulators; each works where it is both enabled by the user and in use by the law."""
 
     def __init__(self, gains: tuple[Gains, ...]) -> None:
+        n = len(gains)
         self.gains = list(gains)
-        self.enabled = np.ones(len(gains), bool)
-        self.integral = np.zeros(len(gains))
-        self.output = np.zeros(len(gains))
-        self.error = np.zeros(len(gains))
-        self.error_limit = np.full(len(gains), np.inf)
-        self._columns = self._table()
+        self.integral, self.output, self.error = np.zeros(n), np.zeros(n), np.zeros(n)
+        self.error_limit = np.full(n, np.inf)
+        self.enabled: Bools = np.ones(n, bool)
+        self._in_use: Bools = np.ones(n, bool)
+        self._prepare()
 
     def set(self, joint: int, gains: Gains) -> None:
         """Give one regulator other gains."""
         self.gains[joint] = gains
-        self._columns = self._table()
+        self._prepare()
 
     def set_offset(self, joint: int, offset: float) -> None:
         """Give one regulator another constant output."""
         self.set(joint, replace(self.gains[joint], offset=offset))
 
+    def enable(self, joints: Ints, on: bool) -> None:
+        """Switch regulators on or off; one that is off gives 0."""
+        self.enabled[joints] = on
+        self._prepare()
+
+    def use(self, in_use: Bools) -> None:
+        """Which regulators (n,) the control law needs now."""
+        self._in_use = in_use
+        self._prepare()
+
     def reset(self, joints: Ints) -> None:
         """Forget the integrals of `joints`."""
         self.integral[joints] = 0.0
 
-    def step(self, error: Floats, derivative: Floats, dt: float, factor: Floats) -> Floats:
-        """Outputs (n,). `factor` (n,) is 1 where a regulator is in use and 0 where it is not."""
+    def step(self, error: Floats, derivative: Floats, dt: float) -> Floats:
+        """Outputs (n,); 0 where a regulator does not work."""
         kp, ki, kd, offset, bound, most = self._columns
-        used = factor * self.enabled
-        grown = self.integral + ki * error * dt
-        np.minimum(np.maximum(grown, -most), most, out=grown)
-        grown *= used
-        wanted = (kp * error + kd * derivative + offset) * used + grown
-        output: Floats = np.minimum(np.maximum(wanted, -bound), bound)
-        # an output at its bound must not wind the integral up any further
-        held = (wanted != output) & (grown * error > 0.0)
-        np.copyto(self.integral, grown, where=~held)
-        self.output, self.error = output, error * used
+        grown = self.integral + (ki * dt) * error
+        np.minimum(grown, most, out=grown)
+        np.maximum(grown, -most, out=grown)
+        wanted = kp * error
+        wanted += kd * derivative
+        wanted += offset
+        wanted += grown
+        output: Floats = np.minimum(wanted, bound)
+        np.maximum(output, -bound, out=output)
+        at_bound = wanted != output
+        if np.count_nonzero(at_bound):  # an output at its bound must not wind the integral up
+            held = at_bound & (grown * error > 0.0)
+            grown = np.where(held, self.integral, grown)
+        self.integral, self.output, self.error = grown, output, error
         return output
 
-    def _table(self) -> Floats:
-        return np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
+    def _prepare(self) -> None:
+        """Gains as columns, zero where a regulator does not work."""
+        table = np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
+        works = self.enabled & self._in_use
+        table[:, ~works] = 0.0
+        self._columns = table
+        self.integral = np.where(works, self.integral, 0.0)

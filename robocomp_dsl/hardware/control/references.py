@@ -35,11 +35,14 @@ class References:
         self._stream = np.zeros(n)  # speed of a stream of direct positions
         self._age = np.full(n, np.inf)  # time since the last one
         self._streaming = False
+        self._changed = True
 
-    def move(self, joints: Ints, goal: Floats, dt: float) -> None:
-        """Minimum jerk to `goal` at the reference speeds, slower where the peak is too fast."""
-        speed = np.minimum(self.reference_speed[joints], self._limits.speed[joints] / PEAK)
+    def move(self, joints: Ints, goal: Floats, dt: float, speed: Floats | None = None) -> None:
+        """Minimum jerk to `goal` at `speed` or the reference speeds; the limit bounds its peak."""
+        wished = self.reference_speed[joints] if speed is None else speed
+        speed = np.minimum(wished, self._limits.speed[joints] / PEAK)
         self.trajectory.move(joints, goal, speed, dt)
+        self._changed = True
 
     def direct(self, joints: Ints, position: Floats) -> None:
         """Follow `position` at once; a steady stream also tells how fast it goes."""
@@ -59,6 +62,7 @@ class References:
     def stop(self, joints: Ints) -> None:
         """End every motion of `joints` where the reference is now; velocities ramp down."""
         self.trajectory.halt(joints, self.trajectory.position[joints])
+        self._changed = True
         self._stream[joints] = 0.0
         if self.ramp.active:
             self.ramp.command(joints, np.zeros(len(joints)))
@@ -71,28 +75,44 @@ class References:
         self._age[joints] = np.inf
         self.position[joints] = position
         self.velocity[joints] = 0.0
+        self._changed = True
 
     def step(self, measured: Floats, dt: float) -> None:
         """Let `dt` seconds pass; `measured` (n,) keeps a blocked joint's reference near it."""
+        if not (self.trajectory.active or self.ramp.active or self._streaming or self._changed):
+            return
         self.trajectory.step(dt)
-        low, high = self._limits.low, self._limits.high
-        velocity = self.trajectory.velocity
+        velocity = self.trajectory.velocity.copy()
         if self.ramp.active:
-            driven = self.ramp.step(self.acceleration, dt)
-            moving = driven != 0.0
-            room = np.where(driven > 0.0, measured + LEAD, measured - LEAD)
-            ahead = (self.trajectory.position - room) * np.sign(driven) > 0.0
-            self.trajectory.shift(np.where(moving & ~ahead, driven * dt, 0.0), low, high)
-            velocity = velocity + driven
+            velocity = velocity + self._driven(measured, dt)
         if self._streaming:
             velocity = velocity + self._streamed(dt)
-        self.position = np.minimum(np.maximum(self.trajectory.position, low), high)
-        at_end = (self.position >= high) & (velocity > 0.0)
-        at_end |= (self.position <= low) & (velocity < 0.0)
-        self.velocity = np.where(at_end, 0.0, velocity)
+        wanted = self.trajectory.position
+        self.position = np.minimum(wanted, self._limits.high)
+        np.maximum(self.position, self._limits.low, out=self.position)
+        outside = self.position != wanted
+        if np.count_nonzero(outside):
+            velocity = np.where(outside, 0.0, velocity)
+        self.velocity = velocity
+        # once more after the last motion, so that the end itself is taken over
+        self._changed = self.trajectory.active or self.ramp.active or self._streaming
+
+    def _driven(self, measured: Floats, dt: float) -> Floats:
+        """Carry trajectories along at the ramp's velocities; the velocities that they got.
+
+        A joint that lags behind its reference, or is at a limit, lets the reference wait.
+        """
+        driven = self.ramp.step(self.acceleration, dt)
+        before = self.trajectory.position
+        lead = (before - measured) * np.sign(driven)
+        way = np.where(lead < LEAD, driven * dt, 0.0)
+        self.trajectory.shift(way, self._limits.low, self._limits.high)
+        carried = self.trajectory.position - before
+        carried /= dt
+        return carried
 
     def _streamed(self, dt: float) -> Floats:
         self._age += dt
-        self._streaming = bool((self._age < STREAM_GAP).any())
-        fresh: Floats = np.where(self._age < STREAM_GAP, self._stream, 0.0)
-        return fresh
+        fresh = self._age < STREAM_GAP
+        self._streaming = bool(np.count_nonzero(fresh))
+        return np.where(fresh, self._stream, 0.0)

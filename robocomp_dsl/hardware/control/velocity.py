@@ -37,8 +37,12 @@ class VelocityRamp:
         if not self.active:
             return self.velocity
         self._left -= dt
-        self.target[self._left < 0.0] = 0.0
+        over = self._left < 0.0
+        if np.count_nonzero(over):
+            self.target[over] = 0.0
+            self._left[over] = np.inf
         reach = acceleration * dt
-        self.velocity += np.clip(self.target - self.velocity, -reach, reach)
-        self.active = bool(self.velocity.any() or self.target.any())
+        change = np.minimum(self.target - self.velocity, reach)
+        self.velocity += np.maximum(change, -reach, out=change)
+        self.active = bool(np.count_nonzero(self.velocity) or np.count_nonzero(self.target))
         return self.velocity

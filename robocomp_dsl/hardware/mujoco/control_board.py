@@ -1,0 +1,96 @@
+"""A control board on the joints of a simulated robot.
+
+In: a compiled MuJoCo model whose joints have torque motors of the same name. Out: before every
+physics step the board sees the joints and sets the motors. Encoders may start with an unknown
+offset (`encoder_zero`), so that calibration has something to find.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.commands import Commands
+from robocomp_dsl.hardware.control.motors import ROOM_TEMPERATURE
+from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.robots.boards import RobotBoard
+
+Floats = NDArray[np.float64]
+
+WARMING = 4.0
+"""Heating of a motor [K/W]."""
+
+COOLING = 120.0
+"""Time constant of its temperature [s]."""
+
+
+class SimulatedBoard:
+    """A part of a `World`: `board` holds the state, `commands` takes orders."""
+
+    def __init__(
+        self,
+        robot_board: RobotBoard,
+        *,
+        prefix: str = "",
+        hold_weight: bool = True,
+        encoder_zero: Floats | None = None,
+    ) -> None:
+        n = len(robot_board.joints)
+        self.board = Board(robot_board.spec)
+        self.commands = Commands(self.board)
+        self._joints = tuple(prefix + name for name in robot_board.joints)
+        self._hold_weight = hold_weight
+        self._zero = np.zeros(n) if encoder_zero is None else encoder_zero
+        self._plain = bool(np.array_equal(robot_board.transmission, np.eye(n)))
+        self._to_joint = np.linalg.inv(robot_board.transmission)
+        self._to_board = robot_board.transmission.T
+
+    def build(self, spec: Any) -> None:
+        """Nothing to add: the robot brought its motors along."""
+
+    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002 - shared
+        """Find joints and motors; raises `SceneError` for one that is not there."""
+        self._data = data
+        self._where, self._speed, self._motor = (
+            np.array([self._find(model, name)[i] for name in self._joints]) for i in range(3)
+        )
+        self.board.begin(*self._measure())
+
+    def before_step(self, dt: float) -> None:
+        """Measure, let the board work, and set the motors."""
+        q, dq = self._measure()
+        weight = self._weight() if self._hold_weight else None
+        torque = self.board.step(q, dq, dt, weight)
+        data = self._data
+        data.ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
+
+    def _measure(self) -> tuple[Floats, Floats]:
+        """Angles as the encoders tell them, and speeds."""
+        q, dq = self._data.qpos[self._where], self._data.qvel[self._speed]
+        if not self._plain:
+            q, dq = self._to_joint @ q, self._to_joint @ dq
+        return q + self._zero, dq
+
+    def _weight(self) -> Floats:
+        """Torques that hold the arm against gravity and its own swing."""
+        weight: Floats = self._data.qfrc_bias[self._speed]
+        return weight if self._plain else self._to_board @ weight
+
+    def after_step(self, dt: float) -> None:
+        """Motors warm up by their current and cool down in the room."""
+        motors, current = self.board.motors, self.board.current
+        final = ROOM_TEMPERATURE + WARMING * motors.resistance * current * current
+        motors.temperature += (final - motors.temperature) * (dt / COOLING)
+
+    @staticmethod
+    def _find(model: Any, name: str) -> tuple[int, int, int]:
+        joint = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name)
+        motor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, name)
+        if joint < 0 or motor < 0:
+            what = "joint" if joint < 0 else "motor"
+            raise SceneError(f"the world has no {what} `{name}` for the control board")
+        return int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint]), motor

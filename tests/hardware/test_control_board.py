@@ -1,0 +1,594 @@
+"""What the robots' makers test on their boards, on a simulated NAO arm and a simulated iCub arm."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import mujoco
+import numpy as np
+import pytest
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.calibration import Calibrator, Kind, Procedure
+from robocomp_dsl.hardware.control.commands import Commands
+from robocomp_dsl.hardware.control.errors import (
+    BadValue,
+    ControlRefused,
+    ModeRefused,
+    NoSpeed,
+    NotEquipped,
+    UnknownJoint,
+    WrongMode,
+)
+from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
+from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
+from robocomp_dsl.hardware.control.parking import Parking, ParkState
+from robocomp_dsl.hardware.control.variables import RemoteVariables
+from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
+from robocomp_dsl.hardware.mujoco.world import World
+from robocomp_dsl.hardware.robots.boards import board_names, robot_board, whole_robot
+from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
+from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.robots.links import Robot
+
+ARMS = {"nao": ("nao_h25", "LArm"), "icub": ("icub_v2", "right_arm")}
+
+
+def alone(robot: Robot, joints: tuple[str, ...]) -> Robot:
+    """The robot with `joints` only: what hangs on others is left out or fixed."""
+    held = {link.name: link for link in robot.links}
+    keep: set[str] = set()
+    for link in robot.links:
+        if link.joint and link.joint.name in joints:
+            name = link.name
+            while name:
+                keep.add(name)
+                name = held[name].parent
+    links = tuple(
+        link if link.joint and link.joint.name in joints else replace(link, joint=None)
+        for link in robot.links
+        if link.name in keep
+    )
+    return replace(robot, links=links, neighbours=())
+
+
+class Arm:
+    """One arm on a fixed trunk; nothing collides."""
+
+    def __init__(self, name: str, zero: np.ndarray | None = None) -> None:
+        robot = ROBOTS[ARMS[name][0]]()
+        made = robot_board(robot, ARMS[name][1])
+        if zero is not None:
+            joints = tuple(replace(joint, calibrated=False) for joint in made.spec.joints)
+            made = replace(made, spec=replace(made.spec, joints=joints))
+        robot = alone(robot, made.joints)
+        spec = new_world()
+        add_robot(spec, robot)
+        self.part = SimulatedBoard(made, encoder_zero=zero)
+        self.world = World(spec, [self.part])
+        self.world.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONTACT
+        set_pose(self.world.model, self.world.data, robot)
+        self.world.advance(0.001)
+        self.board, self.command = self.part.board, self.part.commands
+        self.spec = self.board.spec
+
+    def wait(self, done, seconds: float) -> bool:
+        """Let time pass until `done()`; whether it came to that."""
+        for _ in range(int(seconds / 0.05)):
+            if done():
+                return True
+            self.world.advance(0.05)
+        return bool(done())
+
+    def go(self, joints, goal, seconds: float = 20.0) -> None:
+        self.command.position_move(joints, goal)
+        assert self.wait(lambda: self.command.motion_done(joints).all(), seconds)
+        self.world.advance(0.5)
+
+    @property
+    def inside(self) -> np.ndarray:
+        """A pose well within all limits."""
+        return (self.board.limits.low + self.board.limits.high) / 2
+
+
+@pytest.fixture(params=ARMS)
+def arm(request) -> Arm:
+    return Arm(request.param)
+
+
+def modes(arm: Arm) -> set[tuple[Mode, Interaction]]:
+    state = arm.board.state()
+    return set(zip(state.modes, state.interactions, strict=True))
+
+
+SEQUENCE = (
+    (Mode.POSITION, Mode.POSITION),
+    (Mode.POSITION_DIRECT, Mode.POSITION_DIRECT),
+    (Mode.VELOCITY, Mode.VELOCITY),
+    (Mode.TORQUE, Mode.TORQUE),
+    (Mode.MIXED, Mode.MIXED),
+    (Mode.PWM, Mode.PWM),
+    (Mode.CURRENT, Mode.CURRENT),
+    (Mode.IDLE, Mode.IDLE),
+    (Mode.POSITION, Mode.POSITION),
+    (Mode.FORCE_IDLE, Mode.IDLE),
+    (Mode.POSITION, Mode.POSITION),
+)
+
+
+def test_control_modes_follow_each_other_and_faults_leave_by_force_idle(arm):
+    for interaction in (Interaction.STIFF, Interaction.COMPLIANT):
+        arm.command.set_interaction(None, interaction)
+        for asked, expected in SEQUENCE:
+            arm.command.set_mode(None, asked)
+            arm.world.advance(0.01)
+            assert modes(arm) == {(expected, interaction)}
+    arm.board.motors.set_max_current(
+        np.arange(len(arm.spec.joints)), np.zeros(len(arm.spec.joints))
+    )
+    arm.world.advance(0.01)
+    assert modes(arm) == {(Mode.HW_FAULT, Interaction.STIFF)}
+    assert {one.code for one in arm.board.faults.last} == {Fault.OVERCURRENT}
+    arm.board.motors.set_max_current(
+        np.arange(len(arm.spec.joints)), np.full(len(arm.spec.joints), 10.0)
+    )
+    for asked in SELECTABLE:
+        if asked is not Mode.FORCE_IDLE:
+            with pytest.raises(ModeRefused, match="only force-idle"):
+                arm.command.set_mode(None, asked)
+            arm.world.advance(0.01)
+            assert modes(arm) == {(Mode.HW_FAULT, Interaction.STIFF)}
+    assert not arm.board.torque.any()
+    arm.command.set_mode(None, Mode.FORCE_IDLE)
+    assert modes(arm) == {(Mode.IDLE, Interaction.COMPLIANT)}
+    arm.command.set_mode(None, Mode.POSITION)
+    assert modes(arm) == {(Mode.POSITION, Interaction.COMPLIANT)}
+
+
+def test_states_cannot_be_asked_for(arm):
+    for state in (m for m in Mode if m not in SELECTABLE):
+        with pytest.raises(ModeRefused, match="cannot be asked for"):
+            arm.command.set_mode(None, state)
+
+
+def test_the_arm_does_not_jump_when_its_mode_changes(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.world.advance(0.5)
+    for asked in (Mode.VELOCITY, Mode.MIXED, Mode.POSITION_DIRECT, Mode.POSITION):
+        before = arm.board.state().position
+        arm.command.set_mode(None, asked)
+        arm.world.advance(0.2)
+        assert arm.board.state().position == pytest.approx(before, abs=0.005)
+
+
+def test_joint_limits_hold_in_every_mode(arm):
+    n = len(arm.spec.joints)
+    low, high = arm.board.limits.low, arm.board.limits.high
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 4.0)
+    arm.go(None, arm.inside)
+    for joint in range(n):
+        for bound, beyond in ((low, -1.0), (high, 1.0)):
+            clipped = arm.command.position_move([joint], bound[joint] + beyond)
+            assert clipped.all()
+            arm.wait(lambda: arm.command.motion_done().all(), 10)
+            arm.world.advance(0.2)
+            assert arm.board.position[joint] == pytest.approx(bound[joint], abs=0.02)
+        arm.go([joint], arm.inside[joint])
+    for mode, drive in (
+        (Mode.VELOCITY, lambda sign: arm.command.velocity_move(None, sign * 1.0)),
+        (
+            Mode.TORQUE,
+            lambda sign: arm.command.set_torque(None, sign * 0.5 * arm.board.limits.torque),
+        ),
+        (Mode.POSITION_DIRECT, lambda sign: arm.command.set_position(None, sign * 10.0)),
+    ):
+        for sign in (-1.0, 1.0):
+            arm.command.set_mode(None, Mode.POSITION)
+            arm.go(None, arm.inside)
+            arm.command.set_mode(None, mode)
+            drive(sign)
+            for _ in range(20):
+                arm.world.advance(0.1)
+                q = arm.board.position
+                assert (q > low - 0.1).all(), mode
+                assert (q < high + 0.1).all(), mode
+
+
+def test_motors_reach_their_targets_in_time(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 0.35)
+    low, high = arm.board.limits.low, arm.board.limits.high
+    for share in (0.5, 0.3, 0.7):
+        goal = low + share * (high - low)
+        time = np.abs(goal - arm.board.references.position).max() / 0.35
+        arm.command.position_move(None, goal)
+        assert not arm.command.motion_done().all()
+        arm.world.advance(time + 0.1)
+        assert arm.command.motion_done().all()
+        assert arm.board.position == pytest.approx(goal, abs=0.02)
+    arm.command.relative_move(None, -0.1)
+    arm.world.advance(1.0)
+    assert arm.board.position == pytest.approx(goal - 0.1, abs=0.02)
+
+
+def test_a_stop_ends_the_motion_where_it_is(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 0.3)
+    arm.command.position_move(None, arm.inside)
+    arm.world.advance(0.3)
+    arm.command.stop()
+    assert arm.command.motion_done().all()
+    arm.world.advance(0.3)
+    here = arm.board.state().position
+    arm.world.advance(0.5)
+    assert arm.board.state().position == pytest.approx(here, abs=0.002)
+
+
+def test_motor_encoders_count_the_way_the_motor_pushes(arm):
+    arm.world.model.opt.gravity[:] = 0
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    for motor in range(len(arm.spec.motors)):
+        arm.command.set_mode(None, Mode.POSITION)
+        arm.world.advance(0.3)
+        arm.command.set_mode(None, Mode.PWM)
+        before = arm.board.state()
+        arm.command.set_duty([motor], 3.0)
+        arm.world.advance(0.1)
+        after = arm.board.state()
+        turned = after.motor_counts[motor] - before.motor_counts[motor]
+        assert turned > 50, arm.spec.motors[motor].name
+        assert after.duty[motor] == pytest.approx(3.0, abs=0.2)
+
+
+def test_joints_follow_a_stream_of_direct_positions(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.command.set_mode(None, Mode.POSITION_DIRECT)
+    arm.world.advance(0.1)
+    worst, wave = 0.0, 0.15
+    for k in range(600):  # a sine at 0.4 Hz, commanded at 100 Hz
+        goal = arm.inside + wave * np.sin(2 * np.pi * 0.4 * 0.01 * k)
+        arm.command.set_position(None, goal)
+        arm.world.advance(0.01)
+        worst = max(worst, float(np.abs(arm.board.position - goal).max()))
+    assert worst < 0.03
+
+
+def test_both_encoders_agree_while_the_arm_moves(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 0.7)
+    arm.command.position_move(None, arm.inside)
+    motors, last = arm.board.motors, arm.board.state()
+    for _ in range(400):
+        arm.world.advance(0.002)
+        state = arm.board.state()
+        per_turn = motors.counts / (2 * np.pi)
+        from_motors = np.linalg.inv(motors.to_motor) @ (state.motor_counts / per_turn)
+        assert from_motors == pytest.approx(state.position, abs=2e-4)
+        measured = (state.position - last.position) / (state.time - last.time)
+        assert measured == pytest.approx((state.velocity + last.velocity) / 2, abs=0.04)
+        assert state.motor_speed == pytest.approx(motors.to_motor @ state.velocity * per_turn)
+        last = state
+
+
+def test_velocities_are_reached_by_the_acceleration_and_held(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.command.set_mode(None, Mode.VELOCITY)
+    arm.command.set_acceleration(None, 0.5)
+    arm.command.velocity_move(None, 0.2)
+    arm.world.advance(0.2)
+    assert arm.board.references.velocity == pytest.approx(np.full(len(arm.inside), 0.1), abs=0.01)
+    arm.world.advance(0.5)
+    assert arm.board.velocity == pytest.approx(np.full(len(arm.inside), 0.2), abs=0.03)
+    arm.command.velocity_move(None, 0.2, hold=0.1)
+    arm.world.advance(1.0)
+    assert arm.board.velocity == pytest.approx(np.zeros(len(arm.inside)), abs=0.01)
+    fast = arm.command.velocity_move(None, 100.0)
+    assert fast.all()
+    assert (arm.board.references.ramp.target == arm.board.limits.speed).all()
+    arm.command.stop()
+
+
+def test_mixed_mode_adds_a_velocity_to_a_motion(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 1.0)
+    start = arm.inside - 0.15
+    arm.go(None, start)
+    arm.command.set_mode(None, Mode.MIXED)
+    arm.command.set_reference_speed(None, 0.1)
+    arm.command.position_move(None, start + 0.1)
+    arm.command.velocity_move(None, 0.05, hold=1.0)
+    arm.world.advance(2.0)
+    assert arm.board.position == pytest.approx(start + 0.15, abs=0.02)
+
+
+def test_a_compliant_arm_gives_way_and_comes_back(arm):
+    joint = 3
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.command.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    torque, dof = 0.1 * arm.spec.joints[joint].torque_limit, arm.part._speed[joint]
+
+    def pushed(stiffness: float | None) -> float:
+        if stiffness:
+            arm.command.set_interaction([joint], Interaction.COMPLIANT)
+            arm.command.set_impedance([joint], stiffness, 0.1 * stiffness)
+        before = arm.board.position[joint]
+        arm.world.data.qfrc_applied[dof] = torque
+        arm.world.advance(3.0)
+        moved = arm.board.position[joint] - before
+        arm.world.data.qfrc_applied[dof] = 0.0
+        arm.world.advance(3.0)
+        assert arm.board.position[joint] == pytest.approx(arm.inside[joint], abs=0.02)
+        return float(moved)
+
+    soft = 4.0 * torque
+    assert abs(pushed(None)) < 0.01
+    assert pushed(soft) == pytest.approx(0.25, abs=0.03)
+    assert pushed(2 * soft) == pytest.approx(0.125, abs=0.02)
+    arm.command.set_impedance_offset([joint], -0.1 * torque)
+    arm.world.advance(2.0)
+    assert arm.board.position[joint] - arm.inside[joint] == pytest.approx(-0.0125, abs=0.005)
+
+
+def test_torque_mode_gives_the_torque_and_no_more(arm):
+    arm.command.set_mode(None, Mode.TORQUE)
+    clipped = arm.command.set_torque(None, 1e6)
+    assert clipped.all()
+    arm.world.advance(0.002)
+    assert (arm.board.torque <= arm.board.limits.torque).all()
+    arm.command.set_mode([0], Mode.POSITION)
+
+
+WRONG_COMMANDS = {
+    "position_move": (Mode.POSITION, Mode.MIXED),
+    "relative_move": (Mode.POSITION, Mode.MIXED),
+    "set_position": (Mode.POSITION_DIRECT,),
+    "velocity_move": (Mode.VELOCITY, Mode.MIXED),
+    "set_torque": (Mode.TORQUE,),
+    "set_duty": (Mode.PWM,),
+    "set_current": (Mode.CURRENT,),
+}
+
+
+def plain_board(n: int = 3, **joint) -> tuple[Board, Commands]:
+    joints = tuple(JointSpec(f"j{i}", -1.0, 1.0, 2.0, 5.0, **joint) for i in range(n))
+    board = Board(BoardSpec(joints, tuple(MotorSpec(f"m{i}") for i in range(n))))
+    return board, Commands(board)
+
+
+@pytest.mark.parametrize("mode", [m for m in SELECTABLE if m is not Mode.FORCE_IDLE])
+@pytest.mark.parametrize("name", WRONG_COMMANDS)
+def test_a_command_for_another_mode_is_refused(name, mode):
+    _, command = plain_board()
+    command.set_mode(None, mode)
+    if mode in WRONG_COMMANDS[name]:
+        getattr(command, name)(None, 0.1)
+    else:
+        with pytest.raises(WrongMode, match=f"is in mode `{mode}`; `{name}` needs"):
+            getattr(command, name)(None, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("joints", "values", "error"),
+    [
+        (None, np.nan, BadValue),
+        (None, [0.0, np.inf, 0.0], BadValue),
+        (None, [0.0], BadValue),
+        (["j9"], 0.0, UnknownJoint),
+        ([3], 0.0, UnknownJoint),
+        (["j0", "j0"], 0.0, UnknownJoint),
+        (None, "fast", BadValue),
+    ],
+)
+@pytest.mark.parametrize("name", WRONG_COMMANDS)
+def test_commands_that_cannot_be_meant_change_nothing(name, joints, values, error):
+    board, command = plain_board()
+    command.set_mode(None, WRONG_COMMANDS[name][0])
+    board.step(np.zeros(3), np.zeros(3), 0.001)
+    with pytest.raises(error):
+        getattr(command, name)(joints, values)
+    assert not board.step(np.zeros(3), np.zeros(3), 0.001).any()
+
+
+def test_other_refusals():
+    board, command = plain_board(torque_control=False)
+    with pytest.raises(NotEquipped):
+        command.set_interaction(None, Interaction.COMPLIANT)
+    command.set_mode(None, Mode.POSITION)
+    command.set_reference_speed([1], 0.0)
+    with pytest.raises(NoSpeed, match="`j1`"):
+        command.position_move(None, 0.5)
+    command.set_mode(None, Mode.TORQUE)
+    with pytest.raises(NotEquipped):
+        command.set_torque(None, 1.0)
+    with pytest.raises(BadValue):
+        command.set_mode([0, 1], [Mode.IDLE])
+    command.set_mode(None, [Mode.IDLE, Mode.POSITION, Mode.VELOCITY])
+    assert board.table.modes == [Mode.IDLE, Mode.POSITION, Mode.VELOCITY]
+
+
+def test_an_encoder_without_a_number_is_a_fault_of_its_joint_alone():
+    board, command = plain_board()
+    command.set_mode(None, Mode.POSITION)
+    board.step(np.full(3, 0.1), np.zeros(3), 0.001)
+    torque = board.step(np.array([0.1, np.nan, 0.2]), np.zeros(3), 0.001)
+    assert board.table.modes == [Mode.POSITION, Mode.HW_FAULT, Mode.POSITION]
+    assert board.faults.last[1].code is Fault.ENCODER
+    assert np.isfinite(torque).all()
+    assert torque[1] == 0.0
+    assert board.position == pytest.approx([0.1, 0.1, 0.2])
+
+
+def test_heat_and_lateness_are_faults():
+    board, command = plain_board()
+    command.set_mode(None, [Mode.POSITION, Mode.POSITION, Mode.IDLE])
+    board.step(np.zeros(3), np.zeros(3), 0.001)
+    board.motors.temperature[0] = 100.0
+    board.pid.error_limit[:] = 0.2
+    board.step(np.array([0.0, 0.3, 0.3]), np.zeros(3), 0.001)
+    assert [one.code for one in board.faults.last] == [
+        Fault.OVERTEMPERATURE,
+        Fault.TRACKING,
+        Fault.NONE,
+    ]
+
+
+def test_coupled_joints_change_together():
+    icub = robot_board(ROBOTS["icub_v2"](), "right_arm")
+    board = Board(icub.spec)
+    command = Commands(board)
+    command.set_mode(["r_shoulder_roll"], Mode.POSITION)
+    assert board.table.modes == [Mode.POSITION] * 3 + [Mode.IDLE] * 4
+    with pytest.raises(ModeRefused, match="coupled"):
+        command.set_mode([0, 1], [Mode.VELOCITY, Mode.TORQUE])
+    assert board.table.modes[0] is Mode.POSITION
+    board.fault(np.array([2]), Fault.EXTERNAL, "pulled the plug")
+    assert board.table.modes == [Mode.HW_FAULT] * 3 + [Mode.IDLE] * 4
+
+
+def test_the_whole_robot_may_be_one_board():
+    for name in ROBOTS:
+        robot = ROBOTS[name]()
+        whole = whole_robot(robot)
+        assert len(whole.spec.joints) == len(robot.motors)
+        parts = [robot_board(robot, part) for part in board_names(robot)]
+        assert whole.spec.names == tuple(n for part in parts for n in part.spec.names)
+    with pytest.raises(KeyError):
+        robot_board(robot, "tail")
+
+
+def test_the_eyes_turn_by_version_and_vergence():
+    robot = ROBOTS["icub_v2"]()
+    spec = new_world()
+    add_robot(spec, robot)
+    head = SimulatedBoard(robot_board(robot, "head"))
+    world = World(spec, [head])
+    head.commands.set_mode(None, Mode.POSITION)
+    head.commands.set_reference_speed(None, 1.0)
+    head.commands.position_move(["eyes_version", "eyes_vergence"], [0.2, 0.3])
+    world.advance(1.5)
+    left, right = (world.data.joint(f"{side}_eye_pan").qpos[0] for side in "lr")
+    assert (left, right) == pytest.approx((0.35, 0.05), abs=0.01)
+
+
+def test_a_world_without_the_joints_is_refused():
+    robot = ROBOTS["nao_h21"]()
+    spec = new_world()
+    add_robot(spec, robot, prefix="a_")
+    World(spec, [SimulatedBoard(robot_board(robot, "LArm"), prefix="a_")])
+    spec = new_world()
+    with pytest.raises(SceneError, match="no joint `LShoulderPitch`"):
+        World(spec, [SimulatedBoard(robot_board(robot, "LArm"))])
+
+
+ZERO = np.array([0.4, -0.3, 0.2, 0.5, -0.6, 0.1])
+
+
+def test_calibration_finds_the_zero_and_goes_home():
+    arm = Arm("nao", ZERO)
+    assert set(arm.board.table.modes) == {Mode.NOT_CONFIGURED}
+    with pytest.raises(ModeRefused, match="not calibrated"):
+        arm.command.set_mode(None, Mode.POSITION)
+    home = arm.inside
+    hard = Procedure(Kind.HARD_STOP, duty=-8.0, stop=arm.board.limits.low[4], home=home[4], speed=1)
+    plain = [Procedure(zero=ZERO[i], home=home[i], speed=1.0) for i in range(6)]
+    calibrator = Calibrator(arm.board, (*plain[:4], hard, plain[5]))
+    calibrator.calibrate()
+    arm.world.advance(0.05)
+    assert set(arm.board.table.modes) == {Mode.CALIBRATING}
+    with pytest.raises(ModeRefused, match="being calibrated"):
+        arm.command.set_mode(None, Mode.POSITION)
+    assert arm.wait(lambda: not calibrator.busy, 20)
+    assert set(arm.board.table.modes) == {Mode.POSITION}
+    true = np.array([arm.world.data.joint(name).qpos[0] for name in arm.spec.names])
+    assert arm.board.position == pytest.approx(true, abs=0.03)
+    assert true == pytest.approx(home, abs=0.05)
+    arm.go(None, home + 0.2)
+    calibrator.home([0])
+    arm.world.advance(1.0)
+    assert arm.board.position[:2] == pytest.approx([home[0], home[1] + 0.2], abs=0.03)
+
+
+def test_a_calibration_that_takes_too_long_is_a_fault():
+    arm = Arm("nao", ZERO)
+    slow = Procedure(Kind.HARD_STOP, duty=0.5, stop=1.0, timeout=0.5)
+    calibrator = Calibrator(arm.board, (slow,) * 6)
+    calibrator.calibrate([0])
+    arm.world.advance(1.0)
+    assert arm.board.table.modes[0] is Mode.HW_FAULT
+    assert arm.board.faults.last[0].code is Fault.CALIBRATION
+    with pytest.raises(ModeRefused):
+        calibrator.calibrate([0])
+    arm.command.set_mode([0], Mode.FORCE_IDLE)
+    calibrator.calibrate([0, 1])
+    arm.command.set_mode([1], Mode.FORCE_IDLE)
+    arm.world.advance(0.01)
+    assert arm.board.table.modes[1] is Mode.IDLE
+    calibrator.quit()
+    assert arm.board.table.modes[0] is Mode.NOT_CONFIGURED
+
+
+def test_impossible_calibrations_are_refused():
+    board, _ = plain_board()
+    for wrong in ({"kind": Kind.HARD_STOP}, {"speed": 0.0}, {"timeout": 0.0}):
+        with pytest.raises(BadValue):
+            Procedure(**wrong)
+    with pytest.raises(BadValue):
+        Calibrator(board, (Procedure(),))
+
+
+def test_parking_brings_the_arm_to_rest_and_switches_it_off(arm):
+    arm.world.model.opt.gravity[:] = 0  # what is switched off would fall
+    parking = Parking(arm.board, arm.inside, speed=1.0)
+    parking.park()
+    assert parking.busy
+    assert arm.wait(lambda: not parking.busy, 10)
+    assert set(parking.states) == {ParkState.PARKED}
+    assert set(arm.board.table.modes) == {Mode.IDLE}
+    assert arm.board.position == pytest.approx(arm.inside, abs=0.25)  # it swings out
+
+
+def test_parking_may_be_stopped_and_may_fail(arm):
+    parking = Parking(arm.board, arm.inside, speed=0.01, timeout=0.3)
+    parking.park()
+    parking.quit()
+    assert not parking.busy
+    assert arm.command.motion_done().all()
+    parking.park()
+    arm.world.advance(0.5)
+    assert ParkState.FAILED in parking.states
+    arm.board.fault(np.array([0]), Fault.EXTERNAL, "test")
+    with pytest.raises(ModeRefused):
+        parking.park()
+
+
+def test_remote_variables_are_read_and_written():
+    board, _ = plain_board()
+    variables = RemoteVariables(board)
+    assert "pid.j1" in variables.keys()  # noqa: SIM118 - not a dictionary
+    variables.set("pid.j1", [1, 2, 3, 0])
+    assert board.pid.gains[1].kp == 1.0
+    assert variables.get("pid.j1").tolist() == [1, 2, 3, 0]
+    variables.set("speed_limits", 0.5)
+    assert board.limits.speed.tolist() == [0.5] * 3
+    for key, values in (
+        ("pid.j9", [1, 2, 3, 0]),
+        ("pid.j1", [1, 2]),
+        ("pid.j1", [-1, 0, 0, 0]),
+        ("gears", [1, 1, 1]),
+        ("max_currents", [-1, 0, 0]),
+        ("tracking_limits", 0.0),
+    ):
+        with pytest.raises(ControlRefused):
+            variables.set(key, values)
+    with pytest.raises(BadValue, match="there is no variable"):
+        variables.get("x")
