@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from threading import get_ident
+from typing import Self
 
 
 class Execution:
@@ -35,7 +36,7 @@ class Execution:
         self._holders.discard(get_ident())
         self._lock.release()
 
-    def __enter__(self) -> Execution:
+    def __enter__(self) -> Self:
         self.enter()
         return self
 

@@ -25,6 +25,7 @@ from robocomp_dsl.runtime.errors import (
     Timeout,
 )
 from robocomp_dsl.runtime.interface import Interface, Operation, Pattern
+from robocomp_dsl.runtime.proxy import Proxy
 from robocomp_dsl.runtime.record import Record, Struct
 from robocomp_dsl.runtime.schema import (
     BOOL,
@@ -81,6 +82,7 @@ __all__ = [
     "Operation",
     "Pattern",
     "Primitive",
+    "Proxy",
     "Record",
     "RemoteError",
     "Sequence",

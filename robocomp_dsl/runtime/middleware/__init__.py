@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING
@@ -31,10 +32,12 @@ def open_middleware(name: str, host: Host) -> Middleware:
     Raises `UnknownMiddleware`, or `MiddlewareError` when it cannot be opened.
     """
     if name in OWN:
-        opened: Middleware = import_module(OWN[name]).open_for(host)
-        return opened
+        return _opened(import_module(OWN[name]).open_for, host)
     for one in entry_points(group=GROUP):
         if one.name == name:
-            opened = one.load()(host)
-            return opened
+            return _opened(one.load(), host)
     raise UnknownMiddleware(f"there is no middleware `{name}`; there are {', '.join(names())}")
+
+
+def _opened(opener: Callable[[Host], Middleware], host: Host) -> Middleware:
+    return opener(host)

@@ -42,12 +42,12 @@ def failure(operation: Operation, server: str, data: bytes, timeout: float) -> E
             return error
     text = data[3:].decode(errors="replace")
     what = f"{server}.{operation.name}"
+    if data == b"Timeout":
+        return Timeout(f"{what} gave no answer within {timeout:g} s")
     if data.startswith(_TEXTS[InterfaceMismatch]):
         return InterfaceMismatch(text)
     if data.startswith(_TEXTS[MalformedMessage]):
         return MalformedMessage(f"{what} could not read the request: {text}")
-    if data.startswith(_TEXTS[RemoteError]):
-        return RemoteError(f"{what} failed: {text}")
-    if data == b"Timeout":
-        return Timeout(f"{what} gave no answer within {timeout:g} s")
-    return RemoteError(f"{what} failed: {data.decode(errors='replace')}")
+    if not data.startswith(_TEXTS[RemoteError]):
+        text = data.decode(errors="replace")
+    return RemoteError(f"{what} failed: {text}")

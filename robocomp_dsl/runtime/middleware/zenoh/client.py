@@ -100,7 +100,7 @@ class ServiceLink:
                     generation = self._generation
                 answer = self._ask(querier, data, attachment, stop)
                 if answer is None and operation.idempotent and not self._directory.over:
-                    # The server ended with the question; one that may be repeated waits for the next.
+                    # The server ended with the question, which may be asked again.
                     server = self._find(self._timeout)
                     querier = self._querier(server, operation)
                     generation = self._generation

@@ -1,0 +1,216 @@
+"""The life of a component: Initialize, Compute, Emergency and back, Finalize.
+
+In: the hooks of the user's class, a clock, the token. Out: calls of the hooks, in order, until it
+is stopped. A `compute` that fails brings the component into Emergency. There, once a period,
+`emergency` and `restore` are called and `compute` is tried again; when all went well the component
+is back in Compute. An emergency that the user's code declared lasts until it ends it.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from enum import StrEnum
+from typing import Protocol
+
+from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware.calling import describe
+from robocomp_dsl.runtime.statistics import Statistics
+
+log = logging.getLogger("robocomp")
+RETRY_MS = 500
+"""Period of the attempts to leave an emergency of a component that has no period of its own."""
+
+
+class State(StrEnum):
+    """Where a component is in its life."""
+
+    INITIALIZE = "initialize"
+    COMPUTE = "compute"
+    EMERGENCY = "emergency"
+    RESTORE = "restore"
+    FINALIZE = "finalize"
+
+
+class Hooks(Protocol):
+    """What a component does in its states."""
+
+    def initialize(self) -> None:
+        """Once, before anything else."""
+
+    def compute(self) -> None:
+        """Every period."""
+
+    def emergency(self) -> None:
+        """Every period of an emergency."""
+
+    def restore(self) -> None:
+        """Before leaving an emergency."""
+
+    def finalize(self) -> None:
+        """Once, at the end."""
+
+
+class Lifecycle:
+    """Runs one component. `announce` is told every state."""
+
+    def __init__(
+        self,
+        hooks: Hooks,
+        period_ms: int,
+        clock: Clock,
+        execution: Execution,
+        statistics: Statistics,
+        announce: Callable[[State], None],
+    ) -> None:
+        self._hooks = hooks
+        self.period_ms = period_ms
+        self._clock = clock
+        self._execution = execution
+        self._statistics = statistics
+        self._announce = announce
+        self._wake = threading.Event()
+        self._stopping = threading.Event()
+        self.state = State.INITIALIZE
+        self.reason = ""
+        self._declared = False
+        self._told: dict[str, float] = {}
+
+    def begin(self) -> bool:
+        """Initialize; whether that went well."""
+        self._become(State.INITIALIZE)
+        return self._tried(self._hooks.initialize, "initialize")
+
+    def loop(self) -> None:
+        """Compute, until `stop`."""
+        if not self._stopping.is_set():
+            self._become(State.COMPUTE)
+            self._loop()
+
+    def end(self) -> bool:
+        """Finalize; whether that went well."""
+        self._become(State.FINALIZE)
+        return self._tried(self._hooks.finalize, "finalize")
+
+    def stop(self) -> None:
+        """End after what is being done now."""
+        self._stopping.set()
+        self._wake.set()
+
+    def set_period(self, period_ms: int) -> None:
+        """From now on another period; 0: only events."""
+        self.period_ms = period_ms
+        self._wake.set()
+
+    def declare_emergency(self, reason: str) -> None:
+        """Stop calling `compute` until `end_emergency`."""
+        self._declared = True
+        self._enter_emergency(reason)
+        self._wake.set()
+
+    def end_emergency(self) -> None:
+        """Let the component restore itself and compute again."""
+        self._declared = False
+        self._wake.set()
+
+    def _become(self, state: State) -> None:
+        self.state = state
+        self._announce(state)
+
+    def _loop(self) -> None:
+        due = self._clock.now()
+        last = 0
+        while not self._stopping.is_set():
+            period = self._period()
+            if period is not None:
+                begun = time.perf_counter_ns()
+                if last:
+                    self._statistics.periods.add(begun - last)
+                last = begun
+                self._cycle()
+                self._statistics.computes.add(time.perf_counter_ns() - begun)
+            due = self._next(due, period)
+            self._clock.wait_until(due if period is not None else None, self._wake)
+            if self._wake.is_set() and not self._stopping.is_set():
+                self._wake.clear()
+                due, last = self._clock.now(), 0
+
+    def _period(self) -> float | None:
+        """Seconds until the next cycle after one; None: there is none."""
+        if self.period_ms:
+            return self.period_ms / 1000
+        return RETRY_MS / 1000 if self.state is State.EMERGENCY else None
+
+    def _next(self, due: float, period: float | None) -> float:
+        """When the next cycle begins; cycles that were missed are left out."""
+        now = self._clock.now()
+        if period is None:
+            return now
+        due += period
+        if due < now:
+            self._statistics.overruns += 1
+            # Keeps to the grid, so that a slow cycle does not shift all that follow.
+            due += ((now - due) // period) * period
+        return due
+
+    def _cycle(self) -> None:
+        if self.state is State.COMPUTE:
+            self._attempt(self._compute)
+        else:
+            self._attempt(self._recover)
+
+    def _compute(self) -> None:
+        if self.period_ms:
+            self._hooks.compute()
+
+    def _recover(self) -> None:
+        self._hooks.emergency()
+        if self._declared:
+            return
+        self.state = State.RESTORE
+        self._hooks.restore()
+        self._compute()
+        log.info("the emergency is over: %s", self.reason)
+        self.reason = ""
+        self._told.clear()
+        self._become(State.COMPUTE)
+
+    def _attempt(self, action: Callable[[], None]) -> None:
+        try:
+            with self._execution:
+                action()
+        except Exception as error:
+            if self._stopping.is_set():
+                return
+            self._statistics.failures += 1
+            self._tell(error)
+            self._enter_emergency(describe(error))
+
+    def _enter_emergency(self, reason: str) -> None:
+        self.reason = reason
+        if self.state is State.COMPUTE:
+            self._become(State.EMERGENCY)
+        # An attempt to leave the emergency is not worth telling everybody of.
+        elif self.state is State.RESTORE:
+            self.state = State.EMERGENCY
+
+    def _tell(self, error: Exception) -> None:
+        """What goes wrong every cycle is said every ten seconds."""
+        said, now = describe(error), time.monotonic()
+        if now - self._told.get(said, -100.0) > 10.0:
+            self._told[said] = now
+            log.error("compute failed, trying on: %s", said)
+            log.debug("the whole trace", exc_info=error)
+
+    def _tried(self, hook: Callable[[], None], name: str) -> bool:
+        try:
+            with self._execution:
+                hook()
+        except Exception as error:
+            log.error("%s failed: %s", name, describe(error))  # noqa: TRY400 - trace below
+            log.debug("the whole trace", exc_info=error)
+            return False
+        return True

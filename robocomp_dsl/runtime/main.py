@@ -1,0 +1,126 @@
+"""The program of a component: its options, its signals, its exit code.
+
+In: the user's class and a command line. Out: 0 when the component ended in order, 1 when it could
+not start or failed, 2 when the command line cannot be understood.
+"""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import os
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from robocomp_dsl import __version__
+from robocomp_dsl.runtime import logs
+from robocomp_dsl.runtime.component import Component
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.middleware import UnknownMiddleware
+from robocomp_dsl.runtime.parameters import ConfigError, Parameters
+from robocomp_dsl.runtime.settings import (
+    RunSettings,
+    WrongSetting,
+    parse_name,
+    parse_qualities,
+    parse_wires,
+)
+from robocomp_dsl.runtime.spec import ComponentSpec
+
+CONFIG = Path("etc/config.yaml")
+log = logging.getLogger("robocomp")
+
+
+def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
+    """Run `component` until it ends or is told to; returns the exit code of the program."""
+    parser = _parser(component.SPEC)
+    said = parser.parse_args(argv)
+    try:
+        settings = _settings(said, component.SPEC)
+    except WrongSetting as error:
+        parser.error(str(error))
+    logs.set_up(settings.name or component.SPEC.name, said.log_level, said.log_format)
+    try:
+        params = component.SPEC.parameters.load(settings.config, settings.overrides)
+    except ConfigError as error:
+        print(error, file=sys.stderr)  # noqa: T201 - located findings, not a record
+        return 1
+    return _run(component, params, settings)
+
+
+def _run(component: type[Component], params: Parameters, settings: RunSettings) -> int:
+    # Loaded late: a wrong command line or configuration is told without it.
+    from robocomp_dsl.runtime.runner import Runner  # noqa: PLC0415
+
+    try:
+        runner = Runner(component, params, settings)
+    except (MiddlewareError, UnknownMiddleware) as error:
+        log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
+        return 1
+    for one in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(one, lambda *_: runner.stop())
+    runner.start()
+    return 0 if runner.wait() else 1
+
+
+def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        description=f"Run the component {spec.name}.", allow_abbrev=False
+    )
+    add = parser.add_argument
+    add("--config", metavar="FILE", type=Path, help=f"YAML or TOML ({CONFIG} if it is there)")
+    add("--set", metavar="KEY=VALUE", action="append", default=[], help="set a parameter")
+    add("--name", default="", help=f"name of this instance ({spec.name})")
+    add("--middleware", metavar="M", default="", help=f"carries all ports ({spec.middleware})")
+    add(
+        "--domain",
+        default=os.environ.get("ROBOCOMP_DOMAIN") or "default",
+        help="only components of the same domain see each other (ROBOCOMP_DOMAIN or default)",
+    )
+    add("--connect", metavar="PORT=COMPONENT", action="append", default=[], help="wire a port")
+    add(
+        "--qos",
+        metavar="PORT=QOS",
+        action="append",
+        default=[],
+        help="reliable|best_effort,depth=N,priority=high,deadline=MS",
+    )
+    add("--listen-port", metavar="N", type=int, default=0, help="listen there on loopback, too")
+    add("--log-level", choices=logs.LEVELS, default=_level(), help="(info, or LOG_LEVEL)")
+    add("--log-format", choices=("text", "json"), default="text")
+    add("--version", action="version", version=f"{spec.name}, robocomp_dsl {__version__}")
+    return parser
+
+
+def _level() -> str:
+    said = os.environ.get("LOG_LEVEL", "").lower()
+    return said if said in logs.LEVELS else "info"
+
+
+def _settings(said: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
+    """What was said, checked. Raises `WrongSetting`."""
+    wires, qualities = parse_wires(said.connect), parse_qualities(said.qos)
+    ports = list(_ports(spec))
+    for name in (*wires, *qualities):
+        if name not in ports:
+            known = f"it has {', '.join(ports)}" if ports else "it has none"
+            raise WrongSetting(f"{spec.name} has no port `{name}`; {known}")
+    if not 0 <= said.listen_port <= 65535:
+        raise WrongSetting(f"{said.listen_port} is no port number")
+    return RunSettings(
+        name=parse_name(said.name, "name") if said.name else "",
+        domain=said.domain,
+        middleware=said.middleware,
+        config=said.config or (CONFIG if CONFIG.is_file() else None),
+        overrides=tuple(said.set),
+        wires=wires,
+        qualities=qualities,
+        listen_port=said.listen_port,
+    )
+
+
+def _ports(spec: ComponentSpec) -> Iterator[str]:
+    for ports in (spec.implements, spec.requires, spec.publishes, spec.subscribes):
+        yield from (port.name for port in ports)
