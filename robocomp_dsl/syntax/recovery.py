@@ -35,7 +35,7 @@ def recover(machine: Machine) -> None:
         _apply(machine, made)
     else:
         _drop(machine, situation, base)
-    if machine.findings.full:
+    if machine.findings.full and not machine.findings.cut:
         machine.cut(situation.ahead[0].start)
 
 
