@@ -85,8 +85,10 @@ class Zenoh:
     def close(self) -> None:
         """See `base.Middleware`."""
         self.interrupt()
-        for token in self._tokens:
+        tokens, self._tokens = self._tokens, []
+        for token in tokens:
             token.undeclare()
-        for port in self._ports:
+        ports, self._ports = self._ports, []
+        for port in ports:
             port.close()
         self._opened.close()

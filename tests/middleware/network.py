@@ -1,0 +1,81 @@
+"""Components of a test: made of a few lines, all ended when the test ends."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.interface import Interface
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware, Qos
+from robocomp_dsl.runtime.statistics import Statistics
+
+DEADLINE = 10.0
+
+
+def wait_for(condition: Callable[[], Any]) -> None:
+    """Until `condition`, at most `DEADLINE` s; looks at it again and again."""
+    until = time.monotonic() + DEADLINE
+    turn = threading.Event()
+    while not condition():
+        assert time.monotonic() < until, "it did not come true in time"
+        turn.wait(0.002)
+
+
+class Node:
+    """One component."""
+
+    def __init__(self, network: Network, name: str, threads: int = 1) -> None:
+        self.name = name
+        self.execution = Execution(threads)
+        self.statistics = Statistics()
+        host = Host(name, network.domain, self.execution, self.statistics)
+        self.middleware: Middleware = open_middleware(network.kind, host)
+
+    def serve(
+        self,
+        handlers: Mapping[str, Callable[..., Any]],
+        interface: Interface = PROBE,
+        port: str = "Probe",
+    ) -> None:
+        every = {o.name: handlers.get(o.name, lambda *_: None) for o in interface.operations}
+        self.middleware.serve(Endpoint(interface, self.name, port), every, self.execution)
+
+    def probe(self, *peers: str) -> ProbeProxy:
+        return ProbeProxy(self.middleware.proxy(Endpoint(PROBE, self.name, "Probe", peers)))
+
+    def news(self) -> NewsProxy:
+        return NewsProxy(self.middleware.advertise(Endpoint(NEWS, self.name, "News")))
+
+    def hear(
+        self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
+    ) -> None:
+        at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
+        self.middleware.subscribe(at, {"said": handler}, self.execution)
+
+    def count(self, operation: str, port: str = "Probe") -> Any:
+        return self.statistics.of(port, operation)
+
+
+class Network:
+    """A domain of its own."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+        self.domain = f"test-{uuid.uuid4().hex[:12]}"
+        self.nodes: list[Node] = []
+
+    def node(self, name: str, threads: int = 1) -> Node:
+        made = Node(self, name, threads)
+        self.nodes.append(made)
+        return made
+
+    def close(self) -> None:
+        for one in self.nodes:
+            one.middleware.close()
