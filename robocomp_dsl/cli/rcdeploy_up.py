@@ -82,10 +82,14 @@ def _run(
     grace: float,
     keep_going: bool,
 ) -> Outcome:
-    from robocomp_dsl.deploy.engines.seen import watch  # noqa: PLC0415 - loads the middleware
-
     from robocomp_dsl.cli.rcdeploy_terminal import Terminal  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.deploy.engines.zenoh_watch import ZenohWatch  # noqa: PLC0415
+    from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
+    try:
+        watch = ZenohWatch(plan.domain, remove=not plan.shares_domain)
+    except MiddlewareError as error:
+        return Outcome(FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
         [one.name for one in plan.processes],
@@ -95,6 +99,6 @@ def _run(
     )
     how = Options(grace_s=grace, duration_s=duration, keep_going=keep_going)
     try:
-        return session.run(plan, claim, watch(plan), terminal, how)
+        return session.run(plan, claim, watch, terminal, how)
     finally:
         terminal.close()

@@ -74,3 +74,21 @@ speak another interface or know other parameters than the deployment assumes.
     rcgen component components/arm/arm.cdsl
 """,
 )
+
+MIDDLEWARE = Code(
+    "RC906",
+    Severity.ERROR,
+    "a middleware that cannot connect processes",
+    """\
+A deployment runs each component in a process of its own and watches it over the middleware of the
+deployment. That takes `zenoh`; `inproc` connects components within one process.
+
+Wrong:
+
+    Deployment robot { middleware inproc; component arm; };
+
+Right:
+
+    Deployment robot { component arm; };      // zenoh
+""",
+)

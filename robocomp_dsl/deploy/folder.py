@@ -65,9 +65,12 @@ class Claim:
 
 
 def base() -> Path:
-    """The folder of this user, made if need be, closed to others. Raises `Unavailable`."""
+    """The folder of this user, made if need be, closed to others. Raises `Unavailable`.
+
+    It is beside those of the domains, and has a name that no domain has.
+    """
     above = Path(os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir())
-    folder = above / f"robocomp-{os.getuid()}" / "deployments"
+    folder = above / f"robocomp-{os.getuid()}" / ".deployments"
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         found = folder.parent.stat()

@@ -51,18 +51,22 @@ class Lines:
     def __init__(self, component: str, stream: str) -> None:
         self.component = component
         self.stream = stream
-        self._rest = b""
+        self._rest = bytearray()
 
     def feed(self, data: bytes, now: float) -> list[Record]:
         """The records that `data` completes."""
-        *lines, rest = (self._rest + data).split(b"\n")
+        self._rest += data
+        if b"\n" not in data and len(self._rest) <= LONGEST:
+            return []  # so that a program that writes letter by letter costs no more
+        *lines, rest = bytes(self._rest).split(b"\n")
         pieces = [piece for line in lines for piece in _pieces(line)]
-        *more, self._rest = _pieces(rest)
+        *more, last = _pieces(rest)
+        self._rest = bytearray(last)
         return [self._record(piece, now) for piece in pieces + more]
 
     def end(self, now: float) -> list[Record]:
         """The last line, if it has no line end."""
-        last, self._rest = self._rest, b""
+        last, self._rest = bytes(self._rest), bytearray()
         return [self._record(last, now)] if last else []
 
     def _record(self, line: bytes, now: float) -> Record:

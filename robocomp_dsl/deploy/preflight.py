@@ -20,10 +20,17 @@ from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
+WATCHED = ("zenoh",)
+"""Middlewares over which rcdeploy sees whether a component is ready."""
+
 
 def preflight(deployment: Deployment, plan: Plan) -> list[Diagnostic]:
     """Everything that would keep `plan` from running here."""
     found: list[Diagnostic] = []
+    if deployment.middleware not in WATCHED:
+        said = f"components on `{deployment.middleware}` cannot be deployed as processes"
+        way_out = f"leave `middleware` out, or write one of: {', '.join(WATCHED)}"
+        found.append(Diagnostic(codes.MIDDLEWARE, deployment.span, said, help=way_out))
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
         missing = list(_executable(instance, process))
         found += missing or _configuration(instance, process)

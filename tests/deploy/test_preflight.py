@@ -10,40 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from deploy_robot import build
 
-from robocomp_dsl.check import check_cdsl
-from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli.rcdeploy import ordered
 from robocomp_dsl.cli.rcdeploy_app import Checked, check
-from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import plan
-from robocomp_dsl.generate.write import write
 
-ARM = """
-import "Laser.idsl";
-Component arm
-{
-    Communications { implements Laser; };
-    language Python;
-    parameters "arm.pdsl";
-};
-"""
-PARAMETERS = """
-ComponentParams arm
-{
-    rate float 50 [Hz] 1:1000 live;
-    serial string;
-    motors[0:4] { id int 0 0:127; };
-};
-"""
-EYE = """
-import "Laser.idsl";
-Component eye
-{
-    Communications { requires Laser; };
-    language Python;
-};
-"""
 APP = """
 import "arm/arm.cdsl";
 import "eye/eye.cdsl";
@@ -59,16 +30,7 @@ Deployment app
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Two generated components and no deployment yet, the working folder of the test."""
     monkeypatch.chdir(tmp_path)
-    for name, text in (("arm", ARM), ("eye", EYE)):
-        cdsl = tmp_path / name / f"{name}.cdsl"
-        cdsl.parent.mkdir()
-        cdsl.write_text(text)
-        (cdsl.parent / "arm.pdsl").write_text(PARAMETERS)
-        report = Report()
-        component = check_cdsl(cdsl, Workspace(), report)
-        assert component
-        assert not report.failed
-        write(cdsl.parent, plan(component))
+    build(tmp_path)
     return tmp_path
 
 

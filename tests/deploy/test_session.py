@@ -5,20 +5,19 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
 import sys
-import threading
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 import pytest
 from deploy_actors import STEADY
+from deploy_process import DEADLINE_S, Running, runtime_folder
 
 from robocomp_dsl.deploy import control, folder
 from robocomp_dsl.deploy.engines import sentinel
 
-DEADLINE_S = 30.0
 DRIVER = Path(__file__).with_name("driver.py")
 PAIR: list[dict[str, Any]] = [
     {"name": "a", "body": STEADY},
@@ -26,61 +25,23 @@ PAIR: list[dict[str, Any]] = [
 ]
 
 
-class Session:
-    """A running driver; `until` reads its output to a text, however long it takes."""
-
-    def __init__(self, where: Path, spec: list[dict[str, Any]], name: str = "demo") -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, str(DRIVER), str(where), name, json.dumps(spec)],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
-        )  # fmt: skip
-        # Nothing here waits forever: a driver that hangs is killed and its output ends.
-        self._limit = threading.Timer(DEADLINE_S, self.process.kill)
-        self._limit.start()
-        self.lines: list[str] = []
-
-    def until(self, text: str) -> str:
-        assert self.process.stdout is not None
-        for line in self.process.stdout:
-            self.lines.append(line.rstrip("\n"))
-            if text in line:
-                return line
-        raise AssertionError(f"`{text}` never came:\n" + "\n".join(self.lines))
-
-    def end(self) -> int:
-        assert self.process.stdout is not None
-        self.lines += self.process.stdout.read().splitlines()
-        code = self.process.wait(DEADLINE_S)
-        self._limit.cancel()
-        self.process.stdout.close()
-        return code
-
-    def close(self) -> None:
-        if self.process.poll() is None:
-            self.process.kill()
-            self.end()
-        self._limit.cancel()
-
-
 @pytest.fixture(autouse=True)
-def runtime_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    return tmp_path
+def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    with runtime_folder(monkeypatch) as path:
+        yield path
 
 
 @pytest.fixture
-def sessions() -> Iterator[list[Session]]:
-    made: list[Session] = []
-    yield made
-    for one in made:
-        one.close()
+def sessions() -> Iterator[ExitStack]:
+    with ExitStack() as made:
+        yield made
 
 
 def begin(
-    sessions: list[Session], where: Path, spec: list[dict[str, Any]], name: str = "demo"
-) -> Session:
-    sessions.append(Session(where, spec, name))
-    return sessions[-1]
+    sessions: ExitStack, where: Path, spec: list[dict[str, Any]], name: str = "demo"
+) -> Running:
+    command = (sys.executable, str(DRIVER), str(where), name, json.dumps(spec))
+    return sessions.enter_context(Running(*command))
 
 
 def pids(name: str) -> list[int]:
@@ -103,7 +64,7 @@ def wait_for_end(processes: list[int]) -> None:
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_stops_in_reverse_order(
-    tmp_path: Path, sessions: list[Session], number: signal.Signals
+    tmp_path: Path, sessions: ExitStack, number: signal.Signals
 ) -> None:
     one = begin(sessions, tmp_path / "x", PAIR)
     one.until("all 2 components are ready")
@@ -116,7 +77,7 @@ def test_a_signal_stops_in_reverse_order(
 
 
 def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
-    tmp_path: Path, sessions: list[Session]
+    tmp_path: Path, sessions: ExitStack
 ) -> None:
     body = 'signal.signal(2, lambda *_: print("hit")); ' + STEADY
     one = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
@@ -128,7 +89,7 @@ def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
 
 
 def test_killed_rcdeploy_leaves_nothing_and_motors_stop_in_order(
-    tmp_path: Path, sessions: list[Session]
+    tmp_path: Path, sessions: ExitStack
 ) -> None:
     note = tmp_path / "finalized"
     gentle = f'tell("compute"); wait(); open({str(note)!r}, "w").close()'
@@ -152,7 +113,7 @@ print("daemon", child.pid); tell("compute"); wait()
     begin(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
 
 
-def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: list[Session]) -> None:
+def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: ExitStack) -> None:
     crash = 'print("life", os.getpid()); sys.exit(1)'
     spec = [{"name": f"c{i}", "body": crash} for i in range(4)]
     one = begin(sessions, tmp_path / "x", spec)
@@ -166,7 +127,7 @@ def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: list[S
     assert sentinel.marked(token) == []
 
 
-def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: list[Session]) -> None:
+def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: ExitStack) -> None:
     one = begin(sessions, tmp_path / "x", PAIR)
     one.until("all 2 components are ready")
     (entry,) = folder.running()
@@ -191,9 +152,7 @@ def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: lis
         list(control.ask("demo", {"verb": "status"}))
 
 
-def test_the_same_name_twice_is_refused_with_the_pid(
-    tmp_path: Path, sessions: list[Session]
-) -> None:
+def test_the_same_name_twice_is_refused_with_the_pid(tmp_path: Path, sessions: ExitStack) -> None:
     one = begin(sessions, tmp_path / "x", PAIR)
     one.until("all 2 components are ready")
     second = begin(sessions, tmp_path / "y", PAIR)
@@ -209,9 +168,7 @@ def test_the_same_name_twice_is_refused_with_the_pid(
     assert third.end() == 0
 
 
-def test_nonsense_on_the_control_socket_is_survived(
-    tmp_path: Path, sessions: list[Session]
-) -> None:
+def test_nonsense_on_the_control_socket_is_survived(tmp_path: Path, sessions: ExitStack) -> None:
     one = begin(sessions, tmp_path / "x", PAIR)
     one.until("all 2 components are ready")
     for nonsense in ({"verb": "dance"}, {"verb": "logs", "last": "many"}, {}, "text", [1]):
@@ -243,7 +200,7 @@ def test_names_that_are_none(name: str) -> None:
 
 
 def test_a_long_path_still_has_a_socket(
-    tmp_path: Path, sessions: list[Session], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, sessions: ExitStack, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     deep = tmp_path / ("d" * 120)
     deep.mkdir()

@@ -1,0 +1,207 @@
+"""`rcdeploy` with generated components over zenoh, in processes, as a user has it."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from deploy_process import Running, runtime_folder
+from deploy_robot import build
+
+from robocomp_dsl.deploy.engines import sentinel
+
+PROGRAM = "from robocomp_dsl.cli.rcdeploy import main; main()"
+ARM = """
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        print("arm begins with", self.params.serial, self.params.rate, os.environ.get("MODE"))
+    def finalize(self):
+        print("arm finalizes")
+    def Laser_getLaserData(self):
+        self.log.info("asked by a client")
+        return TLaserData([TData(0.5, float(os.getpid()))])
+"""
+EYE = """
+class SpecificWorker(GenericWorker):
+    seen = 0
+    def compute(self):
+        server = int(self.laser_proxy.getLaserData()[0].dist)
+        if server != self.seen:
+            print("eye sees a new arm", server)
+        self.seen = server
+    def finalize(self):
+        print("eye finalizes")
+"""
+APP = """
+import "arm/arm.cdsl";
+import "eye/eye.cdsl";
+Deployment app
+{
+    component arm { set serial = "abc"; set rate = 20; env MODE = fast; ready within 40 s; };
+    component eye { after arm; ready within 40 s; };
+};
+"""
+
+
+@pytest.fixture
+def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Where the processes of the test find each other."""
+    with runtime_folder(monkeypatch) as path:
+        yield path
+
+
+@pytest.fixture
+def folder(tmp_path: Path, sockets: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Two generated components and their deployment."""
+    monkeypatch.chdir(tmp_path)
+    build(tmp_path, {"arm": ARM, "eye": EYE})
+    (tmp_path / "app.ddsl").write_text(APP)
+    return tmp_path
+
+
+def up(*arguments: str) -> Running:
+    return Running(sys.executable, "-c", PROGRAM, "app.ddsl", *arguments)
+
+
+def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", PROGRAM, *arguments],
+        capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+
+
+def status(name: str = "app") -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(rcdeploy("status", name, "--format", "json").stdout)
+    return found
+
+
+def pid_in(line: str) -> int:
+    """The last number of a line."""
+    return int(re.findall(r"\d+", line)[-1])
+
+
+def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
+    with up() as app:
+        app.until("all 2 components are ready")
+        arm = pid_in(app.until("eye sees a new arm"))
+        state = status()
+        assert [(c["name"], c["state"]) for c in state["components"]] == [
+            ("arm", "ready"), ("eye", "ready"),
+        ]  # fmt: skip
+        assert state["components"][0]["pid"] == arm
+        assert rcdeploy("app.ddsl", "status").returncode == 0
+        logs = rcdeploy("logs", "-c", "arm").stdout
+        assert "arm begins with abc 20.0 fast" in logs
+        assert "asked by a client" in logs
+        assert "eye" not in logs
+        app.process.send_signal(signal.SIGINT)
+        assert app.end() == 0
+    told = [line.partition("| ")[2] for line in app.lines]
+    assert told.index("eye finalizes") < told.index("arm finalizes")
+    assert "stopping: Ctrl-C" in told
+    assert sentinel.marked(f"{state['domain']}.{app.process.pid}") == []
+    assert [path.name for path in sockets.iterdir()] == [".deployments"]
+    assert list((sockets / ".deployments").iterdir()) == []
+
+
+def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:
+    with up() as app:
+        first = pid_in(app.until("eye sees a new arm"))
+        os.kill(first, signal.SIGKILL)
+        app.until("arm: killed by SIGKILL, starts again in 0.1 s")
+        second = pid_in(app.until("eye sees a new arm"))
+        assert second != first
+        rows = status()["components"]
+        assert [(row["name"], row["restarts"]) for row in rows] == [("arm", 1), ("eye", 0)]
+        stopped = rcdeploy("app.ddsl", "stop")
+        assert (stopped.returncode, stopped.stdout) == (0, "app: asked to by `rcdeploy stop`\n")
+        assert app.end() == 0
+
+
+def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
+    with up() as one:
+        one.until("all 2 components are ready")
+        with up() as refused:
+            assert refused.end() == 1
+            assert refused.has(f"`app` is running already (pid {one.process.pid},")
+        with up("--name", "other") as other:
+            server = pid_in(other.until("eye sees a new arm"))
+            assert server == next(
+                row["pid"] for row in status("other")["components"] if row["name"] == "arm"
+            )
+            unclear = rcdeploy("stop", "app.ddsl")
+            assert unclear.returncode == 1
+            assert "several deployments are running" in unclear.stderr
+            assert rcdeploy("stop", "other").returncode == 0
+            assert other.end() == 0
+        assert [row["state"] for row in status("app")["components"]] == ["ready", "ready"]
+        one.process.terminate()
+        assert one.end() == 0
+    assert not one.has("AmbiguousServer")
+
+
+def test_killed_rcdeploy_lets_components_finalize(folder: Path) -> None:
+    with up() as app:
+        app.until("all 2 components are ready")
+        token = f"{status()['domain']}.{app.process.pid}"
+        running = sentinel.marked(token)
+        assert len(running) == 2
+        app.process.kill()
+        app.end()
+        sentinel._wait(running, 30)
+        assert sentinel.marked(token) == []
+    # Its name is free at once, although nobody gave it back.
+    with up("--duration", "0") as again:
+        assert again.end() == 0
+
+
+FAILING = """
+class SpecificWorker(GenericWorker):
+    def initialize(self):
+        raise RuntimeError("no such device")
+"""
+
+
+def test_a_component_that_cannot_initialize_ends_the_deployment(folder: Path) -> None:
+    text = (folder / "arm" / "specificworker.py").read_text()
+    head = text.partition("class SpecificWorker")[0]
+    (folder / "arm" / "specificworker.py").write_text(head + FAILING)
+    (folder / "app.ddsl").write_text(APP.replace("env MODE", "restart on-failure max 1; env MODE"))
+    with up() as app:
+        assert app.end() == 1
+    assert app.has("initialize failed")
+    assert app.has("arm has failed for good: exit code 1 (restarted once in 60 s")
+    assert app.lines[-1] == "error: failed: arm"
+    assert not app.has("eye is ready")
+
+
+def test_a_port_in_use_starts_nothing(folder: Path, sockets: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        (folder / "app.ddsl").write_text(APP.replace("env MODE", f"port {port}; env MODE"))
+        with up() as app:
+            assert app.end() == 1
+    assert app.has(f"port {port} cannot be used: Address already in use")
+    assert not sockets.exists()
+
+
+def test_a_named_domain_may_be_joined_by_hand(folder: Path, sockets: Path) -> None:
+    with up("--domain", "lab", "--duration", "1000") as app:
+        app.until("all 2 components are ready")
+        command = [sys.executable, "main.py", "--name", "guest", "--domain", "lab"]
+        with Running(*command, where=folder / "eye") as guest:
+            guest.until("eye sees a new arm")
+            guest.process.terminate()
+            assert guest.end() == 0
+        app.process.terminate()
+        assert app.end() == 0
+    assert (sockets / "lab").is_dir()  # others may be about to use it
