@@ -20,7 +20,8 @@ class Record:
 
     A subclass declares `_fields_`, (wire name, type) pairs in the order of the wire and of its
     `__init__`, and in `__slots__` an attribute for each, in any order. An attribute is called as on
-    the wire, with underscores behind where that is a word of Python (`None` → `None_`).
+    the wire, with underscores behind where that is a word of Python (`None` → `None_`); a subclass
+    that calls one otherwise gives `_names_` itself.
     """
 
     __slots__ = ()
@@ -33,7 +34,8 @@ class Record:
         if "_fields_" in cls.__dict__:
             slots: str | Iterable[str] = cls.__dict__.get("__slots__", ())
             attributes = {slots} if isinstance(slots, str) else set(slots)
-            cls._names_ = _attributes([name for name, _ in cls._fields_], attributes)
+            if "_names_" not in cls.__dict__:
+                cls._names_ = _attributes([name for name, _ in cls._fields_], attributes)
             cls._plain_ = cls
             if set(cls._names_) != attributes:
                 raise TypeError(f"{cls.__name__}: __slots__ and _fields_ do not agree")

@@ -25,6 +25,7 @@ import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 
+_LOCK = "lock"
 LONGEST_SOCKET = 100
 """A socket's path has room for 108 bytes, and zenoh adds `.lock` to it."""
 
@@ -37,11 +38,16 @@ class Opened:
     socket: Path
 
     def close(self) -> None:
-        """End the session and take the socket away."""
+        """End the session and take the socket away; the last one takes the folder away, too."""
         # Closing twice, or after the peer is gone, is no failure.
         with contextlib.suppress(zenoh.ZError):
             self.session.close()
-        _remove(self.socket)
+        folder = self.socket.parent
+        with contextlib.suppress(OSError), _one_at_a_time(folder):
+            _remove(self.socket)
+            if [path.name for path in folder.iterdir()] == [_LOCK]:
+                (folder / _LOCK).unlink()
+                folder.rmdir()
 
 
 def open_session(domain: str, port: int = 0) -> Opened:
@@ -101,10 +107,31 @@ def _folder(domain: str) -> Path:
 
 @contextlib.contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    with (folder / "lock").open("a") as lock:
-        # Held for the milliseconds of opening; the kernel lets go when a process ends.
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    """Hold the folder's lock, for the milliseconds of opening; the kernel frees that of the dead."""
+    lock = _locked(folder)
+    while lock is None:
+        lock = _locked(folder)
+    try:
         yield
+    finally:
+        os.close(lock)
+
+
+def _locked(folder: Path) -> int | None:
+    """The lock, or None when the one before took the folder away while this one waited."""
+    folder.mkdir(mode=0o700, exist_ok=True)
+    try:
+        lock = os.open(folder / _LOCK, os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o600)
+    except FileNotFoundError:
+        return None
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if os.path.samestat(os.fstat(lock), (folder / _LOCK).stat()):
+            return lock
+    except FileNotFoundError:
+        pass
+    os.close(lock)
+    return None
 
 
 def _free_name(folder: Path) -> Path:

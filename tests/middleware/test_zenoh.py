@@ -1,0 +1,220 @@
+"""What only zenoh has: hostile bytes, other processes, sockets left behind, taken ports."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import zenoh
+from network import DEADLINE, Network, wait_for
+from probe_types import PROBE
+
+from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
+from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.zenoh import keys
+from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.middleware.zenoh.watch import Watch
+
+HERE = Path(__file__).parent
+SERVER = """
+import sys, threading
+sys.path.insert(0, sys.argv[2])
+from network import Network
+n = Network("zenoh"); n.domain = sys.argv[1]
+node = n.node("server")
+node.middleware.announce("compute")
+node.serve({"add": lambda a, b: a + b, "block": threading.Event().wait})
+print("ready", flush=True)
+sys.stdin.read()
+n.close()
+"""
+
+
+@pytest.fixture
+def network() -> Iterator[Network]:
+    made = Network("zenoh")
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def server(network: Network) -> Iterator[subprocess.Popen[str]]:
+    with subprocess.Popen(
+        [sys.executable, "-c", SERVER, network.domain, str(HERE)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout
+        assert process.stdout.readline() == "ready\n"
+        yield process
+        process.kill()
+
+
+@pytest.mark.parametrize(
+    "payload",
+    [b"", b"\0", b"\0\1\0\0", b"\0\1\0\0\1\0\0\0", b"\xff" * 100, os.urandom(3000)],
+    ids=["empty", "one byte", "header", "half", "ones", "random"],
+)
+def test_malformed_requests_are_refused_and_counted(network: Network, payload: bytes) -> None:
+    server = network.node("server")
+    server.serve({"add": lambda a, b: a + b})
+    at = Endpoint(PROBE, "server", "Probe")
+    key = f"{keys.port_key(network.domain, 'q', at)}/add"
+    raw = open_session(network.domain)
+    try:
+        querier = raw.session.declare_querier(key, timeout=DEADLINE)
+        wait_for(lambda: querier.matching_status)
+        reply = querier.get(payload=payload, attachment=PROBE.hash).recv()
+        assert reply.err is not None
+        assert reply.err.payload.to_bytes().startswith(b"RCM")
+        assert server.count("add").malformed == 1
+        for attachment in (b"", b"12345678", os.urandom(40)):
+            reply = querier.get(payload=payload, attachment=attachment).recv()
+            assert reply.err is not None
+            assert reply.err.payload.to_bytes().startswith(b"RCI")
+    finally:
+        raw.close()
+    assert network.node("client").probe().add(1, 2) == 3
+
+
+def test_malformed_commands_are_counted(network: Network) -> None:
+    heard: list[str] = []
+    server = network.node("server")
+    server.serve({"note": heard.append})
+    key = f"{keys.port_key(network.domain, 'c', Endpoint(PROBE, 'server', 'Probe'))}/note"
+    raw = open_session(network.domain)
+    try:
+        publisher = raw.session.declare_publisher(key)
+        wait_for(lambda: publisher.matching_status.matching)
+        publisher.put(b"\0\1\0\0\xff\xff\xff\xff", attachment=PROBE.hash)
+        wait_for(lambda: server.count("note").malformed)
+    finally:
+        raw.close()
+    network.node("client").probe().note("still here")
+    wait_for(lambda: heard == ["still here"])
+
+
+def test_a_malformed_reply_is_told_to_the_caller(network: Network) -> None:
+    raw = open_session(network.domain)
+    try:
+        at = Endpoint(PROBE, "liar", "Probe")
+        key = f"{keys.port_key(network.domain, 'q', at)}/add"
+        queryable = raw.session.declare_queryable(key, lambda q: q.reply(key, b"\0\1\0\0\1"))
+        said = keys.Present("server", PROBE.name, "liar", "Probe", PROBE.hash.hex())
+        token = raw.session.liveliness().declare_token(said.key(network.domain))
+        with pytest.raises(MalformedMessage):
+            network.node("client").probe().add(1, 2)
+        del token, queryable
+    finally:
+        raw.close()
+
+
+def test_another_process_is_found_without_being_told(
+    network: Network, server: subprocess.Popen[str]
+) -> None:
+    assert server.pid
+    assert network.node("client").probe().add(20, 22) == 42
+
+
+def test_a_killed_server_is_no_server_at_once(
+    network: Network, server: subprocess.Popen[str]
+) -> None:
+    probe = network.node("client").probe()
+    assert probe.add(1, 1) == 2
+    failures: list[Exception] = []
+
+    def ask() -> None:
+        try:
+            probe.block()
+        except NoServer as error:
+            failures.append(error)
+
+    asking = threading.Thread(target=ask)
+    asking.start()
+    server.send_signal(signal.SIGKILL)
+    server.wait(DEADLINE)
+    asking.join(DEADLINE)
+    assert failures
+    with pytest.raises(NoServer):
+        probe.add(1, 1)
+
+
+def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Popen[str]) -> None:
+    seen: list[tuple[str, int, str]] = []
+    watch = Watch(network.domain)
+    try:
+        watch.start(lambda *what: seen.append(what))
+        wait_for(lambda: seen)
+        assert seen == [("server", server.pid, "compute")]
+        server.send_signal(signal.SIGKILL)
+        wait_for(lambda: len(seen) == 2)
+        assert seen[1] == ("server", server.pid, "")
+    finally:
+        watch.close()
+
+
+def test_sockets_of_killed_processes_are_swept(
+    network: Network, server: subprocess.Popen[str]
+) -> None:
+    opened = open_session(network.domain)
+    folder = opened.socket.parent
+    server.send_signal(signal.SIGKILL)
+    server.wait(DEADLINE)
+    again = open_session(network.domain)
+    try:
+        assert {p.name for p in folder.iterdir() if p.is_socket()} == {
+            opened.socket.name,
+            again.socket.name,
+        }
+        assert folder.stat().st_mode & 0o077 == 0
+    finally:
+        again.close()
+        opened.close()
+    assert not folder.exists()
+
+
+def test_all_who_start_at_once_find_each_other(network: Network) -> None:
+    opened = []
+    guard = threading.Lock()
+
+    def start() -> None:
+        one = open_session(network.domain)
+        with guard:
+            opened.append(one)
+
+    threads = [threading.Thread(target=start) for _ in range(6)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join(DEADLINE)
+    try:
+        wait_for(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
+    finally:
+        for one in opened:
+            one.close()
+
+
+def test_a_taken_port_is_told_in_words() -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        with pytest.raises(MiddlewareError, match=f"port {port} cannot be used"):
+            open_session(Network("zenoh").domain, port)
+
+
+def test_nothing_but_loopback_is_listened_to(network: Network) -> None:
+    node = network.node("server")
+    opened = node.middleware._opened  # type: ignore[attr-defined]
+    assert opened.socket.is_socket()
+    for link in opened.session.info.links():
+        assert "unixsock" in str(link)
+    assert isinstance(opened.session, zenoh.Session)
