@@ -54,8 +54,9 @@ class Servo:
 class Limb:
     """A limb on the robot's body `body`; `origin` (3,) and `axes` (3, 3) place its frame there.
 
-    `covers` are further bodies below the same skin. The frame has its origin on the proximal joint, x along the limb, and theta = 0 at +z, which
-    points away from the trunk when all generic angles are zero.
+    `covers` are further bodies below the same skin. The frame has its origin on the proximal
+    joint, x along the limb, and theta = 0 at +z, which points away from the trunk when all generic
+    angles are zero.
     """
 
     name: str

@@ -1,0 +1,112 @@
+"""Spread contact forces over taxels so that nothing is lost and nothing counts twice.
+
+In: taxel positions once; contact points and forces. Out: force per taxel, and what met no taxel.
+Each force is shared by a Gaussian of the distance, cut off at three sigma, whose weights are
+divided by their sum: the taxels together feel exactly the force that reached the skin. Candidates
+come from a grid of small cubes prepared beforehand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Floats, Ints
+
+SIGMA = 0.005
+"""Width of the kernel [m]."""
+
+CUTOFF = 3.0
+"""Taxels further away than this many sigma feel nothing."""
+
+CELL = 0.005
+"""Edge of the grid's cubes [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Share:
+    """What taxels feel (n,) or (n, c), and what no taxel felt, () or (c,)."""
+
+    felt: Floats
+    missed: Floats
+
+
+class Kernel:
+    """The skin of several limbs; points of different limbs never meet, whatever their frames."""
+
+    def __init__(self, points: Floats, limb: Ints, limbs: int, sigma: float = SIGMA) -> None:
+        self._points, self._sigma = points, sigma
+        self._reach = CUTOFF * sigma
+        self._low, self._shape = np.zeros((limbs, 3)), np.zeros((limbs, 3), np.int64)
+        for one in range(limbs):
+            mine = points[limb == one]
+            if len(mine):
+                self._low[one] = mine.min(axis=0) - self._reach
+                extent = mine.max(axis=0) + self._reach - self._low[one]
+                self._shape[one] = np.ceil(extent / CELL).astype(np.int64) + 1
+        self._first = np.concatenate(([0], np.cumsum(self._shape.prod(axis=1))))
+        self._fill(limb)
+
+    def share(self, points: Floats, limb: Ints, forces: Floats) -> Share:
+        """Spread `forces` (k,) or (k, c) that act at `points` (k, 3) of limbs `limb` (k,)."""
+        contact, taxel, weight = self._pairs(points, limb)
+        total = np.bincount(contact, weight, len(points))
+        met = total > 0.0
+        weight = weight / total[contact]
+        columns = forces if forces.ndim == 2 else forces[:, None]
+        felt = np.empty((len(self._points), columns.shape[1]))
+        for i, column in enumerate(columns.T):
+            felt[:, i] = np.bincount(taxel, weight * column[contact], len(self._points))
+        missed = columns[~met].sum(axis=0)
+        if forces.ndim == 1:
+            return Share(felt[:, 0], missed[0])
+        return Share(felt, missed)
+
+    def _pairs(self, points: Floats, limb: Ints) -> tuple[Ints, Ints, Floats]:
+        """Contacts and the taxels within their reach, with the Gaussian's weight."""
+        cell = self._cells(points, limb)
+        start, count = self._start[cell], self._start[cell + 1] - self._start[cell]
+        contact = np.repeat(np.arange(len(points)), count)
+        behind = np.cumsum(count) - count
+        taxel = self._taxels[np.arange(len(contact)) + np.repeat(start - behind, count)]
+        away = self._points[taxel] - points[contact]
+        square = np.einsum("ij,ij->i", away, away)
+        near = np.flatnonzero(square <= self._reach**2)
+        weight = np.exp(square[near] * (-0.5 / self._sigma**2))
+        return contact[near], taxel[near], weight
+
+    def _cells(self, points: Floats, limb: Ints) -> Ints:
+        """Number of the cube that holds each point; the empty last one for points outside."""
+        place = np.floor((points - self._low[limb]) * (1.0 / CELL)).astype(np.int64)
+        shape = self._shape[limb]
+        inside = ((place >= 0) & (place < shape)).all(axis=1)
+        x, y, z = place.T
+        number = self._first[limb] + (x * shape[:, 1] + y) * shape[:, 2] + z
+        cell: Ints = np.where(inside, number, self._first[-1])
+        return cell
+
+    def _fill(self, limb: Ints) -> None:
+        """For every cube the taxels that any point in it may reach."""
+        far = self._reach + CELL * np.sqrt(3.0) / 2.0
+        steps = int(np.ceil(far / CELL))
+        axis = np.arange(-steps, steps + 1)
+        offsets = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
+        cells, taxels = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+        for block in np.array_split(np.arange(len(self._points)), len(self._points) // 512 + 1):
+            low = self._low[limb[block]]
+            home = np.floor((self._points[block] - low) / CELL).astype(np.int64)
+            place = home[:, None] + offsets
+            middle = low[:, None] + (place + 0.5) * CELL
+            close = np.linalg.norm(middle - self._points[block][:, None], axis=2) <= far
+            shape = self._shape[limb[block]][:, None]
+            close &= ((place >= 0) & (place < shape)).all(axis=2)
+            number = (place[..., 0] * shape[..., 1] + place[..., 1]) * shape[..., 2] + place[..., 2]
+            number += self._first[limb[block]][:, None]
+            cells.append(number[close])
+            taxels.append(np.broadcast_to(block[:, None], close.shape)[close])
+        cell, taxel = np.concatenate(cells), np.concatenate(taxels)
+        order = np.argsort(cell, kind="stable")
+        self._taxels = taxel[order]
+        counts = np.bincount(cell, minlength=int(self._first[-1]) + 1)
+        self._start = np.concatenate(([0], np.cumsum(counts)))
