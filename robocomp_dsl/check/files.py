@@ -59,7 +59,7 @@ class Files:
 
     def exists(self, path: Path) -> bool:
         """Whether there is a buffer or a regular file at `path`."""
-        return _is_file(path) or identity(path) in self._buffers
+        return _is_file(path) or (bool(self._buffers) and identity(path) in self._buffers)
 
     def names_in(self, folder: Path) -> list[str]:
         """Names of the files in `folder` and of the buffers opened for it, sorted."""

@@ -128,14 +128,15 @@ def _port(
     found = _named(instance, tree.port.text, roles)
     if found is not None:
         return found
-    wanted = " or ".join(f"`{role}`" for role in roles)
+    source = roles is SOURCES
+    wanted = "requires or publishes" if source else "implements or subscribes to"
     other = _named(instance, tree.port.text, (*SOURCES, *TARGETS))
     if other is not None:
         report.add(
             codes.PORT_ROLE,
             tree.port.span,
-            f"`{instance.name}` {other.role} `{other.name}`, but at this end it {wanted}",
-            notes=[Note(other.span, "it is used here")],
+            f"a connection {'begins' if source else 'ends'} at something that a component {wanted}",
+            notes=[Note(other.span, f"`{instance.name}` {other.role} `{other.name}`")],
         )
         return None
     known = [one.name for one in instance.component.ports if one.role in roles]
@@ -143,7 +144,7 @@ def _port(
     report.add(
         codes.UNKNOWN_PORT,
         tree.port.span,
-        f"`{instance.name}` has no port `{tree.port.text}` that {wanted}",
+        f"`{instance.name}` has no port `{tree.port.text}` that it {wanted}",
         label=f"did you mean `{guess}`?" if guess else "",
         notes=[Note(instance.component.span, f"`{instance.component.name}` is declared here")],
         help="" if guess else f"it has {listing(known) or 'none'}",
