@@ -15,6 +15,7 @@ from robocomp_dsl.cli import options, rcdeploy_app
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.cli.render import harmless
 from robocomp_dsl.deploy.plan import Plan, Process, waves
+from robocomp_dsl.deploy.preflight import short
 
 
 @click.command()
@@ -41,7 +42,7 @@ def as_data(plan: Plan) -> dict[str, Any]:
     """The plan for programs."""
     return {
         "name": plan.name,
-        "file": str(plan.path),
+        "file": str(plan.path.resolve()),
         "domain": plan.domain,
         "middleware": plan.middleware,
         "processes": [_process(one) for one in plan.processes],
@@ -54,7 +55,7 @@ def _process(one: Process) -> dict[str, Any]:
         "name": one.name,
         "component": one.component,
         "argv": list(one.argv),
-        "cwd": str(one.cwd),
+        "cwd": str(one.cwd.resolve()),
         "env": dict(one.env),
         "after": list(one.after),
         "restart": {
@@ -87,4 +88,4 @@ def _described(one: Process, wave: int) -> Iterator[str]:
     yield f"{wave}. {one.name} ({one.component}){after}"
     yield f"   ready within {one.ready_within_s:g} s, restart {restart}"
     variables = [f"{key}={shlex.quote(value)}" for key, value in one.env]
-    yield f"   cd {shlex.quote(str(one.cwd))} && " + " ".join([*variables, shlex.join(one.argv)])
+    yield f"   cd {shlex.quote(short(one.cwd))} && " + " ".join([*variables, shlex.join(one.argv)])

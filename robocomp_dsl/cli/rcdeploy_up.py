@@ -11,7 +11,7 @@ import click
 from robocomp_dsl.cli import options, rcdeploy_app, rcdeploy_running
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.deploy import folder, session
-from robocomp_dsl.deploy.engines.local import Options, Outcome
+from robocomp_dsl.deploy.engines.local import Options, Outcome, lacking
 from robocomp_dsl.deploy.plan import Plan
 
 
@@ -60,6 +60,8 @@ def command(
     if checked.plan is None:
         options.complain(f"{app}: nothing was started ({options.summary(checked.findings)})")
         sys.exit(FINDINGS)
+    if reason := lacking():
+        rcdeploy_running.fail(reason)
     try:
         claim = folder.claim(checked.plan.name)
     except folder.Unavailable as error:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.deploy import codes
+from robocomp_dsl.deploy.preflight import short
 from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.generate import plan
 from robocomp_dsl.generate.write import CannotWrite, compare
@@ -34,7 +35,7 @@ def outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterator[Dia
                 instance.span,
                 f"the generated code of `{component.name}` is not what its description gives now",
                 label=", ".join(changed),
-                help=f"rcgen component {component.path}",
+                help=f"rcgen component {short(component.path)}",
             )
 
 

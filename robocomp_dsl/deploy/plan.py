@@ -17,8 +17,6 @@ from robocomp_dsl.model.types import Literal
 
 PYTHONS = ("python3", "python")
 """Program names that mean the interpreter that runs rcdeploy, which has the runtime installed."""
-DEFAULT_CONFIG = Path("etc") / "config.yaml"
-"""The configuration of a component that the deployment gives none, in the component's folder."""
 PRIORITIES = ("background", "low", "normal", "high", "realtime")
 
 
@@ -27,8 +25,8 @@ class Process:
     """One component as a process.
 
     `env` is added to the environment of rcdeploy. `after`: what must be ready before it starts;
-    `stops_after`: what must have ended before it is asked to stop. `config` (below `cwd` if it is
-    relative) and `settings` (`key=value`) are those in `argv`. `port` 0: any.
+    `stops_after`: what must have ended before it is asked to stop. `config` (None: the
+    component's own) and `settings` (`key=value`) are those in `argv`. `port` 0: any.
     """
 
     name: str
@@ -105,15 +103,13 @@ def shown(value: Literal) -> str:
 
 
 def _process(deployment: Deployment, one: Instance, domain: str, interpreter: str) -> Process:
-    own = DEFAULT_CONFIG if one.component.parameters else None
-    config = one.config or own
     settings = settings_of(one)
     command = shlex.split(one.executable)
     if command and command[0] in PYTHONS:
         command[0] = interpreter
     argv = [*command, "--name", one.name, "--domain", domain]
     argv += ["--middleware", deployment.middleware, "--log-format", "json"]
-    argv += ["--config", str(config)] if config else []
+    argv += ["--config", str(one.config)] if one.config else []
     argv += [word for setting in settings for word in ("--set", setting)]
     argv += ["--listen-port", str(one.port)] if one.port else []
     argv += _wiring(one, deployment.connections)
@@ -127,7 +123,7 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         restart=one.restart,
         ready_within_s=one.ready_within_s,
         port=one.port,
-        config=config,
+        config=one.config,
         settings=settings,
     )
 

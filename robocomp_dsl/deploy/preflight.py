@@ -20,6 +20,8 @@ from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
+OWN_CONFIG = Path("etc") / "config.yaml"
+"""What a component reads without being told to, if it is there."""
 WATCHED = ("zenoh",)
 """Middlewares over which rcdeploy sees whether a component is ready."""
 
@@ -48,12 +50,12 @@ def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
     script = process.argv[1]
     if not script.endswith(".py") or (process.cwd / script).is_file():
         return
-    cdsl = _short(instance.component.path)
+    cdsl = short(instance.component.path)
     if script == "main.py":
         said = f"its code has not been generated, there is no {script} beside {cdsl}"
         yield _at(instance, codes.NOT_GENERATED, said, f"rcgen component {cdsl}")
     else:
-        yield _at(instance, codes.EXECUTABLE, f"there is no {script} in {_short(process.cwd)}")
+        yield _at(instance, codes.EXECUTABLE, f"there is no {script} in {short(process.cwd)}")
 
 
 def _found(program: str, process: Process) -> bool:
@@ -66,7 +68,8 @@ def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
     """The component would refuse it at its start; here it is told before anything starts."""
     own = instance.component.parameters
     known = schema(own.parameters) if own else ()
-    config = process.cwd / process.config if process.config else None
+    beside = process.cwd / OWN_CONFIG
+    config = process.config or (beside if beside.is_file() else None)
     try:
         load_values(known, config, process.settings)
     except ConfigError as error:
@@ -118,8 +121,8 @@ def _at(instance: Instance, code: Code, message: str, help: str = "") -> Diagnos
     return Diagnostic(code, instance.span, f"`{instance.name}`: {message}", help=help)
 
 
-def _short(path: Path) -> str:
-    try:
-        return str(path.relative_to(Path.cwd()))
-    except ValueError:
-        return str(path)
+def short(path: Path) -> str:
+    """`path` for people: without detours, and from here if it is below the working folder."""
+    whole = path.resolve()
+    here = Path.cwd()
+    return str(whole.relative_to(here) if whole.is_relative_to(here) else whole)

@@ -75,7 +75,7 @@ def test_command_lines() -> None:
     nav = instance("nav", NAV, config=Path("/etc/nav.yaml"), executable="./nav --fast 'x y'")
     found = commands(deployment([base, nav], wire(nav, 0, base, 1, Qos())))
     assert found["body"] == (
-        "/py", "main.py", "--name", "body", *COMMON, "--config", "etc/config.yaml",
+        "/py", "main.py", "--name", "body", *COMMON,
         "--set", "rate=20.5", "--set", "on=true", "--set", "name=a b", "--set", "motors[1].id=3",
         "--listen-port", "7451",
     )  # fmt: skip
@@ -99,7 +99,7 @@ def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
         "--qos", "laser=reliable", "--qos", "Scan=best_effort,depth=1,deadline=40",
     )  # fmt: skip
     assert found["base"][tail:] == (
-        "--config", "etc/config.yaml", "--qos", "Scan=best_effort,depth=1,deadline=40",
+        "--qos", "Scan=best_effort,depth=1,deadline=40",
     )  # fmt: skip
     assert found["one"][tail:] == ("--qos", "Laser=reliable")
 

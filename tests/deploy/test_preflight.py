@@ -72,6 +72,14 @@ def remove_config(folder: Path) -> None:
     (folder / "arm" / "etc" / "config.yaml").unlink()
 
 
+def empty_config(folder: Path) -> None:
+    (folder / "arm" / "etc" / "config.yaml").write_text("")
+
+
+def spoil_own_config(folder: Path) -> None:
+    (folder / "arm" / "etc" / "config.yaml").write_text("x: 5\n")
+
+
 def touch_generated(folder: Path) -> None:
     with (folder / "arm" / "generated" / "params.py").open("a") as stream:
         stream.write("# changed\n")
@@ -85,9 +93,7 @@ NO_ENTRY = (
     "app.ddsl:6:15 RC901 `motors` has 1 entries, there is no [2] (they count from 0) "
     "(`set motors[2].id=5` of `arm`)"
 )
-NO_FILE = (
-    "arm/etc/config.yaml:1:1 RC901 the configuration cannot be used: there is no such file (`arm`)"
-)
+NO_SERIAL = "arm/etc/config.yaml:1:1 RC901 `serial` is not given and has no default (`arm`)"
 NO_MAIN = (
     "app.ddsl:7:15 RC903 `eye`: its code has not been generated, "
     "there is no main.py beside eye/eye.cdsl"
@@ -100,7 +106,9 @@ CASES = [
         "own.yaml:4:9 RC901 `motors[0].id` is 300, its highest value is 127 (`arm`)",
     ]),
     (nothing, "set motors[0].id = 5; set motors[2].id = 5;", "", [NO_ENTRY]),
-    (remove_config, "", "", [NO_FILE]),
+    (remove_config, "", "", []),
+    (empty_config, "", "", []),
+    (spoil_own_config, "", "", ["arm/etc/config.yaml:1:1 RC901 there is no parameter `x` (`arm`)"]),
     (remove_main, "", "", [NO_MAIN]),
     (nothing, 'executable "./arm --fast";', 'executable "no-such-program-anywhere main.py";', [
         "app.ddsl:6:15 RC902 `arm`: there is no program `./arm` for it",
@@ -123,6 +131,11 @@ def test_what_the_machine_lacks(
     checked = judged(folder, arm, eye)
     assert told(checked, folder) == expected
     assert (checked.plan is None) == any("RC905" not in line for line in expected)
+
+
+def test_what_must_be_given_is_missed_in_the_file_that_should_give_it(folder: Path) -> None:
+    empty_config(folder)
+    assert told(judged(folder, app=APP.replace('set serial = "abc";', "")), folder) == [NO_SERIAL]
 
 
 def test_a_port_in_use(folder: Path) -> None:

@@ -7,6 +7,7 @@ Everything runs in one event loop; only the watch calls from another thread.
 from __future__ import annotations
 
 import asyncio
+import os
 import time
 from asyncio import FIRST_COMPLETED
 from collections.abc import Callable
@@ -42,6 +43,15 @@ class Outcome:
 
     code: int
     reason: str
+
+
+def lacking() -> str:
+    """What this system lacks to supervise processes, in words; empty if nothing."""
+    try:
+        os.close(os.pidfd_open(os.getpid()))
+    except (AttributeError, OSError):
+        return "rcdeploy runs components on Linux 5.3 or newer (it needs pidfd_open)"
+    return ""
 
 
 class Local:
