@@ -1,0 +1,1 @@
+"""The commands `rcgen` and `rcdeploy`; the only place of the toolchain that prints."""
