@@ -21,8 +21,6 @@ from robocomp_dsl.generate.write import Action, CannotWrite, Change, compare, wr
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import Source, UnreadableSource
 
-MODES = ("check", "diff", "dry-run")
-
 
 class Known(click.ParamType[str]):
     """One of some names, whatever their case; the nearest is offered for another one."""
@@ -61,16 +59,9 @@ class Known(click.ParamType[str]):
     metavar="L",
     help=f"Instead of the one in the file: {', '.join(LANGUAGES)}.",
 )
-@click.option(
-    "--check",
-    "mode",
-    flag_value="check",
-    help="Write nothing; 1 if files are not as they would be.",
-)
-@click.option("--diff", "mode", flag_value="diff", help="Write nothing; show what would change.")
-@click.option(
-    "--dry-run", "mode", flag_value="dry-run", help="Write nothing; list what would happen."
-)
+@click.option("--check", is_flag=True, help="Write nothing; 1 if files are not as they would be.")
+@click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
+@click.option("--dry-run", is_flag=True, help="Write nothing; list what would happen.")
 @click.option("-q", "quiet", is_flag=True, help="Say nothing but findings.")
 @options.output_format
 @options.folders
@@ -80,16 +71,17 @@ def command(
     output: Path | None,
     middleware: str | None,
     language: str | None,
-    mode: str | None,
     quiet: bool,
     form: str,
     folders: tuple[Path, ...],
+    **modes: bool,
 ) -> None:
     """Generate a component from its CDSL file.
 
     `main.py` and `generated/` are rewritten; `specificworker.py`, `README.md` and `etc/config.yaml`
     are written once and then yours. All files are written, or none.
     """
+    mode = _only(modes)
     report = Report()
     component = _component(file, language or "", Workspace(folders), report)
     chosen = {"language": language or "", "middleware": middleware or ""}
@@ -105,6 +97,15 @@ def command(
     except CannotWrite as error:
         options.complain(str(error))
         sys.exit(FINDINGS)
+
+
+def _only(modes: dict[str, bool]) -> str:
+    """The one that was asked for, or nothing."""
+    asked = [name for name, on in modes.items() if on]
+    if len(asked) > 1:
+        listed = " and ".join(f"--{name.replace('_', '-')}" for name in asked)
+        raise click.UsageError(f"{listed} exclude each other")
+    return "".join(asked)
 
 
 def _component(file: Path, language: str, workspace: Workspace, report: Report) -> Component | None:
@@ -136,9 +137,9 @@ def _user_code(folder: Path, component: Component) -> list[Diagnostic]:
         return unreadable(path, error)
 
 
-def _act(mode: str | None, folder: Path, files: list[OutputFile], quiet: bool) -> int:
+def _act(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> int:
     """Do what `mode` says; the exit code."""
-    if mode is None:
+    if not mode:
         changes = write(folder, files)
         if not quiet:
             print(_told(folder, changes))
@@ -148,7 +149,7 @@ def _act(mode: str | None, folder: Path, files: list[OutputFile], quiet: bool) -
     if mode == "diff":
         sys.stdout.write("".join(_diff(folder, one) for one in pending))
         return 0
-    if mode == "dry-run":
+    if mode == "dry_run":
         for one in changes:
             print(f"{one.action:<10} {folder / one.file.path}")
         return 0

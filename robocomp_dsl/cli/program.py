@@ -63,6 +63,17 @@ class LazyGroup(click.Group):
             ctx.fail(f"no command `{args[0]}`" + (f"; {guess}" if guess else ""))
         return super().resolve_command(ctx, args)
 
+    def invoke(self, ctx: click.Context) -> Any:
+        """As click does; when nobody reads the output any more, the rest of it goes nowhere."""
+        try:
+            try:
+                return super().invoke(ctx)
+            finally:
+                sys.stdout.flush()
+        except BrokenPipeError:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            ctx.exit(NO_READER)
+
     def format_commands(
         self,
         ctx: click.Context,  # noqa: ARG002 - as click calls it
@@ -93,7 +104,6 @@ def run(program: click.Command, name: str) -> NoReturn:
 def _exit_code(program: click.Command, name: str) -> int:
     try:
         code = program.main(prog_name=name, standalone_mode=False)
-        sys.stdout.flush()
     except click.exceptions.Exit as leaving:
         return leaving.exit_code
     except click.ClickException as error:
@@ -102,10 +112,6 @@ def _exit_code(program: click.Command, name: str) -> int:
     except (click.Abort, KeyboardInterrupt):
         print(f"{name}: interrupted", file=sys.stderr)
         return INTERRUPTED
-    except BrokenPipeError:
-        # What Python would still flush at its end goes nowhere, in silence.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return NO_READER
     except SystemExit:
         raise
     except BaseException as error:

@@ -18,7 +18,7 @@ from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.interface import Interface, Operation, Pattern
 from robocomp_dsl.model.types import Enum, Struct
 
-PROXY_MEMBERS = frozenset(("INTERFACE",))
+PROXY_MEMBERS = frozenset(("INTERFACE", "set_timeout", "wait_for_server"))
 """Public members of the base of all proxies."""
 
 
@@ -104,7 +104,7 @@ def interface_code(
         called.constant,
         stated,
         called.proxy,
-        literals.docstring(interface.doc or f"Calls {interface.qualified}.", INNER),
+        literals.docstring(interface.doc, INNER, f"Calls {interface.qualified}."),
         layout.statement("__slots__ = ", layout.tuple_of(*map(literals.quoted, slots)), INNER),
         methods,
         tuple(_forms(interface, called, outgoing, types)),
@@ -145,7 +145,7 @@ def _method(
         layout.statement(f"{slot}: ", hint, INNER),
         layout.statement(f"self.{slot} = ", bound, BODY),
         layout.definition(name, parameters, returns),
-        literals.docstring(one.doc, BODY) if one.doc else "",
+        literals.docstring(one.doc, BODY) if literals.lines(one.doc) else "",
         layout.statement(keyword, made, BODY),
     )
 
@@ -171,6 +171,7 @@ def _forms(
 def _form(
     name: str, takers: list[Operation], called: InterfaceNames, types: PythonTypes
 ) -> FormCode:
+    given = "request_" if "request" in types.scope.taken else "request"
     rows = [
         (types.annotation(o.inputs[0].type), types.returns(o), called.methods[o]) for o in takers
     ]
@@ -179,20 +180,20 @@ def _form(
     if len(rows) == 1:
         taken, returns, method = rows[0]
         keyword = "" if returns == "None" else "return "
-        body = layout.statement(keyword, layout.call(f"self.{method}", "request"), BODY)
+        body = layout.statement(keyword, layout.call(f"self.{method}", given), BODY)
         return FormCode(
-            (), layout.definition(name, ("self", f"request: {taken}"), returns), doc, (body,)
+            (), layout.definition(name, ("self", f"{given}: {taken}"), returns), doc, (body,)
         )
     overloads = tuple(
-        layout.definition(name, ("self", f"request: {taken}"), returns)
+        layout.definition(name, ("self", f"{given}: {taken}"), returns)
         for taken, returns, _ in rows
     )
     statements = [
-        f"if isinstance(request, {taken}):\n{BODY}    return self.{method}(request)"
+        f"if isinstance({given}, {taken}):\n{BODY}    return self.{method}({given})"
         for taken, _, method in rows
     ]
-    failure = 'raise TypeError(f"no operation takes a {type(request).__name__}")'
-    general = layout.definition(name, ("self", "request: Any"), "Any")
+    failure = f'raise TypeError(f"no operation takes a {{type({given}).__name__}}")'
+    general = layout.definition(name, ("self", f"{given}: Any"), "Any")
     return FormCode(overloads, general, doc, (*statements, failure))
 
 
@@ -223,7 +224,7 @@ def interfaces_code(
     named_sources = ", ".join(sources)
     return InterfacesCode(
         f" from {literals.printable(named_sources)}" if named_sources else "",
-        tuple(_exceptions(code, types)),
+        tuple(_exceptions(types)),
         tuple(_standard_imports(specs)),
         tuple(_third_party_imports(code, specs)),
         code,
@@ -231,15 +232,12 @@ def interfaces_code(
     )
 
 
-def _exceptions(code: Iterable[TypeCode], types: PythonTypes) -> Iterator[str]:
+def _exceptions(types: PythonTypes) -> Iterator[str]:
     """Rules of ruff that the IDSL files make us break."""
     enums = (d for d in types.ordered if isinstance(d, Enum))
     if any(len({e.value for e in one.enumerators}) < len(one.enumerators) for one in enums):
         yield "# Some values are equal in the IDSL file:"
         yield "# ruff: noqa: PIE796"
-    if not all(one.ordered for one in code):
-        yield "# Slots are in the order of the fields:"
-        yield "# ruff: noqa: RUF023"
 
 
 def _standard_imports(interfaces: tuple[InterfaceCode, ...]) -> Iterator[str]:

@@ -90,12 +90,12 @@ def sentence(text: str) -> str:
     return (lines(text) or [""])[0]
 
 
-def docstring(text: str, indent: str) -> str:
-    """`text` as a docstring at `indent`, as the formatter writes it; without a first indentation.
+def docstring(text: str, indent: str, instead: str = "") -> str:
+    """`text`, or `instead` if it says nothing, as a docstring that the formatter leaves as it is.
 
-    `inspect.getdoc` of it gives `lines(text)` back.
+    The first indentation is not in it. `inspect.getdoc` of it gives `lines(text)` back.
     """
-    rows = lines(text) or [""]
+    rows = lines(text) or lines(instead) or [""]
     single = len(rows) == 1
     first = _docstring_row(rows[0], opens=True, closes=single)
     if single:
@@ -125,3 +125,11 @@ def markdown_cell(text: str) -> str:
     """`text` for one cell of a Markdown table."""
     flat = " ".join(lines(text))
     return re.sub(r"([\\|<>`*_\[\]{}])", r"\\\1", flat)
+
+
+def markdown_code(text: str) -> str:
+    """`text` as code in one cell of a Markdown table; empty for nothing."""
+    fence = "``" if "`" in text else "`"
+    space = " " if "`" in text else ""
+    inner = printable(text).replace("|", "\\|")
+    return f"{fence}{space}{inner}{space}{fence}" if text else ""

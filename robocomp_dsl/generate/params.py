@@ -58,7 +58,7 @@ class ParamsCode:
 def params_code(name: str, component: Component) -> ParamsCode:
     """Everything that the template of `generated/params.py` prints; `name` is the main class."""
     given = component.parameters
-    doc = (given and given.doc) or f"The parameters of {component.name}."
+    doc = (given and given.doc.strip()) or f"The parameters of {component.name}."
     made: list[ParametersCode] = []
     builder = _Classes(names.Scope(names.BUILTINS | names.MODULE | {name}), made)
     builder.add(name, "Parameters", doc, given.parameters if given else ())
@@ -99,7 +99,7 @@ class _Classes:
 
     def group(self, one: Parameter) -> str:
         name = self.scope.claim(f"{names.camel(one.name)}Group")
-        self.add(name, "ParameterGroup", one.doc or f"One of `{one.name}`.", one.members)
+        self.add(name, "ParameterGroup", one.doc.strip() or f"One of `{one.name}`.", one.members)
         return name
 
 

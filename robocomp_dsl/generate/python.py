@@ -13,7 +13,7 @@ from robocomp_dsl.generate.schema import config_schema
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.interface import Module
-from robocomp_dsl.model.parameter import Kind, Parameter
+from robocomp_dsl.model.parameter import Parameter
 
 FOLDER = "python/component/"
 USER_CODE = "specificworker.py"
@@ -62,9 +62,9 @@ def modules_of(component: Component) -> tuple[Module, ...]:
 def _row(one: Parameter) -> tuple[str, str, str, str]:
     """A row of the table in the README."""
     default = "" if one.default is None else literals.yaml_value(one.default)
-    shown = "" if one.kind is Kind.GROUP else literals.markdown_cell(default)
-    cell = literals.markdown_cell
-    return cell(one.name), shown, cell(params.takes(one)), cell(literals.sentence(one.doc))
+    about = (params.takes(one), literals.sentence(one.doc))
+    takes, what = map(literals.markdown_cell, about)
+    return literals.markdown_cell(one.name), literals.markdown_code(default), takes, what
 
 
 def _file(path: str, template: str = "", *, keep: bool = False, **context: object) -> OutputFile:

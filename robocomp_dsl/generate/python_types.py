@@ -57,6 +57,16 @@ ENUM_MEMBERS = frozenset(
 """What an `IntEnum` has itself."""
 
 
+STRUCT_MEMBERS = frozenset(("np",))
+"""Names that a struct needs itself: a field of that name gets an underscore."""
+
+ERROR_MEMBERS = STRUCT_MEMBERS | {"add_note", "args", "with_traceback"}
+"""The same for declared exceptions, with the public members of their base."""
+
+ARGUMENTS = frozenset(("rt", "super"))
+"""Names that the bodies of methods need."""
+
+
 @dataclass(frozen=True, slots=True)
 class NumpyArray:
     """The annotation of an array and the type of its elements."""
@@ -96,6 +106,7 @@ class PythonTypes:
         ]
         self.names, self.scope = names.of_declarations(found)
         self.ordered = tuple(_dependencies_first(found))
+        self.hidden = frozenset(_hidden(found, self.names))
         self._enumerators = {
             one: name for d in found if isinstance(d, Enum) for one, name in _enumerator_names(d)
         }
@@ -149,7 +160,7 @@ class PythonTypes:
 
     def arguments(self, operation: Operation) -> list[tuple[str, str]]:
         """Name and annotation of each input."""
-        called = names.unique([p.name for p in operation.inputs])
+        called = names.unique([p.name for p in operation.inputs], ARGUMENTS)
         return [
             (name, self.annotation(p.type))
             for name, p in zip(called, operation.inputs, strict=True)
@@ -183,6 +194,20 @@ def record_element(type_: Type) -> Struct | None:
     ):
         return type_.element
     return None
+
+
+def field_names(one: Struct | ExceptionType) -> tuple[str, ...]:
+    """The attributes of a struct or exception."""
+    reserved = STRUCT_MEMBERS if isinstance(one, Struct) else ERROR_MEMBERS
+    return names.unique([f.name for f in one.fields], reserved)
+
+
+def _hidden(found: Iterable[Declaration], called: dict[Declaration, str]) -> Iterator[str]:
+    """Names of types that a field of the same struct is called by, as in `Pose Pose;`."""
+    for one in found:
+        if isinstance(one, Struct | ExceptionType):
+            needed = {called[f.type] for f in one.fields if isinstance(f.type, Declaration)}
+            yield from needed & set(field_names(one))
 
 
 def _enumerator_names(type_: Enum) -> Iterator[tuple[Enumerator, str]]:

@@ -11,7 +11,13 @@ from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, literals, names
 from robocomp_dsl.generate.layout import BODY, INNER, Item
-from robocomp_dsl.generate.python_types import PythonTypes, column_of, numpy_of, record_element
+from robocomp_dsl.generate.python_types import (
+    PythonTypes,
+    column_of,
+    field_names,
+    numpy_of,
+    record_element,
+)
 from robocomp_dsl.model.types import (
     Declaration,
     Dictionary,
@@ -22,12 +28,6 @@ from robocomp_dsl.model.types import (
     Struct,
     Type,
 )
-
-STRUCT_MEMBERS: frozenset[str] = frozenset()
-"""Public members of the base of all structs: a field of that name gets an underscore."""
-
-ERROR_MEMBERS = frozenset(("add_note", "args", "with_traceback"))
-"""Public members of the base of all declared exceptions."""
 
 ARRAY_MEMBERS = frozenset(
     (
@@ -44,6 +44,7 @@ ARRAY_MEMBERS = frozenset(
         "pop",
         "remove",
         "reverse",
+        "sort",
     )
 )
 """Public members of the base of all arrays of records."""
@@ -61,15 +62,17 @@ class ColumnCode:
 class TypeCode:
     """One type. `kind`: struct, error, enum, records, alias; what a kind lacks is empty.
 
-    `statements` are the lines of `__init__`, of the enum's body or of the alias. `ordered` is
-    False where the order of the slots is not the alphabetical one.
+    `alias` is a second, private name where a field hides the first one in an `__init__`.
+    `names` is empty where all attributes are called as on the wire. `statements` are the lines of
+    `__init__`, of the enum's body or of the alias.
     """
 
     kind: str
     name: str
     doc: str = ""
+    alias: str = ""
     slots: str = ""
-    ordered: bool = True
+    names: str = ""
     fields: str = ""
     init: str = ""
     columns: tuple[ColumnCode, ...] = ()
@@ -80,7 +83,7 @@ class TypeCode:
 def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
     """The class or the alias of one type."""
     name = types.names[declaration]
-    doc = literals.docstring(declaration.doc or declaration.qualified, INNER)
+    doc = literals.docstring(declaration.doc, INNER, declaration.qualified)
     match declaration:
         case Struct() | ExceptionType():
             return _record(name, doc, declaration, types)
@@ -130,13 +133,15 @@ def _record(name: str, doc: str, one: Struct | ExceptionType, types: PythonTypes
         parameter, assignment = _field(attribute, field, types)
         parameters.append(parameter)
         assignments.append(assignment)
-    slots = layout.tuple_of(*map(literals.quoted, called))
+    slots = layout.tuple_of(*map(literals.quoted, sorted(called, key=layout.natural)))
+    wired = layout.statement("_names_ = ", layout.tuple_of(*map(literals.quoted, called)), INNER)
     return TypeCode(
         "struct" if isinstance(one, Struct) else "error",
         name,
         doc,
+        alias=_alias(name, types),
         slots=layout.statement("__slots__ = ", slots, INNER),
-        ordered=list(called) == sorted(called, key=layout.natural),
+        names="" if list(called) == [f.name for f in one.fields] else wired,
         fields=layout.statement("_fields_ = ", layout.tuple_of(*schemas), INNER),
         init=layout.definition("__init__", parameters, "None") if called else "",
         statements=tuple(assignments),
@@ -149,14 +154,9 @@ def _field(name: str, field: Field, types: PythonTypes) -> tuple[str, str]:
     hint = types.annotation(field.type)
     if not zero.fresh:
         return f"{name}: {hint} = {zero.text}", f"self.{name} = {name}"
-    value = layout.choice(f"self.{name}", zero.text, f"{name} is None", name, BODY)
+    made = f"_{zero.text}" if zero.text.removesuffix("()") in types.hidden else zero.text
+    value = layout.choice(f"self.{name}", made, f"{name} is None", name, BODY)
     return f"{name}: {hint} | None = None", value
-
-
-def field_names(one: Struct | ExceptionType) -> tuple[str, ...]:
-    """The attributes of a struct or exception."""
-    reserved = STRUCT_MEMBERS if isinstance(one, Struct) else ERROR_MEMBERS
-    return names.unique([f.name for f in one.fields], reserved)
 
 
 def _records(name: str, doc: str, element: Struct, types: PythonTypes) -> TypeCode:
@@ -167,7 +167,18 @@ def _records(name: str, doc: str, element: Struct, types: PythonTypes) -> TypeCo
         _column(column, attribute, field.type, types)
         for column, attribute, field in zip(called, attributes, element.fields, strict=True)
     )
-    return TypeCode("records", name, doc, element=types.names[element], columns=columns)
+    return TypeCode(
+        "records",
+        name,
+        doc,
+        alias=_alias(name, types),
+        element=types.names[element],
+        columns=columns,
+    )
+
+
+def _alias(name: str, types: PythonTypes) -> str:
+    return f"_{name} = {name}  # a field is called as the type" if name in types.hidden else ""
 
 
 def _column(name: str, attribute: str, type_: Type, types: PythonTypes) -> ColumnCode:

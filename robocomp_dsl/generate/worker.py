@@ -17,7 +17,21 @@ from robocomp_dsl.model.interface import Interface, Operation, Pattern
 from robocomp_dsl.model.types import Declaration, Type
 
 COMPONENT_MEMBERS = frozenset(
-    ("SPEC", "compute", "emergency", "finalize", "initialize", "params", "restore")
+    (
+        "SPEC",
+        "clock",
+        "compute",
+        "declare_emergency",
+        "emergency",
+        "end_emergency",
+        "finalize",
+        "initialize",
+        "log",
+        "name",
+        "params",
+        "quit",
+        "restore",
+    )
 )
 """Public members of the base of all components; an operation or proxy never hides one."""
 
@@ -112,7 +126,7 @@ def worker_code(component: Component, called: Called, middleware: str) -> Worker
     return WorkerCode(
         title=component.name,
         source=component.path.name,
-        doc=literals.docstring(component.doc or f"The component {component.name}.", INNER),
+        doc=literals.docstring(component.doc, INNER, f"The component {component.name}."),
         spec=layout.statement("SPEC = ", _spec(component, called, middleware), INNER),
         params=called.params,
         period=component.period,
@@ -123,7 +137,7 @@ def worker_code(component: Component, called: Called, middleware: str) -> Worker
         generic_imports=tuple(_generic_imports(component, called)),
         specific_imports=tuple(_specific_imports(called)),
         examples=tuple(_example(p, called) for p in proxies if p.interface.operations),
-        about=("", *literals.lines(component.doc)) if component.doc else (),
+        about=("", *about) if (about := literals.lines(component.doc)) else (),
         rows=tuple(_row(p, called) for p in component.ports),
     )
 
@@ -186,7 +200,7 @@ def _about(one: Operation, port: Port) -> str:
     throws = ", ".join(t.name for t in one.throws)
     below = [f"Units: {', '.join(units)}."] if units else []
     below += [f"May raise {throws}."] if throws else []
-    said = one.doc or f"{port.interface.qualified}: {one.name}."
+    said = one.doc.strip() or f"{port.interface.qualified}: {one.name}."
     return "\n".join([said, "", *below]) if below else said
 
 

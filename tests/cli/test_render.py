@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -90,8 +91,10 @@ EXCERPTS = {
     ),
     "many lines": (
         "«1\n2\n3\n4\n5\n6\n7»",
-        "  --> robot.cdsl:1:1\n   |\n 1 | 1\n   | ^\n 2 | 2\n   | ^\n 3 | 3\n   | ^\n...\n"
-        " 7 | 7\n   | ^ L\n",
+        (
+            "  --> robot.cdsl:1:1\n   |\n 1 | 1\n   | ^\n 2 | 2\n   | ^\n 3 | 3\n   | ^\n...\n"
+            " 7 | 7\n   | ^ L\n"
+        ),
     ),
 }
 
@@ -110,8 +113,6 @@ def test_a_long_line_is_cut_around_the_place() -> None:
 
 
 def test_colours_do_not_change_the_text() -> None:
-    import re
-
     one = Diagnostic(UNKNOWN, span("a «b»"), "m", "label", help="h")
     coloured = render.full([one], colours=True)
     assert "\x1b[1;31m" in coloured

@@ -1,4 +1,4 @@
-"""The golden cases: folders in `tests/golden` with a CDSL file and, in `expected/`, what it gives."""
+"""The golden cases: folders in `tests/golden` with a CDSL file; `expected/` is what it gives."""
 
 from __future__ import annotations
 

@@ -1,24 +1,29 @@
-"""Generated code as Python: formatted, clean, typed; what it says about itself is true."""
+"""Generated code as Python: formatted, clean, typed, and it runs."""
 
 from __future__ import annotations
 
-import importlib
+import json
+import os
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
-from types import ModuleType
 
+import golden_cases as golden
 import jsonschema
 import pytest
 import yaml
 
-from robocomp_dsl.generate import interface_code, names, params, type_code, worker
+from robocomp_dsl.generate import interface_code, params, python_types, type_code, worker
+from robocomp_dsl.runtime import Component
 from robocomp_dsl.runtime import types as rt
-from robocomp_dsl.runtime.parameters import Parameters
-import golden_cases as golden
+from robocomp_dsl.runtime.parameters import ParameterGroup, Parameters
 
-MYPY = ["--strict", "--no-error-summary", "--no-color-output"]
+MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+PATIENCE_S = 20
+"""How long a component may take to say that it runs; the tests do not judge speed."""
 
 
 @pytest.fixture(scope="module")
@@ -42,15 +47,226 @@ def test_ruff_finds_nothing(generated: Path) -> None:
         assert done.returncode == 0, done.stdout
 
 
+def test_mypy_finds_nothing(generated: Path, tmp_path: Path) -> None:
+    for case in golden.CASES:
+        done = subprocess.run(
+            [*MYPY, f"--cache-dir={tmp_path}", "."],
+            cwd=generated / case,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert (done.stdout, done.returncode) == ("", 0), case
+
+
 @pytest.mark.parametrize("case", golden.CASES)
-def test_mypy_finds_nothing(generated: Path, case: str, tmp_path: Path) -> None:
-    cache = tmp_path.parent / "mypy-cache"
+def test_it_starts_and_ends_in_order(generated: Path, case: str) -> None:
+    command = [sys.executable, "main.py", "--middleware", "inproc", "--log-format", "json"]
+    log = generated / f"{case}.log"
+    with log.open("wb") as stream:
+        process = subprocess.Popen(command, cwd=generated / case, stderr=stream, stdout=stream)
+    try:
+        wait_until_it_runs(generated / case, process)
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(PATIENCE_S) == 0, log.read_text()
+    finally:
+        process.kill()
+        process.wait()
+    assert "Traceback" not in log.read_text()
+
+
+def wait_until_it_runs(folder: Path, process: subprocess.Popen[bytes]) -> None:
+    """Until SIGTERM no longer kills: the component has put its own handler in place."""
+    deadline = time.monotonic() + PATIENCE_S
+    while not catches_sigterm(process.pid):
+        assert process.poll() is None, (folder.parent / f"{folder.name}.log").read_text()
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def catches_sigterm(pid: int) -> bool:
+    caught = next(
+        line
+        for line in Path(f"/proc/{pid}/status").read_text().splitlines()
+        if line.startswith("SigCgt:")
+    )
+    return bool(int(caught.split()[1], 16) >> (signal.SIGTERM - 1) & 1)
+
+
+USED = """
+import numpy as np
+from generated import interfaces as i
+from robocomp_dsl.runtime import types as rt
+for interface in vars(i).values():
+    if isinstance(interface, rt.Interface):
+        for one in interface.operations:
+            given = tuple(zero(t) for _, t in one.inputs)
+            back = one.decode_request(one.encode_request(given))
+            assert str(back) == str(given), (one.name, back, given)
+            results = tuple(zero(t) for _, t in one.outputs)
+            answer = results[0] if len(results) == 1 else results or None
+            back = one.decode_reply(one.encode_reply(answer))
+            assert str(back) == str(answer), (one.name, back, answer)
+            for error in one.throws:
+                back = one.decode_error(one.encode_error(error()))
+                assert type(back) is error
+"""
+ZERO = """
+def zero(type_):
+    from robocomp_dsl.runtime import types as rt
+    import numpy as np
+    if isinstance(type_, rt.Primitive):
+        return {"bool": False, "string": "", "float": 0.0, "double": 0.0}.get(type_.name, 0)
+    if isinstance(type_, rt.Array):
+        return np.zeros(0, type_.element.dtype)
+    if isinstance(type_, rt.Sequence):
+        return []
+    if isinstance(type_, rt.Dictionary):
+        return {}
+    return next(iter(type_)) if issubclass(type_, rt.Enum) else type_()
+"""
+
+
+@pytest.mark.parametrize("case", golden.CASES)
+def test_every_type_travels(generated: Path, case: str) -> None:
+    """The zero value of each input, output and exception is encoded, decoded and the same."""
+    run(generated / case, ZERO + USED)
+
+
+DEFAULTS = """
+from generated.interfaces import *
+n = Numbers()
+assert (n.flag, n.small, n.port, n.count, n.stamp) == (True, 7, -1, 0, 0)
+assert (n.ratio, n.exact, n.gear, n.other) == (2.0, 1e-7, Gear.High, Gear.Low)
+assert type(n.ratio) is float
+e = Everything()
+assert e.text == 'a "quoted" text, a \\'quote\\', a \\\\ and a tab\\t'
+assert e.numbers == n
+assert Everything().ints is not e.ints
+assert Everything().names is not e.names
+e.list.append(Numbers(count=3))
+assert e.list.count_.tolist() == [3]
+assert e.list[0].gear is Gear.High
+e.nested.append(Nested(where=Point(x=1.5)))
+assert e.nested.where.column("x").tolist() == [1.5]
+assert e.nested.inner.column("gear").tolist() == [2]
+"""
+RENAMED = """
+from generated.interfaces import *
+p = RoboCompA_Pose(1, self_=2, class_=3, private_=4, secret__=5, rt=6)
+assert p._names_[3:7] == ("self_", "class_", "private_", "secret__")
+assert (p.id, p.self_, p.private_) == (1, 2, 4)
+assert [name for name, _ in p._fields_][3:7] == ["self", "class", "_private", "__secret"]
+many = list_([p])
+assert many.private_.tolist() == [4]
+assert many.count_.tolist() == [0]
+assert many[0] == p
+r = request_() if "request_" in globals() else request()
+assert r.Wheel == Wheel()
+assert RoboCompA_Failed("x").args_ == "x"
+assert lambda_.None_ == 0
+"""
+
+
+@pytest.mark.parametrize(("case", "code"), [("types", DEFAULTS), ("renamed", RENAMED)])
+def test_values(generated: Path, case: str, code: str) -> None:
+    run(generated / case, code)
+
+
+def run(folder: Path, code: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", *MYPY, f"--cache-dir={cache}", "--config-file=", "."],
+        [sys.executable, "-c", code],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": ""},
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+
+
+CONFIGURED = """
+import sys
+from generated.params import *
+(main,) = (v for n, v in list(globals().items()) if n.endswith("Params"))
+assert main.load("etc/config.yaml").values() == eval(sys.stdin.read())
+"""
+VALUES = {
+    "speech": {"rate": 1.5, "voice": "anna"},
+    "hostile": {
+        "text": "\"quoted\" 'x' {{ }} \\ # : - \n ",
+        "path": "C:\\new",
+        "number": "010",
+        "tab": "\t",
+    },
+    "parameters": {
+        "device": "/dev/ttyUSB0",
+        "rate": 50.0,
+        "retries": 3,
+        "fast": False,
+        "mode": "position",
+        **{f"motors[{i}].{k}": v for i in (0, 1) for k, v in [("name", "m"), ("min", -3.14)]},
+        "limits.current": 1e-9,
+        "limits.voltage": 12.5,
+    },
+}
+
+
+@pytest.mark.parametrize("case", VALUES)
+def test_the_first_configuration_holds_the_defaults(generated: Path, case: str) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", CONFIGURED],
         cwd=generated / case,
+        input=repr(VALUES[case]),
         capture_output=True,
         text=True,
         check=False,
     )
-    assert done.stdout == ""
     assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("case", golden.CASES)
+def test_the_schema_accepts_the_first_configuration(generated: Path, case: str) -> None:
+    schema = json.loads((generated / case / "etc/config.schema.json").read_text())
+    config = yaml.safe_load((generated / case / "etc/config.yaml").read_text()) or {}
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.validate(config, schema)
+
+
+WRONG = [
+    {"rate": 0},
+    {"rate": "fast"},
+    {"mode": "torque"},
+    {"motors": [{"name": "a"}]},
+    {"motors": [{"name": "a"}, {"nam": "b"}]},
+    {"unknown": 1},
+    {"retries": 1.5},
+]
+
+
+@pytest.mark.parametrize("wrong", WRONG, ids=str)
+def test_the_schema_refuses(generated: Path, wrong: dict[str, object]) -> None:
+    schema = json.loads((generated / "parameters/etc/config.schema.json").read_text())
+    right = {"motors": [{"name": "a"}, {"name": "b"}]}
+    jsonschema.validate(right, schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({**right, **wrong}, schema)
+
+
+RESERVED = [
+    (rt.Struct, python_types.STRUCT_MEMBERS),
+    (rt.DeclaredError, python_types.ERROR_MEMBERS),
+    (rt.StructArray, type_code.ARRAY_MEMBERS),
+    (rt.Enum, python_types.ENUM_MEMBERS | {"name", "value", "mro"}),
+    (rt.Proxy, interface_code.PROXY_MEMBERS),
+    (Component, worker.COMPONENT_MEMBERS),
+    (Parameters, params.MEMBERS),
+    (ParameterGroup, params.MEMBERS),
+]
+
+
+@pytest.mark.parametrize(("base", "reserved"), RESERVED)
+def test_names_of_the_runtime_are_reserved(base: type, reserved: frozenset[str]) -> None:
+    """A new member of a base class must be added to the table, else it can be hidden."""
+    own = {*dir(base), *base.__annotations__}
+    assert {name for name in own if not name.startswith("_")} <= reserved

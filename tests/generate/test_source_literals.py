@@ -110,3 +110,11 @@ def test_lines(text: str, expected: list[str]) -> None:
 
 def test_markdown_cells_end_nowhere() -> None:
     assert literals.markdown_cell("a|b\n<c> `d`") == "a\\|b \\<c\\> \\`d\\`"
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [("", ""), ("50.0", "`50.0`"), ("a|b", "`a\\|b`"), ("a`b", "`` a`b ``")],
+)
+def test_markdown_code(text: str, expected: str) -> None:
+    assert literals.markdown_code(text) == expected

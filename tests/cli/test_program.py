@@ -1,0 +1,145 @@
+"""Whatever happens to a command, it ends with the right exit code and in a line of words."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from rcgen_run import Rcgen
+
+from robocomp_dsl.cli import program
+from robocomp_dsl.cli.rcgen import TABLE
+from robocomp_dsl.cli.rcgen import program as rcgen_program
+
+RCGEN = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen import main; main()"]
+
+
+def test_help_names_all_commands_and_loads_none(rcgen: Rcgen) -> None:
+    code = (
+        "import sys\nfrom robocomp_dsl.cli.rcgen import main\n"
+        "try: main()\nexcept SystemExit: pass\n"
+        "heavy = {'lark', 'jinja2', 'yaml', 'numpy', 'zenoh', 'robocomp_dsl.check'}\n"
+        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
+    )
+    command = [sys.executable, "-c", code, "--help"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    for name in TABLE:
+        assert f"  {name} " in done.stdout
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_every_command_has_help(rcgen: Rcgen, name: str) -> None:
+    run = rcgen(name, "--help")
+    assert run.code == 0
+    assert f"Usage: rcgen {name}" in run.out
+
+
+def test_version(rcgen: Rcgen) -> None:
+    assert rcgen("--version").out.startswith("rcgen, version ")
+
+
+USAGE = [
+    (("chek",), "did you mean `check`?"),
+    (("check", "--frmat", "json", "x"), "No such option"),
+    (("check", "--format", "xml", "x"), "'xml' is not one of"),
+    (("component",), "Missing argument"),
+    ((), "Usage: rcgen"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "said"), USAGE)
+def test_wrong_usage(rcgen: Rcgen, arguments: tuple[str, ...], said: str) -> None:
+    run = rcgen(*arguments)
+    assert run.code == program.USAGE
+    assert said in run.err
+
+
+@pytest.fixture
+def failing(monkeypatch: pytest.MonkeyPatch) -> list[BaseException]:
+    """The exception that `rcgen check` raises."""
+    raised: list[BaseException] = []
+
+    def check_file(*_: object) -> None:
+        raise raised[0]
+
+    monkeypatch.setattr("robocomp_dsl.cli.check.check_file", check_file)
+    monkeypatch.delenv(program.DEBUG, raising=False)
+    return raised
+
+
+def test_our_mistake_is_a_line(rcgen: Rcgen, failing: list[BaseException], tmp_path: Path) -> None:
+    failing.append(ValueError("two\nlines"))
+    run = rcgen("check", tmp_path / "x.cdsl")
+    assert run.code == program.OUR_MISTAKE
+    assert run.err.count("\n") == 1
+    assert run.err.startswith(
+        "rcgen: internal error, please report it: ValueError: two lines at "
+        "robocomp_dsl/cli/check.py:"
+    )
+    assert "ROBOCOMP_DEBUG=1 shows the whole trace" in run.err
+
+
+def test_the_whole_trace_is_to_be_had(
+    rcgen: Rcgen, failing: list[BaseException], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    failing.append(ValueError("x"))
+    monkeypatch.setenv(program.DEBUG, "1")
+    with pytest.raises(ValueError, match="x"):
+        rcgen("check", tmp_path / "x.cdsl")
+
+
+@pytest.mark.parametrize("kind", [RecursionError, MemoryError, AssertionError, KeyError])
+def test_any_exception(
+    rcgen: Rcgen, failing: list[BaseException], kind: type[BaseException], tmp_path: Path
+) -> None:
+    failing.append(kind())
+    assert rcgen("check", tmp_path / "x.cdsl").code == program.OUR_MISTAKE
+
+
+def test_ctrl_c(rcgen: Rcgen, failing: list[BaseException], tmp_path: Path) -> None:
+    failing.append(KeyboardInterrupt())
+    run = rcgen("check", tmp_path / "x.cdsl")
+    assert (run.code, run.err) == (program.INTERRUPTED, "\nrcgen: interrupted\n")
+
+
+def test_nobody_reads(tmp_path: Path) -> None:
+    many = "\n".join(f"x{i};" for i in range(3000))
+    (tmp_path / "a.cdsl").write_text(f"Component a {{ {many} }};")
+    reading, writing = os.pipe()
+    os.close(reading)
+    command = [*RCGEN, "check", "a.cdsl"]
+    done = subprocess.run(
+        command, cwd=tmp_path, stdout=writing, stderr=subprocess.PIPE, text=True, check=False
+    )
+    os.close(writing)
+    assert "Traceback" not in done.stderr
+    assert "Exception ignored" not in done.stderr
+    assert done.returncode == program.NO_READER
+
+
+def test_sigterm_leaves_through_the_door() -> None:
+    """As an exception, so that files half written are taken back."""
+    code = (
+        "import os, signal\nfrom robocomp_dsl.cli import program\nimport click\n"
+        "@click.command()\ndef command():\n"
+        "    try: os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    finally: print('taken back')\n"
+        "program.run(command, 'x')\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (program.TERMINATED, "taken back\n")
+    assert done.stderr == ""
+
+
+def test_a_table_line_is_the_beginning_of_the_help() -> None:
+    context = click.Context(rcgen_program)
+    for name, (_, about) in TABLE.items():
+        command = rcgen_program.get_command(context, name)
+        assert command is not None
+        assert about.split()[0] == (command.help or "").split()[0]
+    assert signal.SIGTERM

@@ -1,0 +1,230 @@
+"""`rcgen component`: what it writes, what it only says, what it refuses."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+from rcgen_run import Rcgen
+
+CDSL = """\
+import "Talk.idsl";
+Component talker { Communications { implements Talk; }; language Python; };
+"""
+IDSL = "module M { interface Talk { int say(string text); }; };\n"
+ALL = {
+    "README.md",
+    "etc/config.schema.json",
+    "etc/config.yaml",
+    "generated/__init__.py",
+    "generated/genericworker.py",
+    "generated/interfaces.py",
+    "generated/params.py",
+    "main.py",
+    "specificworker.py",
+}
+
+
+@pytest.fixture
+def talker(here: Path) -> Path:
+    (here / "talker.cdsl").write_text(CDSL)
+    (here / "Talk.idsl").write_text(IDSL)
+    return here
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+
+
+def test_beside_the_file(rcgen: Rcgen, talker: Path) -> None:
+    run = rcgen("component", "talker.cdsl")
+    assert (run.code, run.err) == (0, "")
+    expected = "9 of 9 files written; yours to edit: specificworker.py, etc/config.yaml, README.md"
+    assert run.out == f".: {expected}\n"
+    assert set(tree(talker)) == ALL | {"talker.cdsl", "Talk.idsl"}
+
+
+def test_into_a_folder(rcgen: Rcgen, talker: Path) -> None:
+    assert rcgen("component", "talker.cdsl", "-o", "out/deep").code == 0
+    assert set(tree(talker / "out" / "deep")) == ALL
+
+
+def test_again_touches_nothing(rcgen: Rcgen, talker: Path) -> None:
+    rcgen("component", "talker.cdsl", "-o", "out")
+    stamps = {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")}
+    run = rcgen("component", "talker.cdsl", "-o", "out")
+    assert run.out == "out: nothing to do, all 9 files are up to date\n"
+    assert {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")} == stamps
+
+
+def test_check_diff_and_dry_run_write_nothing(rcgen: Rcgen, talker: Path) -> None:
+    before = tree(talker)
+    run = rcgen("component", "talker.cdsl", "--check")
+    assert run.code == 1
+    assert "error: `main.py` is missing\n" in run.err
+    diff = rcgen("component", "talker.cdsl", "--diff")
+    assert diff.code == 0
+    assert "--- /dev/null\n+++ main.py\n" in diff.out
+    dry = rcgen("component", "talker.cdsl", "--dry-run")
+    assert dry.code == 0
+    assert dry.out.count("create ") == 9
+    assert tree(talker) == before
+
+
+def test_check_after_a_change(rcgen: Rcgen, talker: Path) -> None:
+    rcgen("component", "talker.cdsl")
+    assert rcgen("component", "talker.cdsl", "--check").code == 0
+    (talker / "Talk.idsl").write_text(IDSL.replace("string text", "string word"))
+    run = rcgen("component", "talker.cdsl", "--check")
+    assert run.code == 1
+    assert "`generated/interfaces.py` is not what would be generated" in run.err
+    assert "main.py" not in run.err
+    diff = rcgen("component", "talker.cdsl", "--diff").out
+    assert '-            inputs=(("text", rt.STRING),),\n' in diff
+    assert '+            inputs=(("word", rt.STRING),),\n' in diff
+    dry = rcgen("component", "talker.cdsl", "--dry-run").out
+    assert "update     generated/interfaces.py\n" in dry
+    assert "keep       specificworker.py\n" in dry
+
+
+def test_only_one_of_the_modes(rcgen: Rcgen, talker: Path) -> None:
+    run = rcgen("component", "talker.cdsl", "--check", "--diff")
+    assert run.code == 2
+    assert "--check" in run.err
+
+
+def test_what_the_users_class_lacks(rcgen: Rcgen, talker: Path) -> None:
+    rcgen("component", "talker.cdsl")
+    more = IDSL.replace("int say", "void shout(); int say")
+    (talker / "Talk.idsl").write_text(more)
+    mine = (talker / "specificworker.py").read_bytes()
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 0
+    assert "warning[RC611]: `SpecificWorker` has no method `Talk_shout`\n" in run.err
+    assert "--> specificworker.py:8:7" in run.err
+    assert "--> Talk.idsl:1:34" in run.err
+    assert (talker / "specificworker.py").read_bytes() == mine
+
+
+def test_an_error_writes_nothing(rcgen: Rcgen, talker: Path) -> None:
+    (talker / "talker.cdsl").write_text(CDSL.replace("implements Talk", "implements Tolk"))
+    before = tree(talker)
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert "did you mean `Talk`?" in run.err
+    assert run.out == ""
+    assert tree(talker) == before
+
+
+@pytest.mark.parametrize("language", ["Cpp", "Cpp11"])
+def test_no_target_for_the_language(rcgen: Rcgen, talker: Path, language: str) -> None:
+    (talker / "talker.cdsl").write_text(CDSL.replace("Python", language))
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert "error[RC601]" in run.err
+    assert language in run.err
+    assert "`--language python`" in run.err
+    assert rcgen("component", "talker.cdsl", "--language", "Python").code == 0
+
+
+def test_the_middleware_of_the_command_line_wins(rcgen: Rcgen, talker: Path) -> None:
+    assert rcgen("component", "talker.cdsl", "--middleware", "InProc").code == 0
+    assert 'middleware="inproc"' in (talker / "generated" / "genericworker.py").read_text()
+    run = rcgen("component", "talker.cdsl", "--middleware", "zeno")
+    assert run.code == 2
+    assert "there is no middleware 'zeno'; did you mean `zenoh`?" in run.err
+
+
+def test_a_file_is_where_the_folder_should_be(rcgen: Rcgen, talker: Path) -> None:
+    (talker / "out").write_text("mine")
+    run = rcgen("component", "talker.cdsl", "-o", "out")
+    assert (run.code, run.out) == (1, "")
+    assert run.err == "error: `out` is a file, not a folder\n"
+    assert (talker / "out").read_text() == "mine"
+
+
+def test_a_folder_that_cannot_be(rcgen: Rcgen, talker: Path) -> None:
+    run = rcgen("component", "talker.cdsl", "-o", "/proc/nothing/here")
+    assert run.code == 1
+    assert run.err.startswith("error: cannot write `/proc/nothing")
+
+
+IMPORTS = ["../../etc/passwd", "/etc/passwd", "..\\..\\secret.idsl", "a\nb.idsl", "{{ 7*7 }}.idsl"]
+
+
+@pytest.mark.parametrize("written", IMPORTS)
+def test_imports_that_lead_astray(rcgen: Rcgen, talker: Path, written: str) -> None:
+    (talker / "talker.cdsl").write_text(f'import "{written}";\n{CDSL}')
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert "--> talker.cdsl:1:" in run.err
+    assert "root:" not in run.err
+
+
+NAMES = ['a"b', "a'b", "{{ 7*7 }}", "a b", "1a", "é", "a;import os"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_names_that_are_none(rcgen: Rcgen, talker: Path, name: str) -> None:
+    (talker / "talker.cdsl").write_text(CDSL.replace("talker", name))
+    before = set(tree(talker))
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert "error[RC" in run.err
+    assert set(tree(talker)) == before
+
+
+def test_broken_user_code_is_left_alone(rcgen: Rcgen, talker: Path) -> None:
+    (talker / "specificworker.py").write_text("def x(:\n")
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 0
+    assert "warning[RC613]: Python cannot read `specificworker.py`" in run.err
+    assert "--> specificworker.py:1:7" in run.err
+    (talker / "specificworker.py").write_bytes(b"\xff\x00")
+    run = rcgen("component", "talker.cdsl")
+    assert "warning[RC613]" in run.err
+    assert (talker / "specificworker.py").read_bytes() == b"\xff\x00"
+    (talker / "specificworker.py").write_text("class SpecificWorkr: pass\n")
+    assert "did you mean `SpecificWorkr`?" in rcgen("component", "talker.cdsl").err
+
+
+WORKERS = {
+    "def": ("def Talk_say(self): ...", True),
+    "async": ("async def Talk_say(self): ...", True),
+    "assigned": ("Talk_say = None", True),
+    "nothing": ("pass", False),
+    "a near name": ("def Talk_sya(self): ...", False),
+}
+
+
+@pytest.mark.parametrize("case", WORKERS)
+def test_how_a_class_can_have_a_method(rcgen: Rcgen, talker: Path, case: str) -> None:
+    body, complete = WORKERS[case]
+    text = f"class SpecificWorker(GenericWorker):\n    {body}\n"
+    (talker / "specificworker.py").write_text(text)
+    run = rcgen("component", "talker.cdsl")
+    assert ("RC611" not in run.err) is complete
+    if "near" in case:
+        assert "did you mean `Talk_sya`?" in run.err
+
+
+def test_methods_of_other_bases(rcgen: Rcgen, talker: Path) -> None:
+    file = talker / "specificworker.py"
+    file.write_text(
+        "class Mixin:\n    def Talk_say(self): ...\n"
+        "class SpecificWorker(Mixin, GenericWorker):\n    pass\n"
+    )
+    assert rcgen("component", "talker.cdsl").err == ""
+    file.write_text("class SpecificWorker(elsewhere.Mixin, GenericWorker):\n    pass\n")
+    assert rcgen("component", "talker.cdsl").err == ""
+    file.write_text("from mine import SpecificWorker\n")
+    assert rcgen("component", "talker.cdsl").err == ""
+
+
+def test_the_encoding_of_the_terminal_lacks_a_letter(
+    rcgen: Rcgen, talker: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (talker / "talker.cdsl").write_text(CDSL.replace("Talk;", "Tälk;"), "utf-8")
+    monkeypatch.setattr(type(sys.stderr), "encoding", "ascii", raising=False)
+    assert rcgen("component", "talker.cdsl").code == 1

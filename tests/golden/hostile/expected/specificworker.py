@@ -1,0 +1,37 @@
+"""hostile: what it does. Written once by rcgen; from now on this file is yours."""
+
+from __future__ import annotations
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import A
+
+
+class SpecificWorker(GenericWorker):
+    """| a | table | <b>bold</b> \"\"\" {{ 7 * 7 }}
+    # Heading
+    ```
+    """
+
+    def initialize(self) -> None:
+        """Once at the start; the parameters are in self.params."""
+
+    def compute(self) -> None:
+        """Every 100 ms."""
+        # For example (types such as the ones named here are in generated.interfaces):
+        # result = self.hostile_proxy.call(A())
+        # self.topic_proxy.tell(A())
+
+    # implements RoboCompHostile::Hostile
+
+    def Hostile_call(self, a: A) -> A:
+        """\\u0041 \\x41 \\N{DIGIT ONE} ""
+
+        May raise X.
+        """
+        # Put your code here. Until then a caller is told that there is none.
+        return super().Hostile_call(a)
+
+    # subscribesTo RoboCompHostile::HostileTopic
+
+    def HostileTopic_tell(self, a: A) -> None:
+        """' '' '''"""

@@ -1,0 +1,15 @@
+"""arm: what it does. Written once by rcgen; from now on this file is yours."""
+
+from __future__ import annotations
+
+from generated.genericworker import GenericWorker
+
+
+class SpecificWorker(GenericWorker):
+    """The component arm."""
+
+    def initialize(self) -> None:
+        """Once at the start; the parameters are in self.params."""
+
+    def compute(self) -> None:
+        """Every 1 ms."""

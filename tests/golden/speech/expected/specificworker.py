@@ -1,0 +1,41 @@
+"""speech: what it does. Written once by rcgen; from now on this file is yours."""
+
+from __future__ import annotations
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import DatasayReq, DatasayResp
+
+
+class SpecificWorker(GenericWorker):
+    """Says what it is told, and what the laser sees.
+
+    A second paragraph.
+    """
+
+    def initialize(self) -> None:
+        """Once at the start; the parameters are in self.params."""
+
+    def compute(self) -> None:
+        """Every 20 ms."""
+        # For example (types such as the ones named here are in generated.interfaces):
+        # result = self.laser_proxy.getLaserData()
+        # result = self.front_proxy.getLaserData()
+        # self.speechevents_proxy.spoken(DatasayReq())
+
+    # implements RoboCompSpeech::Speech
+
+    def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
+        """Say a sentence; the answer tells how many wait.
+
+        May raise NoVoice.
+        """
+        # Put your code here. Until then a caller is told that there is none.
+        return super().Speech_say(req)
+
+    def Speech_isBusy(self) -> bool:
+        """Whether something is being said."""
+        # Put your code here. Until then a caller is told that there is none.
+        return super().Speech_isBusy()
+
+    def Speech_stop(self) -> None:
+        """Be quiet."""
