@@ -63,7 +63,8 @@ SCALARS = st.one_of(
     st.text(max_size=20),
     st.sampled_from(
         ["1e3", "0x10", "010", ".nan", "-.inf", "~", "yes", "5", "-1", "1_0", "!!int 5", "*x",
-         "&x 5", "|\n  a", "[1, 2]", "{a: 1}", "- 1", '"5"', "'a", "<<", "9" * 500, "1:30", "a", "off"]
+         "&x 5", "|\n  a", "[1, 2]", "{a: 1}", "- 1", '"5"', "'a", "<<", "9" * 500, "1:30",
+         "a", "off"]
     ),
     st.integers().map(str),
     st.floats().map(str),
@@ -116,7 +117,8 @@ def test_bytes(tmp_path: Path, data: bytes, suffix: str) -> None:
 
 OBJECTS = st.one_of(
     st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=9),
-    st.binary(max_size=3), st.complex_numbers(), st.decimals(), st.fractions(), st.lists(st.integers(), max_size=2),
+    st.binary(max_size=3), st.complex_numbers(), st.decimals(), st.fractions(),
+    st.lists(st.integers(), max_size=2),
 )  # fmt: skip
 
 
