@@ -16,17 +16,20 @@ from typing import Self
 class Execution:
     """The token of one component."""
 
-    __slots__ = ("_holders", "_lock", "_relieve")
+    __slots__ = ("_acquire", "_holders", "_release", "_relieve")
 
     def __init__(self, threads: int = 1) -> None:
-        self._lock = threading.Lock() if threads == 1 else threading.Semaphore(threads)
+        lock = threading.Lock() if threads == 1 else threading.Semaphore(threads)
+        self._acquire: Callable[..., bool] = lock.acquire
+        self._release: Callable[[], None] = lock.release
         self._holders: set[int] = set()
         self._relieve: dict[int, Callable[[], None]] = {}
 
-    def enter(self, timeout: float = -1) -> bool:
+    def enter(self, timeout: float | None = None) -> bool:
         """Take the token; False when `timeout` s went by first."""
-        # A semaphore takes None for "for ever", a lock -1.
-        if not (self._lock.acquire() if timeout < 0 else self._lock.acquire(timeout=timeout)):
+        if timeout is None:
+            self._acquire()
+        elif not self._acquire(True, timeout):
             return False
         self._holders.add(get_ident())
         return True
@@ -34,7 +37,7 @@ class Execution:
     def leave(self) -> None:
         """Give the token back."""
         self._holders.discard(get_ident())
-        self._lock.release()
+        self._release()
 
     def __enter__(self) -> Self:
         self.enter()
@@ -43,22 +46,26 @@ class Execution:
     def __exit__(self, *_: object) -> None:
         self.leave()
 
+    @property
+    def busy(self) -> bool:
+        """Whether somebody runs."""
+        return bool(self._holders)
+
     def pause(self) -> bool:
         """Before waiting for a remote answer: let others run. Tells whether to `resume`."""
         me = get_ident()
         if me not in self._holders:
             return False
-        self._holders.discard(me)
-        self._lock.release()
-        if self._relieve:
-            relieve = self._relieve.get(me)
-            if relieve:
-                relieve()
+        self._holders.remove(me)
+        self._release()
+        relieve = self._relieve.get(me)
+        if relieve:
+            relieve()
         return True
 
     def resume(self) -> None:
         """Take the token again after a `pause` that said so."""
-        self._lock.acquire()
+        self._acquire()
         self._holders.add(get_ident())
 
     def on_pause(self, relieve: Callable[[], None] | None) -> None:

@@ -19,7 +19,10 @@ class Closed(Exception):
 
 
 class Receiver:
-    """Threads that handle what `take` gives; `take` blocks, and raises `Closed` at the end."""
+    """Threads that handle what `take` gives; `take` blocks, and raises `over` at the end.
+
+    `handle` deals with its own failures.
+    """
 
     def __init__(
         self,
@@ -27,7 +30,9 @@ class Receiver:
         take: Callable[[], Any],
         handle: Callable[[Any], None],
         execution: Execution,
+        over: type[Exception] = Closed,
     ) -> None:
+        self._ends = over
         self._name = name
         self._take = take
         self._handle = handle
@@ -48,26 +53,31 @@ class Receiver:
     def _run(self) -> None:
         me = threading.get_ident()
         self._execution.on_pause(self._hand_over)
-        while self._lead(me):
+        handle, take = self._handle, self._take
+        while self._leader == me or self._lead(me):
             try:
-                self._handle(self._take())
-            except Closed:
+                job = take()
+            except self._ends:
                 self._over = True
+                self._leader = 0
+                self._baton.release()
+            else:
+                handle(job)
+                # Gone before the next wait, or a query would be held open until then.
+                del job
         self._execution.on_pause(None)
 
     def _lead(self, me: int) -> bool:
-        """Become the leader, or stay it; False when there is nothing left to lead."""
-        if self._leader != me:
-            with self._guard:
-                self._spare += 1
-            self._baton.acquire()
-            with self._guard:
-                self._spare -= 1
-            self._leader = me
+        """Become the leader; False when there is nothing left to lead."""
+        with self._guard:
+            self._spare += 1
+        self._baton.acquire()
+        with self._guard:
+            self._spare -= 1
         if self._over:
-            self._leader = 0
             self._baton.release()
             return False
+        self._leader = me
         return True
 
     def _hand_over(self) -> None:

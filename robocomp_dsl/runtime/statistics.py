@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+TIMED_EACH = 4
+"""Of so many calls one is timed: reading the clock twice is a good part of what a call costs."""
 KEPT = 512
 """Durations that a percentile is taken over: the latest ones."""
 

@@ -135,7 +135,7 @@ def test_no_answer_in_time(network: Network) -> None:
     first, second = network.node("first").probe(), network.node("second").probe()
     with ThreadPoolExecutor(1) as pool:
         blocking = pool.submit(first.block)
-        wait_for(lambda: server.execution._holders)
+        wait_for(lambda: server.execution.busy)
         second.set_timeout(0.2)
         with pytest.raises(Timeout):
             second.add(1, 1)
@@ -220,7 +220,7 @@ def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> No
     news = network.node("p").news()
     assert news.wait_for_server(DEADLINE)
     news.said("p", 0)
-    wait_for(lambda: node.execution._holders)
+    wait_for(lambda: node.execution.busy)
     for n in range(1, 50):
         news.said("p", n)
     if network.kind == "zenoh":
@@ -282,7 +282,7 @@ def test_an_interrupt_ends_a_call_that_waits(network: Network) -> None:
     client = network.node("client")
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(client.probe().block)
-        wait_for(lambda: server.execution._holders)
+        wait_for(lambda: server.execution.busy)
         client.middleware.interrupt()
         with pytest.raises(NoServer, match="stopping"):
             asked.result(DEADLINE)

@@ -66,7 +66,7 @@ def test_others_run_while_a_handler_waits(network: Network) -> None:
     first, second = network.node("first"), network.node("second")
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(first.probe("middle").block)
-        wait_for(lambda: slow.execution._holders)
+        wait_for(lambda: slow.execution.busy)
         assert second.probe("middle").add(1, 2) == 3
         free.set()
         waiting.result(DEADLINE)

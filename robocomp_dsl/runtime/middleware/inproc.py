@@ -19,7 +19,6 @@ from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     DeclaredError,
     InterfaceMismatch,
-    MiddlewareError,
     NoServer,
     RemoteError,
     Timeout,
@@ -207,25 +206,24 @@ class ServiceLink:
 
     def _query(self, operation: Operation, counts: OperationCounts) -> Bound:
         name, throws = operation.name, operation.throws
-        mine = self._host.execution
+        pause, resume = self._host.execution.pause, self._host.execution.resume
         server: _Served | None = None
         handler: Bound = self.bind
-        execution = mine
+        enter, leave = self._host.execution.enter, self._host.execution.leave
 
         def query(*arguments: Any) -> Any:
-            nonlocal server, handler, execution
+            nonlocal server, handler, enter, leave
             if server is None or not server.alive:
                 server = self._find()
-                handler, execution = server.handlers[name], server.execution
+                handler = server.handlers[name]
+                enter, leave = server.execution.enter, server.execution.leave
             counts.calls += 1
-            paused = mine.pause()
+            paused = pause()
             try:
-                if not execution.enter(self.timeout):
+                if not enter(self.timeout):
                     raise Timeout(f"{server.name} was busy for {self.timeout:g} s")
                 try:
                     return handler(*arguments)
-                except MiddlewareError as error:
-                    raise RemoteError(_failed(server, name, error)) from error
                 except Exception as error:
                     counts.failures += 1
                     if isinstance(error, DeclaredError) and isinstance(error, throws):
@@ -233,10 +231,10 @@ class ServiceLink:
                     log_failure(name, error)
                     raise RemoteError(_failed(server, name, error)) from error
                 finally:
-                    execution.leave()
+                    leave()
             finally:
                 if paused:
-                    mine.resume()
+                    resume()
 
         return query
 

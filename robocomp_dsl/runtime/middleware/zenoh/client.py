@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import failure
 from robocomp_dsl.runtime.middleware.zenoh.directory import Directory
 from robocomp_dsl.runtime.middleware.zenoh.keys import Present
+from robocomp_dsl.runtime.statistics import TIMED_EACH
 
 PRIORITIES = {
     "realtime": zenoh.Priority.REAL_TIME,
@@ -62,7 +63,8 @@ class ServiceLink:
         self._hash = at.interface.hash
         self._opened = time.monotonic()
         self._server: Present | None = None
-        self._generation = 0
+        self._seen = -1
+        self._queriers: dict[str, tuple[tuple[Present, float], zenoh.Querier]] = {}
 
     @property
     def timeout(self) -> float:
@@ -72,7 +74,8 @@ class ServiceLink:
     @timeout.setter
     def timeout(self, seconds: float) -> None:
         self._timeout = seconds
-        self._generation += 1
+        # Bound calls look at the directory again when its version is another.
+        self._directory.version += 1
 
     def bind(self, operation: Operation) -> Bound:
         """See `base.Link`."""
@@ -82,59 +85,62 @@ class ServiceLink:
 
     def _query(self, operation: Operation) -> Bound:
         counts = self._host.statistics.of(self._at.port, operation.name)
-        execution, attachment, stop = self._host.execution, self._hash, self._stop
+        pause, resume, stop = self._host.execution.pause, self._host.execution.resume, self._stop
         encode, decode = operation.encode_request, operation.decode_reply
-        querier: zenoh.Querier | None = None
-        generation = -1
+        directory = self._directory
+        version = -1
+        ask: Any = None
 
         def query(*arguments: Any) -> Any:
-            nonlocal querier, generation
+            nonlocal version, ask
             data = encode(arguments)
             counts.calls += 1
-            start = perf_counter_ns()
-            paused = execution.pause()
+            counts.bytes_out += len(data)
+            start = 0 if counts.calls % TIMED_EACH else perf_counter_ns()
+            paused = pause()
             try:
-                server = self._find()
-                if querier is None or generation != self._generation:
-                    querier = self._querier(server, operation)
-                    generation = self._generation
-                answer = self._ask(querier, data, attachment, stop)
-                if answer is None and operation.idempotent and not self._directory.over:
-                    # The server ended with the question, which may be asked again.
-                    server = self._find(self._timeout)
-                    querier = self._querier(server, operation)
-                    generation = self._generation
-                    answer = self._ask(querier, data, attachment, stop)
+                if version != directory.version:
+                    version = directory.version
+                    ask = self._querier(operation).get
+                try:
+                    reply = ask(payload=data, cancellation_token=stop).recv()
+                except zenoh.ZError:
+                    reply = self._again(operation, data)
             except BaseException:
                 counts.failures += 1
                 raise
             finally:
                 if paused:
-                    execution.resume()
-            counts.bytes_out += len(data)
-            counts.durations.add(perf_counter_ns() - start)
-            if answer is None:
+                    resume()
+            if start:
+                counts.durations.add(perf_counter_ns() - start)
+            sample = reply.ok
+            if sample is None:
                 counts.failures += 1
-                raise self._gone(operation)
-            if answer.ok is None:
-                counts.failures += 1
-                name = f"{server.component}.{server.port}"
-                raise failure(operation, name, answer.err.payload.to_bytes(), self._timeout)
-            received = answer.ok.payload.to_bytes()
+                raise self._failure(operation, reply)
+            received = sample.payload.to_bytes()
             counts.bytes_in += len(received)
             return decode(received)
 
         return query
 
-    @staticmethod
-    def _ask(
-        querier: zenoh.Querier, data: bytes, attachment: bytes, stop: zenoh.CancellationToken
-    ) -> Any:
-        """The reply; None when there was nobody to give one."""
-        try:
-            return querier.get(payload=data, attachment=attachment, cancellation_token=stop).recv()
-        except zenoh.ZError:
-            return None
+    def _again(self, operation: Operation, data: bytes) -> Any:
+        """There was no reply at all: ask the next server, if the question may be asked twice."""
+        if operation.idempotent and not self._directory.over:
+            self._find(self._timeout)
+            try:
+                return (
+                    self._querier(operation).get(payload=data, cancellation_token=self._stop).recv()
+                )
+            except zenoh.ZError:
+                pass
+        raise self._gone(operation)
+
+    def _failure(self, operation: Operation, reply: zenoh.Reply) -> Exception:
+        """What an answer without a result says."""
+        server = f"{self._server.component}.{self._server.port}" if self._server else self._at.port
+        data = reply.err.payload.to_bytes() if reply.err else b""
+        return failure(operation, server, data, self._timeout)
 
     def _gone(self, operation: Operation) -> Exception:
         """No reply at all: the server ended with the question, or this component is ending."""
@@ -143,13 +149,19 @@ class ServiceLink:
             return NoServer(who)
         return NoServer(f"{self._at.port}.{operation.name}: the component that served it has ended")
 
-    def _querier(self, server: Present, operation: Operation) -> zenoh.Querier:
-        return self._session.declare_querier(
-            self._key("q", server, operation),
-            timeout=self._timeout,
-            consolidation=zenoh.ConsolidationMode.NONE,
-            **sending(self._at.qos),
-        )
+    def _querier(self, operation: Operation) -> zenoh.Querier:
+        """A querier for the server as it is now. Raises what `pick` raises."""
+        server = self._find()
+        made = self._queriers.get(operation.name)
+        if made is None or made[0] != (server, self._timeout):
+            querier = self._session.declare_querier(
+                self._key("q", server, operation),
+                timeout=self._timeout,
+                consolidation=zenoh.ConsolidationMode.NONE,
+                **sending(self._at.qos),
+            )
+            made = self._queriers[operation.name] = ((server, self._timeout), querier)
+        return made[1]
 
     def _key(self, kind: keys.Kind, server: Present, operation: Operation) -> str:
         at = Endpoint(self._at.interface, server.component, server.port)
@@ -157,32 +169,35 @@ class ServiceLink:
 
     def _command(self, operation: Operation) -> Bound:
         counts = self._host.statistics.of(self._at.port, operation.name)
-        encode, attachment = operation.encode_request, self._hash
-        publisher: zenoh.Publisher | None = None
-        generation = -1
+        encode = operation.encode_request
+        server: Present | None = None
+        publisher: Any = None
 
         def command(*arguments: Any) -> None:
-            nonlocal publisher, generation
+            nonlocal publisher, server
             data = encode(arguments)
             counts.calls += 1
             try:
-                server = self._find()
+                found = self._find()
             except Exception:
                 counts.failures += 1
                 raise
-            if publisher is None or generation != self._generation:
+            if found != server:
+                server = found
                 settings = {"congestion_control": zenoh.CongestionControl.BLOCK}
                 publisher = self._session.declare_publisher(
                     self._key("c", server, operation), **settings | sending(self._at.qos)
                 )
-                generation = self._generation
-            publisher.put(data, attachment=attachment)
+            publisher.put(data)
             counts.bytes_out += len(data)
 
         return command
 
     def _find(self, seconds: float | None = None) -> Present:
         """The server, as the directory has it now. Raises what `pick` raises."""
+        version = self._directory.version
+        if self._server is not None and version == self._seen:
+            return self._server
         found = [
             p for p in self._directory.find("server", self._at.interface.name) if self._fits(p)
         ]
@@ -196,7 +211,7 @@ class ServiceLink:
         if server != self._server:
             self._check(server)
             self._server = server
-            self._generation += 1
+        self._seen = version
         return server
 
     def _wait(self, seconds: float) -> list[Present]:
@@ -246,14 +261,16 @@ class TopicLink:
     def bind(self, operation: Operation) -> Bound:
         """See `base.Link`."""
         counts = self._host.statistics.of(self._at.port, operation.name)
-        encode, pack = operation.encode_request, keys.NUMBERED.pack
-        shape = self._at.interface.hash
+        encode, number = operation.encode_request, keys.NUMBER.pack
         key = f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.part(operation.name)}"
         publisher = self._session.declare_publisher(key, **sending(self._at.qos))
 
         def publish(*arguments: Any) -> None:
             data = encode(arguments)
-            publisher.put(data, attachment=pack(shape, counts.calls & 0xFFFFFFFF))
+            if counts.calls % keys.NUMBERED_EACH:
+                publisher.put(data)
+            else:
+                publisher.put(data, attachment=number(counts.calls & 0xFFFFFFFF))
             counts.calls += 1
             counts.bytes_out += len(data)
 

@@ -14,11 +14,12 @@ from robocomp_dsl.runtime.middleware.zenoh.keys import Present, parse_present, r
 
 
 class Directory:
-    """The ports of a domain."""
+    """The ports of a domain; `version` is another number after every change."""
 
     def __init__(self, session: zenoh.Session, domain: str) -> None:
         self._present: dict[str, Present] = {}
         self._changed = threading.Condition()
+        self.version = 0
         self.over = False
         self._subscriber = session.liveliness().declare_subscriber(
             f"{root(domain)}/p/**", self._hear, history=True
@@ -33,6 +34,7 @@ class Directory:
                 found = parse_present(key)
                 if found:
                     self._present[key] = found
+            self.version += 1
             self._changed.notify_all()
 
     def find(self, role: str, interface: str) -> list[Present]:

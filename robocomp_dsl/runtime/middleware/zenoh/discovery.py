@@ -107,7 +107,7 @@ def _folder(domain: str) -> Path:
 
 @contextlib.contextmanager
 def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Hold the folder's lock, for the milliseconds of opening; the kernel frees that of the dead."""
+    """Hold the lock of the folder while it is looked at; the kernel frees that of the dead."""
     lock = _locked(folder)
     while lock is None:
         lock = _locked(folder)

@@ -1,13 +1,15 @@
 """The key expressions of a domain, and what goes into the attachment of a message.
 
-    rc/<domain>/q/<interface>/<component>/<port>/<operation>    queries, answered
-    rc/<domain>/c/<interface>/<component>/<port>/<operation>    commands
-    rc/<domain>/t/<interface>/<component>/<port>/<operation>    publications
-    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>  token: this port is served
-    rc/<domain>/s/<component>/<pid>/<state>                     token: this component is alive
+    rc/<domain>/q/<interface>/<hash>/<component>/<port>/<operation>  queries, answered
+    rc/<domain>/c/<interface>/<hash>/<component>/<port>/<operation>  commands
+    rc/<domain>/t/<interface>/<hash>/<component>/<port>/<operation>  publications
+    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>       token: this port is served
+    rc/<domain>/s/<component>/<pid>/<state>                          token: this component is alive
 
-The attachment is the hash of the interface's shape (8 bytes), then the number of the message of
-its sender and operation (4 bytes, little endian, publications only).
+The hash is that of the interface's shape: bytes of another shape are not even routed to a port, and
+the tokens tell both sides that they differ. Every `NUMBERED_EACH`th publication has an attachment:
+how many its publisher has sent before (4 bytes, little endian), from which a subscriber knows what
+it has lost. (An attachment to every message was measured to cost a tenth of a round trip.)
 """
 
 from __future__ import annotations
@@ -19,8 +21,8 @@ from urllib.parse import quote, unquote
 
 from robocomp_dsl.runtime.middleware.base import Endpoint
 
-HASH_SIZE = 8
-NUMBERED = Struct("<8sI")
+NUMBERED_EACH = 16
+NUMBER = Struct("<I")
 Kind = Literal["q", "c", "t"]
 
 
@@ -34,10 +36,14 @@ def root(domain: str) -> str:
     return f"rc/{part(domain)}"
 
 
+def interface_key(domain: str, kind: Kind, at: Endpoint) -> str:
+    """The key of all ports with an interface of one shape."""
+    return f"{root(domain)}/{kind}/{part(at.interface.name)}/{at.interface.hash.hex()}"
+
+
 def port_key(domain: str, kind: Kind, at: Endpoint) -> str:
     """The key of a port, without the operation."""
-    name, component, port = part(at.interface.name), part(at.component), part(at.port)
-    return f"{root(domain)}/{kind}/{name}/{component}/{port}"
+    return f"{interface_key(domain, kind, at)}/{part(at.component)}/{part(at.port)}"
 
 
 @dataclass(frozen=True, slots=True)

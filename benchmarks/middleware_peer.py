@@ -1,0 +1,71 @@
+"""The other process: answers and echoes, by raw zenoh and by the runtime, until its input ends."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import Any
+
+import zenoh
+
+from benchmarks.pose_interface import MOVER, TRACK, Pose, TrackProxy
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.statistics import Statistics
+
+
+def drain(handler: Any, act: Any) -> None:
+    """Handle everything in a thread, as fast as raw code can."""
+
+    def work() -> None:
+        try:
+            while True:
+                act(handler.recv())
+        except zenoh.ZError:
+            pass
+
+    threading.Thread(target=work, daemon=True).start()
+
+
+def serve_raw(session: zenoh.Session, ready: bytes) -> list[Any]:
+    """A queryable and an echo that send ready bytes."""
+
+    def answer(query: zenoh.Query) -> None:
+        query.payload.to_bytes()
+        query.reply("raw/query", ready)
+        query.drop()
+
+    back = session.declare_publisher("raw/back")
+
+    def echo(sample: zenoh.Sample) -> None:
+        sample.payload.to_bytes()
+        back.put(ready)
+
+    queryable = session.declare_queryable("raw/query", zenoh.handlers.FifoChannel(256))
+    subscriber = session.declare_subscriber("raw/there", zenoh.handlers.FifoChannel(256))
+    drain(queryable.handler, answer)
+    drain(subscriber.handler, echo)
+    return [queryable, subscriber, back]
+
+
+def main(domain: str) -> None:
+    """Serve both ways."""
+    raw = open_session(domain)
+    kept = serve_raw(raw.session, MOVER.operations[0].encode_reply(Pose()))
+    execution = Execution()
+    made = open_middleware("zenoh", Host("peer", domain, execution, Statistics()))
+    made.serve(Endpoint(MOVER, "peer", "Mover"), {"move": lambda pose: pose}, execution)
+    back = TrackProxy(made.advertise(Endpoint(TRACK, "peer", "Back")))
+    at = Endpoint(TRACK, "peer", "There", ("client",))
+    made.subscribe(at, {"moved": back.moved}, execution)
+    print("ready", flush=True)
+    sys.stdin.read()
+    made.close()
+    raw.close()
+    del kept
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
