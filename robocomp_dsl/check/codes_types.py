@@ -211,7 +211,7 @@ ONE_WAY_OUTPUT = Code(
     "an operation that travels one way has an output",
     """\
 A `[command]` goes to one component and a `[publish]` to all that listen; neither is answered, so
-there is no result, no `out` and no exception. A `[query]` is answered.
+there is no result and no `out`. A `[query]` is answered.
 
 Wrong:
 
@@ -347,5 +347,25 @@ Wrong:
 Right:
 
     float rate [Hz];
+""",
+)
+
+UNHEARD_EXCEPTION = Code(
+    "RC320",
+    Severity.WARNING,
+    "the exception of an operation that travels one way reaches nobody",
+    """\
+A `[command]` and a `[publish]` are not answered, so an exception that the implementation raises
+ends in its log, whether it is declared or not. As a `[query]` the operation is answered, also when
+it has no result, and the exception arrives at the caller.
+
+Of no use:
+
+    [command] void setSpeed(Speed speed) throws HardwareFailed;
+
+Better:
+
+    [query] void setSpeed(Speed speed) throws HardwareFailed;
+    [command] void setSpeed(Speed speed);
 """,
 )

@@ -95,6 +95,15 @@ def _judge_operation(tree: ast.Operation, made: Operation, report: Report) -> No
 
 def _judge_one_way(tree: ast.Operation, made: Operation, report: Report) -> None:
     """A command and a publication travel one way: nothing can come back."""
+    if tree.throws and tree.pattern:
+        report.add(
+            codes.UNHEARD_EXCEPTION,
+            tree.throws[0].span.to(tree.throws[-1].span),
+            f"who uses `{made.name}` never learns of this: a `[{made.pattern}]` is not answered",
+            notes=[Note(tree.pattern.span, "marked here")],
+            help="mark it `[query]` to wait until it is done, or remove `throws`",
+            fix=Fix("mark it `[query]`", (Edit(tree.pattern.span, "query"),)),
+        )
     found = _first_output(tree)
     if found is None or tree.pattern is None:
         return
@@ -115,8 +124,6 @@ def _first_output(tree: ast.Operation) -> tuple[str, Span] | None:
     for param in tree.params:
         if param.out:
             return f"the output `{param.name.text}`", param.span
-    if tree.throws:
-        return "an exception", tree.throws[0].span
     return None
 
 

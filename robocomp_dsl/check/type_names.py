@@ -143,6 +143,9 @@ class TypeNames:
                 return _FOREIGN[word.lower()]
             return nearest(word, [*types.PRIMITIVES, *self._own_names, *self._imported()])
         module = name.module.text
+        moved = [d for d in self._visible.declarations(types.Declaration) if d.name == word]
+        if len(moved) == 1:
+            return moved[0].qualified
         if module == self._module:
             near = nearest(word, self._own_names)
         elif module in self._visible.module_names():

@@ -46,6 +46,7 @@ PATTERNS = [
     # text, pattern, inputs, outputs, result
     ("[command] void stop();", Pattern.COMMAND, "", "", None),
     ("[command] void go(Req r);", Pattern.COMMAND, "r", "", None),
+    ("[command] void go(Req r) throws Failed;", Pattern.COMMAND, "r", "", None),
     ("[publish] void told(Req r);", Pattern.PUBLISH, "r", "", None),
     ("[query] int say(Req q, Outcome o);", Pattern.QUERY, "q", "o", "int"),
     ("[query] int say(Req q, SayResponse o);", Pattern.QUERY, "q", "o", "int"),
