@@ -7,6 +7,8 @@ TactileError
     RejectedFrame        a taxel frame cannot be used; says why
     NotCalibrated        the skin has no baseline yet
     BadFit               points describe no cone
+    NoState              the arm has not been measured yet
+    NoChain              the description gives no kinematic chain
 """
 
 from __future__ import annotations
@@ -49,6 +51,14 @@ class NotCalibrated(TactileError):
 
 class BadFit(TactileError):
     """The points do not describe a cone; the message says why."""
+
+
+class NoState(TactileError):
+    """A command that starts from where the arm is, before anybody knows where that is."""
+
+
+class NoChain(TactileError):
+    """A question about space to an arm of which only the joints are described."""
 
 
 class InvalidCommand(TactileError):

@@ -1,0 +1,49 @@
+"""From the forces of one frame to what the receptive fields answer.
+
+In: the skin's geometry, the fields of one part and a law, once; forces (n,) every frame. Out:
+responses, of every field to every touch on its limb.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.reflex.law import Field, Law, Response, respond
+from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+from robocomp_dsl.tactile.skin.touches import REACH, Neighbours
+
+
+class Receptors:
+    """The fields of the part `part` on a skin; taxels of other parts are not looked at."""
+
+    def __init__(
+        self,
+        geometry: SkinGeometry,
+        part: str,
+        fields: tuple[Field, ...],
+        law: Law,
+        reach: float = REACH,
+    ) -> None:
+        limbs = [i for i, name in enumerate(geometry.limbs) if name.startswith(f"{part}/")]
+        mine = np.flatnonzero(np.isin(geometry.limb, limbs))
+        self.law = law
+        self._mine, self._points, self._limb = mine, geometry.points[mine], geometry.limb[mine]
+        self._neighbours = Neighbours.of(self._points, self._limb, reach)
+        self._fields: dict[int, list[Field]] = {i: [] for i in limbs}
+        for field in fields:
+            name = f"{part}/{field.limb}"
+            if name not in geometry.limbs:
+                raise KeyError(f"the skin has no limb `{name}` for the field `{field.name}`")
+            self._fields[geometry.limbs.index(name)].append(field)
+
+    def answer(self, forces: Floats) -> list[Response]:
+        """Responses to the touches among `forces` (n,) of a whole frame."""
+        felt = forces[self._mine]
+        answers = []
+        for touch in self._neighbours.touches(felt > 0.0):
+            for field in self._fields[int(self._limb[touch[0]])]:
+                answer = respond(self.law, field, self._points[touch], felt[touch])
+                if answer is not None:
+                    answers.append(answer)
+        return answers

@@ -1,0 +1,139 @@
+"""The generic arm: readings in, orders out, in generic units and in space."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm
+from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.read import read_robot
+from robocomp_dsl.tactile.errors import InvalidCommand, NoChain, NoState, Unreachable
+
+TEXT = """\
+robot: five
+parts:
+  arm:
+    servos:
+      - {joint: a, gamma: -1, sigma: 90 deg, limits: [-2, 2], speed: 4}
+      - {joint: b, gamma: 0.017453292519943295, sigma: 0, limits: [-20, 80], speed: 100, unit: deg}
+      - {joint: c, part: other, gamma: 1, sigma: 90 deg, limits: [-2, 2], speed: 4}
+      - {joint: d, gamma: -1, sigma: 0, limits: [-1.5, -0.03], start: -0.5, speed: 4}
+      - {sigma: 0.2}
+    chain:
+      base: {position: [0, 0.1, 0.1], rpy: [-90 deg, 0, 0]}
+      rows:
+        - {servo: 0, alpha: 90 deg}
+        - {servo: 1, a: 15 mm, alpha: 90 deg, offset: 90 deg}
+        - {servo: 2, d: 105 mm, alpha: -90 deg}
+        - {servo: 3, alpha: 90 deg}
+        - {servo: 4, d: 114 mm, a: 12 mm, offset: -90 deg}
+"""
+PART = read_robot(TEXT, Path("r.yaml")).part("arm")
+READING = np.array([1.2, 0.3, -1.0, -0.8])  # rad, whatever the unit of the device
+
+
+@pytest.fixture
+def arm() -> GenericArm:
+    made = GenericArm(PART)
+    made.sense(1.0, READING, np.array([0.1, 0.2, 0.3, 0.4]), np.array([1.0, 2.0, 3.0, 4.0]))
+    return made
+
+
+def test_readings_become_generic_angles(arm):
+    assert arm.state.position == pytest.approx([np.pi / 2 - 1.2, 0.3, np.pi / 2 - 1.0, 0.8, 0.2])
+    assert arm.state.velocity == pytest.approx([-0.1, 0.2, 0.3, -0.4, 0])
+    assert arm.state.torque == pytest.approx([-1, 2, 3, -4, 0])
+
+
+def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
+    orders = arm.move(arm.state.position)
+    assert orders.control is Control.POSITION
+    assert orders.joints == ("a", "b", "other/c", "d")
+    assert orders.values == pytest.approx(READING)
+    assert orders.speeds == pytest.approx([4, np.deg2rad(100), 4, 4])
+    assert not orders.clipped.any()
+    assert not orders.dropped.any()
+
+
+def test_moves_are_clipped_slowed_and_dropped_with_notice(arm):
+    orders = arm.move(np.array([9.0, 9, 0, 0.5, 1.0]), np.full(5, 0.5))
+    assert orders.values[:2] == pytest.approx([-2.0, np.deg2rad(80)])
+    assert orders.clipped.tolist() == [True, True, False, False, False]
+    assert orders.dropped.tolist() == [False] * 4 + [True]
+    assert orders.speeds == pytest.approx(np.full(4, 0.5))
+    fast = arm.move(arm.state.position, np.full(5, 99.0))
+    assert fast.speeds == pytest.approx([4, np.deg2rad(100), 4, 4])
+
+
+def test_displacements_start_from_where_the_arm_is(arm):
+    orders = arm.move_by(np.array([0.1, -0.1, 0.2, 0.1, 0.0]))
+    assert orders.values == pytest.approx(READING + np.array([-0.1, -0.1, 0.2, -0.1]))
+    with pytest.raises(NoState):
+        GenericArm(PART).move_by(np.zeros(5))
+
+
+def test_velocities_torques_and_stiffness(arm):
+    orders = arm.drive(np.array([1.0, 9.0, -9.0, 1.0, 1.0]))
+    assert orders.values == pytest.approx([-1, np.deg2rad(100), -4, -1])
+    assert orders.clipped.tolist() == [False, True, True, False, False]
+    assert orders.dropped[4] or orders.values.shape == (4,)
+    assert arm.push(np.ones(5)).values == pytest.approx([-1, 1, 1, -1])
+    stiffness, damping = arm.stiffness(np.full(5, 10.0), np.full(5, 1.0))
+    assert stiffness == pytest.approx(np.full(4, 10.0))
+    assert damping == pytest.approx(np.full(4, 1.0))
+    assert arm.follow(arm.state.position).control is Control.DIRECT
+
+
+def test_the_hand_reaches_points_and_says_what_it_cannot(arm):
+    goal = arm.chain.pose(np.array([0.6, 0.4, 0.2, 1.0, 0.2]))
+    orders = arm.reach(goal[:3, 3])
+    generic = arm.mapping.read(orders.values / arm._to_si)
+    assert arm.hand(generic)[:3, 3] == pytest.approx(goal[:3, 3], abs=2e-4)
+    with pytest.raises(Unreachable):
+        arm.reach(np.array([3.0, 0, 0]))
+
+
+@pytest.mark.parametrize("way", [(0.05, 0, 0), (0, 0.05, 0), (0, 0, -0.05)])
+def test_the_hand_glides_along_a_line(arm, way):
+    orders = arm.glide(np.array(way))
+    generic = np.zeros(5)
+    generic[:4] = arm.mapping.read_speed(orders.values / arm._to_si)[:4]
+    dt = 1e-4
+    before, after = arm.hand(), arm.hand(arm.state.position + generic * dt)
+    velocity = (after - before)[:3, 3] / dt
+    assert velocity == pytest.approx(way, abs=0.006)
+
+
+def test_gliding_respects_limits_and_speeds(arm):
+    fast = arm.glide(np.array([50.0, 0, 0]))
+    speeds = np.abs(arm.mapping.read_speed(fast.values / arm._to_si))
+    assert speeds.max() <= arm.speed_limits.max() + 1e-9
+    assert not fast.clipped.any()
+    edge = np.array([2.0, np.deg2rad(80), 2.0, -0.03])
+    arm.sense(2.0, edge, np.zeros(4), np.zeros(4))
+    for way in np.vstack((np.eye(3), -np.eye(3))):
+        orders = arm.glide(0.1 * way)
+        speed = arm.mapping.read_speed(orders.values / arm._to_si)
+        assert not ((arm.state.position >= arm.high - 1e-9) & (speed > 1e-9)).any()
+        assert not ((arm.state.position <= arm.low + 1e-9) & (speed < -1e-9)).any()
+
+
+@pytest.mark.parametrize("bad", [np.full(5, np.nan), np.zeros(4), np.zeros((5, 1))])
+def test_commands_that_cannot_be_meant_are_refused(arm, bad):
+    for command in (arm.move, arm.move_by, arm.follow, arm.drive, arm.push):
+        with pytest.raises(InvalidCommand):
+            command(bad)
+    for command in (arm.reach, arm.glide):
+        with pytest.raises(InvalidCommand):
+            command(np.array([0.0, np.inf, 0.0]))
+
+
+def test_an_arm_without_a_chain_moves_but_knows_no_space():
+    bare = GenericArm(Part("arm", PART.servos))
+    bare.sense(0.0, READING, np.zeros(4), np.zeros(4))
+    bare.move(bare.state.position)
+    with pytest.raises(NoChain):
+        bare.hand()
