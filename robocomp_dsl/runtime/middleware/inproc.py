@@ -209,15 +209,17 @@ class ServiceLink:
         pause, resume = self._host.execution.pause, self._host.execution.resume
         server: _Served | None = None
         handler: Bound = self.bind
+        theirs = counts
         enter, leave = self._host.execution.enter, self._host.execution.leave
 
         def query(*arguments: Any) -> Any:
-            nonlocal server, handler, enter, leave
+            nonlocal server, handler, enter, leave, theirs
             if server is None or not server.alive:
                 server = self._find()
-                handler = server.handlers[name]
+                handler, theirs = server.handlers[name], server.counts(name)
                 enter, leave = server.execution.enter, server.execution.leave
             counts.calls += 1
+            theirs.calls += 1
             paused = pause()
             try:
                 if not enter(self.timeout):
@@ -226,6 +228,7 @@ class ServiceLink:
                     return handler(*arguments)
                 except Exception as error:
                     counts.failures += 1
+                    theirs.failures += 1
                     if isinstance(error, DeclaredError) and isinstance(error, throws):
                         raise
                     log_failure(name, error)
