@@ -43,6 +43,8 @@ def colours_on(stream: TextIO) -> bool:
 
 def show(findings: Sequence[Diagnostic], form: str, stream: TextIO) -> None:
     """Print findings in one of `FORMATS`; the list of `json` is printed even when it is empty."""
+    if not findings and form != "json":
+        return
     from robocomp_dsl.cli import formats, render  # noqa: PLC0415 - most runs find nothing
 
     if form == "full":

@@ -17,6 +17,15 @@ and ask for Python on the command line:
 The generated component talks to components of any language through its middleware.""",
 )
 
+NO_STATE_MACHINE = Code(
+    "RC602",
+    Severity.WARNING,
+    "nothing is generated for the state machine",
+    """The component has `statemachine "x.smdsl";`. This version generates the component without it:
+its life cycle (initialize, compute, emergency, restore, finalize) is there, its own states are not.
+The line can stay; until then, keep the state in an attribute and look at it in `compute`.""",
+)
+
 MISSING_METHOD = Code(
     "RC611",
     Severity.WARNING,

@@ -228,3 +228,13 @@ def test_the_encoding_of_the_terminal_lacks_a_letter(
     (talker / "talker.cdsl").write_text(CDSL.replace("Talk;", "Tälk;"), "utf-8")
     monkeypatch.setattr(type(sys.stderr), "encoding", "ascii", raising=False)
     assert rcgen("component", "talker.cdsl").code == 1
+
+
+def test_a_state_machine_is_not_passed_over_in_silence(rcgen: Rcgen, talker: Path) -> None:
+    (talker / "x.smdsl").write_text("x { states a; initial_state b; transitions { b => a; }; };\n")
+    (talker / "talker.cdsl").write_text(
+        CDSL.replace("language Python;", 'language Python; statemachine "x.smdsl";')
+    )
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 0
+    assert "warning[RC602]" in run.err

@@ -17,7 +17,8 @@ class SpecificWorker(GenericWorker):
 
     def compute(self) -> None:
         """Every 100 ms."""
-        # For example (types such as the ones named here are in generated.interfaces):
+        # For example (the types are in generated.interfaces; a call that nobody answers
+        # raises NoServer or Timeout of robocomp_dsl.runtime.types):
         # result = self.hostile_proxy.call(A())
         # self.topic_proxy.tell(A())
 

@@ -7,7 +7,7 @@ from generated.interfaces import DatasayReq, DatasayResp
 
 
 class SpecificWorker(GenericWorker):
-    """Says what it is told, and what the laser sees.
+    """Says what it is told, and what is in front of it.
 
     A second paragraph.
     """
@@ -17,9 +17,10 @@ class SpecificWorker(GenericWorker):
 
     def compute(self) -> None:
         """Every 20 ms."""
-        # For example (types such as the ones named here are in generated.interfaces):
-        # result = self.laser_proxy.getLaserData()
-        # result = self.front_proxy.getLaserData()
+        # For example (the types are in generated.interfaces; a call that nobody answers
+        # raises NoServer or Timeout of robocomp_dsl.runtime.types):
+        # result = self.range_proxy.getScan()
+        # result = self.front_proxy.getScan()
         # self.speechevents_proxy.spoken(DatasayReq())
 
     # implements RoboCompSpeech::Speech

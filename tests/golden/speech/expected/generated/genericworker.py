@@ -10,14 +10,14 @@ from generated.interfaces import (
     SPEECH,
     DatasayReq,
     DatasayResp,
-    LaserProxy,
+    RangeProxy,
     SpeechEventsProxy,
 )
 from generated.params import SpeechParams
 
 
 class GenericWorker(Component):
-    """Says what it is told, and what the laser sees.
+    """Says what it is told, and what is in front of it.
 
     A second paragraph.
     """
@@ -35,8 +35,8 @@ class GenericWorker(Component):
             ),
         ),
         requires=(
-            CalledPort("Laser", LaserProxy, "laser_proxy"),
-            CalledPort("front", LaserProxy, "front_proxy"),
+            CalledPort("Range", RangeProxy, "range_proxy"),
+            CalledPort("front", RangeProxy, "front_proxy"),
         ),
         publishes=(
             CalledPort("SpeechEvents", SpeechEventsProxy, "speechevents_proxy"),
@@ -45,8 +45,8 @@ class GenericWorker(Component):
         parameters=SpeechParams,
     )
     params: SpeechParams
-    laser_proxy: LaserProxy
-    front_proxy: LaserProxy
+    range_proxy: RangeProxy
+    front_proxy: RangeProxy
     speechevents_proxy: SpeechEventsProxy
 
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
