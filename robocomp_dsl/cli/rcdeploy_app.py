@@ -47,7 +47,6 @@ def check(
         name=running,
         domain=domain or f"{running}-{secrets.token_hex(3)}",
         interpreter=sys.executable,
-        shares_domain=domain is not None,
     )
     report.extend(preflight(deployment, made))
     if not report.failed:

@@ -89,7 +89,7 @@ def _run(
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
-        watch = ZenohWatch(plan.domain, remove=not plan.shares_domain)
+        watch = ZenohWatch(plan.domain)
     except MiddlewareError as error:
         return Outcome(FINDINGS, str(error))
     terminal = Terminal(

@@ -45,31 +45,20 @@ class Process:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A deployment as processes, in an order that respects `after`.
-
-    `shares_domain`: others may be in the domain, too, because the user has named it.
-    """
+    """A deployment as processes, in an order that respects `after`."""
 
     name: str
     path: Path
     domain: str
     middleware: str
     processes: tuple[Process, ...]
-    shares_domain: bool = False
 
     def stop_waves(self) -> list[list[str]]:
         """Names to stop together, wave after wave."""
         return waves({p.name: set(p.stops_after) for p in self.processes})
 
 
-def plan(
-    deployment: Deployment,
-    *,
-    name: str,
-    domain: str,
-    interpreter: str,
-    shares_domain: bool = False,
-) -> Plan:
+def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) -> Plan:
     """The processes of `deployment`. `interpreter` stands for `python3` in command lines."""
     order = {instance.name: i for i, instance in enumerate(deployment.instances)}
     processes = [
@@ -77,7 +66,7 @@ def plan(
     ]
     before = {p.name: _users(p.name, deployment, order) for p in processes}
     ordered = tuple(replace(p, stops_after=before[p.name]) for p in processes)
-    return Plan(name, deployment.path, domain, deployment.middleware, ordered, shares_domain)
+    return Plan(name, deployment.path, domain, deployment.middleware, ordered)
 
 
 def waves(waits_for: dict[str, set[str]]) -> list[list[str]]:

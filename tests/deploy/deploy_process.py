@@ -33,14 +33,17 @@ class Running:
         self._limit.start()
         self.lines: list[str] = []
 
-    def until(self, text: str) -> str:
-        """Read up to the line that contains `text`."""
+    def until(self, *texts: str) -> str:
+        """Read on until every one of `texts` has come, in any order; the line of the last one."""
         assert self.process.stdout is not None
+        found: dict[str, str] = {}
         for line in self.process.stdout:
             self.lines.append(line.rstrip("\n"))
-            if text in line:
-                return line
-        raise AssertionError(f"`{text}` never came:\n" + "\n".join(self.lines))
+            found |= {text: line for text in texts if text in line}
+            if len(found) == len(texts):
+                return found[texts[-1]]
+        missing = " and ".join(f"`{text}`" for text in texts if text not in found)
+        raise AssertionError(f"{missing} never came:\n" + "\n".join(self.lines))
 
     def end(self) -> int:
         """Read the rest; the exit code."""

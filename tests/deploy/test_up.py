@@ -91,8 +91,7 @@ def pid_in(line: str) -> int:
 
 def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
     with up() as app:
-        app.until("all 2 components are ready")
-        arm = pid_in(app.until("eye sees a new arm"))
+        arm = pid_in(app.until("all 2 components are ready", "eye sees a new arm"))
         state = status()
         assert [(c["name"], c["state"]) for c in state["components"]] == [
             ("arm", "ready"), ("eye", "ready"),
@@ -149,7 +148,7 @@ def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
     assert not one.has("AmbiguousServer")
 
 
-def test_killed_rcdeploy_lets_components_finalize(folder: Path) -> None:
+def test_killed_rcdeploy_lets_components_finalize(folder: Path, sockets: Path) -> None:
     with up() as app:
         app.until("all 2 components are ready")
         token = f"{status()['domain']}.{app.process.pid}"
@@ -159,6 +158,7 @@ def test_killed_rcdeploy_lets_components_finalize(folder: Path) -> None:
         app.end()
         sentinel._wait(running, 30)
         assert sentinel.marked(token) == []
+    assert [path.name for path in sockets.iterdir()] == [".deployments"]
     # Its name is free at once, although nobody gave it back.
     with up("--duration", "0") as again:
         assert again.end() == 0
@@ -194,7 +194,7 @@ def test_a_port_in_use_starts_nothing(folder: Path, sockets: Path) -> None:
     assert not sockets.exists()
 
 
-def test_a_named_domain_may_be_joined_by_hand(folder: Path, sockets: Path) -> None:
+def test_a_named_domain_may_be_joined_by_hand(folder: Path) -> None:
     with up("--domain", "lab", "--duration", "1000") as app:
         app.until("all 2 components are ready")
         command = [sys.executable, "main.py", "--name", "guest", "--domain", "lab"]
@@ -204,4 +204,3 @@ def test_a_named_domain_may_be_joined_by_hand(folder: Path, sockets: Path) -> No
             assert guest.end() == 0
         app.process.terminate()
         assert app.end() == 0
-    assert (sockets / "lab").is_dir()  # others may be about to use it

@@ -5,7 +5,6 @@ In: a domain. Out: every change of state, as it happens; the death of a process 
 
 from __future__ import annotations
 
-import contextlib
 import threading
 
 import zenoh
@@ -16,14 +15,10 @@ from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
 
 
 class ZenohWatch:
-    """A session that only looks on. Raises `MiddlewareError` when it cannot be opened.
+    """A session that only looks on. Raises `MiddlewareError` when it cannot be opened."""
 
-    `remove`: nobody but the deployment uses the domain, so nothing of it is to be left at the end.
-    """
-
-    def __init__(self, domain: str, *, remove: bool) -> None:
+    def __init__(self, domain: str) -> None:
         self._domain = domain
-        self._remove = remove
         self._states: dict[tuple[str, int], str] = {}
         self._lock = threading.Lock()
         self._opened = open_session(domain)
@@ -52,11 +47,4 @@ class ZenohWatch:
 
     def close(self) -> None:
         """See `Watch`."""
-        folder = self._opened.socket.parent
         self._opened.close()
-        if self._remove:
-            # What a killed component left is swept by the next process of the domain, if any.
-            with contextlib.suppress(OSError):
-                for path in folder.iterdir():
-                    path.unlink()
-                folder.rmdir()

@@ -45,7 +45,8 @@ class Opened:
         folder = self.socket.parent
         with contextlib.suppress(OSError), _one_at_a_time(folder):
             _remove(self.socket)
-            if [path.name for path in folder.iterdir()] == [_LOCK]:
+            # Looking who lives also sweeps what killed processes left.
+            if not list(_living(folder)) and [p.name for p in folder.iterdir()] == [_LOCK]:
                 (folder / _LOCK).unlink()
                 folder.rmdir()
 
