@@ -11,7 +11,8 @@ import logging
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from robocomp_dsl import __version__
@@ -59,10 +60,28 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
     except (MiddlewareError, UnknownMiddleware) as error:
         log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
         return 1
-    for one in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(one, lambda *_: runner.stop())
+    _on_signals(runner.stop)
     runner.start()
     return 0 if runner.wait() else 1
+
+
+def _on_signals(stop: Callable[[], None]) -> None:
+    """Call `stop` on SIGTERM and SIGINT, whichever thread the system hands them to.
+
+    Python runs its handlers in the main thread only, which can sleep through a signal; the byte in
+    the pipe is written by the handler in C.
+    """
+    heard, told = os.pipe()
+    os.set_blocking(told, False)
+    signal.set_wakeup_fd(told, warn_on_full_buffer=False)
+    for one in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(one, lambda *_: None)
+
+    def listen() -> None:
+        os.read(heard, 1)
+        stop()
+
+    threading.Thread(target=listen, name="signals", daemon=True).start()
 
 
 def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
