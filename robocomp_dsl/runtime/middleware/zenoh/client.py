@@ -100,8 +100,9 @@ class ServiceLink:
             paused = pause()
             try:
                 if version != directory.version:
-                    version = directory.version
+                    seen = directory.version
                     ask = self._querier(operation).get
+                    version = seen  # only now: when there was no server, the next call looks again
                 try:
                     reply = ask(payload=data, cancellation_token=stop).recv()
                 except zenoh.ZError:
