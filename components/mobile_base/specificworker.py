@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -27,12 +26,12 @@ class SpecificWorker(GenericWorker):
     def initialize(self) -> None:
         """Build the world."""
         self.simulation = simulate(self.params)
-        self.last = time.monotonic()
+        self.last = self.clock.now()
         self.next_publication = 0.0
 
     def compute(self) -> None:
         """Let the world catch up with the clock, and tell where the base is."""
-        now = time.monotonic()
+        now = self.clock.now()
         passed, self.last = min(now - self.last, MOST_BEHIND), now
         world = self.simulation.world
         world.advance(passed * self.params.speed)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import logging
 from pathlib import Path
 
 from generated.genericworker import GenericWorker
 from generated.interfaces import PathSummary, TBaseState
 from path_record import PathRecord
-
-log = logging.getLogger("path_logger")
 
 
 class SpecificWorker(GenericWorker):
@@ -27,9 +24,9 @@ class SpecificWorker(GenericWorker):
         try:
             self.record.write(path)
         except OSError as error:
-            log.error("the path cannot be written to %s: %s", path, error.strerror)  # noqa: TRY400
+            self.log.error("the path cannot be written to %s: %s", path, error.strerror)  # noqa: TRY400
         else:
-            log.info("%d samples are in %s", len(self.record.samples), path.resolve())
+            self.log.info("%d samples are in %s", len(self.record.samples), path.resolve())
 
     # implements RoboCompPathLog::PathLog
 

@@ -77,10 +77,11 @@ def _room(axes: Axes, room: Sequence[Outline]) -> None:
             continue
         axes.add_patch(Polygon(one.corners, facecolor=THING, edgecolor=EDGE, linewidth=1, zorder=2))
         name = one.name.split(maxsplit=2)[-1]
-        middle = (one.corners.min(axis=0) + one.corners.max(axis=0)) / 2
+        middle = ((one.corners.min(axis=0) + one.corners.max(axis=0)) / 2).tolist()
         tall = np.ptp(one.corners[:, 1]) > 1.6 * np.ptp(one.corners[:, 0])
         axes.text(
-            *middle,
+            middle[0],
+            middle[1],
             name,
             color="#6d6046",
             size=8,
@@ -103,8 +104,8 @@ def _path(figure: Figure, axes: Axes, drive: Drive, rows: float) -> None:
     last = float(drive.time[-1])
     colours.set_ticks([float(drive.time[0]), last], labels=["start", f"{last:.0f} s"])
     bar.tick_params(length=0, labelsize=8, colors=SOFT, pad=3)
-    bar.get_xticklabels()[0].set_ha("left")
-    bar.get_xticklabels()[-1].set_ha("right")
+    for label, side in zip(bar.get_xticklabels(), ("left", "right"), strict=True):
+        label.set(ha=side)
     figure.text(
         0.955, 1 - 0.92 / rows, "dashed: odometry of the wheels", color=SOFT, size=8, ha="right"
     )
@@ -138,8 +139,10 @@ def _marks(axes: Axes, drive: Drive) -> None:
     rim = place + towards / max(float(np.linalg.norm(towards)), 1e-9) * drive.radius
     axes.plot(*np.stack([rim, drive.touching]).T, color=ALARM, linewidth=1.8, zorder=6)
     aside = 1 if drive.path[-1][0] < place[0] else -1  # away from where the path goes on
+    middle = ((rim + drive.touching) / 2).tolist()
     axes.text(
-        *(rim + drive.touching) / 2 + (aside * 110, 0),
+        middle[0] + aside * 110,
+        middle[1],
         f"{drive.clearance:.0f} mm",
         color=ALARM,
         size=8.5,

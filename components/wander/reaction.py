@@ -16,13 +16,33 @@ from numpy.typing import NDArray
 class Thresholds(Protocol):
     """The parameters that decide; the component's own have these names."""
 
-    threshold: float
-    front: float
-    advance: float
-    turn: float
-    turn_min: float
-    turn_max: float
-    side: str
+    @property
+    def threshold(self) -> float:
+        """Nearer than this (mm) is in the way."""
+
+    @property
+    def front(self) -> float:
+        """Half the width of the front sector, rad."""
+
+    @property
+    def advance(self) -> float:
+        """mm/s."""
+
+    @property
+    def turn(self) -> float:
+        """rad/s."""
+
+    @property
+    def turn_min(self) -> float:
+        """ms."""
+
+    @property
+    def turn_max(self) -> float:
+        """ms."""
+
+    @property
+    def side(self) -> str:
+        """`freer` or `random`."""
 
 
 @dataclass(frozen=True, slots=True)
