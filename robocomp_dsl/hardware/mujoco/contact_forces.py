@@ -1,7 +1,9 @@
 """The contact forces on some bodies, read from MuJoCo's solver in a few array operations.
 
-In: model and data after a step. Out: one entry per contact and body: where it is, and the force on
-that body, split into the part along the contact's normal and the part along the surface.
+In: model and data after each step. Out: one entry per contact and body: where it is, and the force
+on that body, split into the part along the contact's normal and the part along the surface. A step
+is only written down; working it out waits until many can be worked out at once, since small arrays
+cost as much as large ones.
 """
 
 from __future__ import annotations
@@ -19,6 +21,9 @@ Ints = NDArray[np.int64]
 GRAIN = 0.00025
 """Contacts of one frame nearer together than about this are taken as one [m]."""
 
+_EDGES = np.arange(10)
+"""The most edges that the friction pyramid of a contact can have."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touch:
@@ -30,65 +35,148 @@ class Touch:
     along: Floats
 
 
-def collect(model: Any, data: Any, limb_of_geom: Ints) -> Touch | None:
-    """The contacts with geoms whose limb is not -1, in the frame of the world; None without any.
+class _Rows:
+    """Rows that are added block by block, in one array that grows as it must."""
 
-    A contact between two limbs counts on both.
+    def __init__(self, width: int, dtype: Any = np.float64) -> None:
+        shape = (256, width) if width else (256,)
+        self._all = np.empty(shape, dtype)
+        self.size = 0
+
+    def add(self, block: Any) -> None:
+        """Append the rows of `block`."""
+        end = self.size + len(block)
+        if end > len(self._all):
+            grown = np.empty((2 * end, *self._all.shape[1:]), self._all.dtype)
+            grown[: self.size] = self._all[: self.size]
+            self._all = grown
+        self._all[self.size : end] = block
+        self.size = end
+
+    def take(self) -> Any:
+        """All rows; they stay valid until the next `add`."""
+        size, self.size = self.size, 0
+        return self._all[:size]
+
+
+class ContactRecorder:
+    """Writes down the contacts of some steps and works out the forces on limbs.
+
+    `limb_of_geom` (geoms,) is -1 for what has no skin; limb i has its frame on `bodies[i]`, at
+    `origins[i]` (3,) with the axes `axes[i]` (3, 3) as columns.
     """
-    found = data.contact
-    limb = limb_of_geom[found.geom]
-    side_by_side = (limb >= 0) & (found.efc_address >= 0)[:, None]
-    contact, side = np.nonzero(side_by_side)
-    if not len(contact):
-        return None
-    normal, tangent = _forces(model, data, contact)
-    frame = found.frame[contact].reshape(-1, 3, 3)
-    along = np.einsum("ni,nij->nj", tangent, frame[:, 1:])
-    along *= np.where(side == 0, -1.0, 1.0)[:, None]  # the frame's force acts on the second geom
-    pressing = normal > 0.0
-    if not pressing.all():
-        contact, side, normal = contact[pressing], side[pressing], normal[pressing]
-        along = along[pressing]
-    return Touch(limb[contact, side], found.pos[contact], normal, along)
+
+    def __init__(
+        self, model: Any, limb_of_geom: Ints, bodies: Ints, origins: Floats, axes: Floats
+    ) -> None:
+        self._limb_of_geom, self._bodies = limb_of_geom, bodies
+        self._origins, self._axes = origins, axes
+        self._elliptic = model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
+        self._geom, self._point, self._frame = _Rows(2, np.int64), _Rows(3), _Rows(9)
+        self._address, self._dim = _Rows(0, np.int64), _Rows(0, np.int64)
+        self._friction, self._solved = _Rows(5), _Rows(0)
+        self._place, self._turn = _Rows(3), _Rows(9)
+        self._counts: list[tuple[int, int]] = []
+
+    def record(self, data: Any) -> None:
+        """Take down the step that was just made."""
+        count = data.ncon
+        if not count:
+            return
+        found, solved = data.contact, data.efc_force
+        self._counts.append((count, len(solved)))
+        self._geom.add(found.geom)
+        self._point.add(found.pos)
+        self._frame.add(found.frame)
+        self._address.add(found.efc_address)
+        self._dim.add(found.dim)
+        self._friction.add(found.friction)
+        self._solved.add(solved)
+        self._place.add(data.xpos[self._bodies])
+        self._turn.add(data.xmat[self._bodies])
+
+    def take(self) -> Touch | None:
+        """The contacts of all steps since the last call, in the frames of their limbs.
+
+        None if no limb was touched. A contact between two limbs counts on both.
+        """
+        counts, self._counts = np.array(self._counts).reshape(-1, 2), []
+        geom, points, frame = self._geom.take(), self._point.take(), self._frame.take()
+        address, dim, solved = self._address.take(), self._dim.take(), self._solved.take()
+        friction = self._friction.take()
+        places, turns = self._limb_poses()
+        limb = self._limb_of_geom[geom]
+        contact, side = np.nonzero((limb >= 0) & (address >= 0)[:, None])
+        if not len(contact):
+            return None
+        when = np.repeat(np.arange(len(counts)), counts[:, 0])[contact]
+        before = np.cumsum(counts[:, 1]) - counts[:, 1]
+        first = address[contact] + before[when]
+        normal, tangent = self._forces(solved, first, dim[contact], friction[contact, :2])
+        frame = frame[contact]
+        along = tangent[:, :1] * frame[:, 3:6] + tangent[:, 1:] * frame[:, 6:9]
+        along *= np.where(side == 0, -1.0, 1.0)[:, None]  # the frame's force is on the second geom
+        mine = limb[contact, side]
+        pose = when * len(self._bodies) + mine
+        turn = turns[pose]
+        here = into(points[contact] - places[pose], turn)
+        pressing = normal > 0.0
+        along = into(along, turn)
+        if pressing.all():
+            return Touch(mine, here, normal, along)
+        return Touch(mine[pressing], here[pressing], normal[pressing], along[pressing])
+
+    def _limb_poses(self) -> tuple[Floats, Floats]:
+        """Places (s * l, 3) and turns (s * l, 3, 3) of the l limbs' frames at all s steps."""
+        turns = self._turn.take().reshape(-1, len(self._bodies), 3, 3)
+        places = self._place.take().reshape(-1, len(self._bodies), 3)
+        places = places + np.einsum("slij,lj->sli", turns, self._origins)
+        turned = np.einsum("slij,ljk->slik", turns, self._axes)
+        return places.reshape(-1, 3), turned.reshape(-1, 3, 3)
+
+    def _forces(
+        self, solved: Floats, first: Ints, dim: Ints, friction: Floats
+    ) -> tuple[Floats, Floats]:
+        """Normal force (k,) and the two forces along the surface (k, 2) of k contacts."""
+        sliding = (dim >= 3)[:, None]
+        if self._elliptic:
+            local = solved[np.minimum(first[:, None] + _EDGES[:3], len(solved) - 1)]
+            return local[:, 0], np.where(sliding, local[:, 1:], 0.0)
+        # a pyramid has two edges for each of its dim - 1 directions: normal +- friction * direction
+        edges = np.where(dim > 1, 2 * (dim - 1), 1)
+        most = _EDGES[: int(edges.max())]
+        local = solved[np.minimum(first[:, None] + most, len(solved) - 1)]
+        local = np.where(most < edges[:, None], local, 0.0)
+        tangent = np.zeros((len(dim), 2))
+        if len(most) >= 4:
+            tangent = np.where(sliding, (local[:, 0:4:2] - local[:, 1:4:2]) * friction, 0.0)
+        return local.sum(axis=1), tangent
 
 
-def _forces(model: Any, data: Any, contact: Ints) -> tuple[Floats, Floats]:
-    """Normal force (k,) and the two forces along the surface (k, 2) of `contact` (k,)."""
-    found, solved = data.contact, data.efc_force
-    first, dim = found.efc_address[contact], found.dim[contact]
-    sliding = dim >= 3
-    if model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC:
-        rows = np.minimum(first[:, None] + np.arange(3), len(solved) - 1)
-        local = solved[rows]
-        return local[:, 0], np.where(sliding[:, None], local[:, 1:], 0.0)
-    # a pyramid has two edges for each of its dim - 1 directions: normal +- friction * direction
-    edges = np.where(dim > 1, 2 * (dim - 1), 1)
-    rows = np.minimum(first[:, None] + np.arange(10), len(solved) - 1)
-    local = np.where(np.arange(10) < edges[:, None], solved[rows], 0.0)
-    pair = local[:, :4].reshape(-1, 2, 2)
-    tangent = (pair[:, :, 0] - pair[:, :, 1]) * found.friction[contact, :2]
-    return local.sum(axis=1), np.where(sliding[:, None], tangent, 0.0)
+def into(vectors: Floats, turns: Floats) -> Floats:
+    """Vectors (k, 3) of the world in frames whose turns are (k, 3, 3).
+
+    Written out, since numpy's products of many small matrices are far slower.
+    """
+    x, y, z = vectors[:, :1], vectors[:, 1:2], vectors[:, 2:]
+    turned: Floats = x * turns[:, 0] + y * turns[:, 1] + z * turns[:, 2]
+    return turned
 
 
-def merge(touches: list[Touch]) -> Touch:
-    """The contacts of several steps as one list, those at nearly the same place as one.
+def merge(touch: Touch) -> Touch:
+    """The same contacts, those at nearly the same place as one.
 
     Forces are summed, so that nothing is lost; the place is their mean by normal force.
     """
-    limb = np.concatenate([one.limb for one in touches])
-    points = np.concatenate([one.points for one in touches])
-    normal = np.concatenate([one.normal for one in touches])
-    along = np.concatenate([one.along for one in touches])
-    grain = np.floor(points / GRAIN).astype(np.int64) + (1 << 15)
-    key = ((limb * (1 << 16) + grain[:, 0]) * (1 << 16) + grain[:, 1]) * (1 << 16) + grain[:, 2]
+    grain = np.floor(touch.points / GRAIN).astype(np.int64) + (1 << 15)
+    key = ((touch.limb * (1 << 16) + grain[:, 0]) * (1 << 16) + grain[:, 1]) * (1 << 16)
+    key += grain[:, 2]
     _, first, group = np.unique(key, return_index=True, return_inverse=True)
-    count = len(first)
+    count, normal = len(first), touch.normal
     total = np.asarray(np.bincount(group, normal, count), dtype=np.float64)
 
-    def summed(columns: Floats, weight: Floats | float = 1.0) -> Floats:
-        weighed = columns * weight
-        parts = [np.bincount(group, weighed[:, i], count) for i in range(3)]
-        return np.stack(parts, axis=1)
+    def summed(columns: Floats) -> Floats:
+        return np.stack([np.bincount(group, columns[:, i], count) for i in range(3)], axis=1)
 
-    middle = summed(points, normal[:, None]) / total[:, None]
-    return Touch(limb[first], middle, total, summed(along))
+    middle = summed(touch.points * normal[:, None]) / total[:, None]
+    return Touch(touch.limb[first], middle, total, summed(touch.along))

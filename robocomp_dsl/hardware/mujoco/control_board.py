@@ -27,6 +27,9 @@ WARMING = 4.0
 COOLING = 120.0
 """Time constant of its temperature [s]."""
 
+HEAT_PERIOD = 0.1
+"""How often temperatures are worked out [s]."""
+
 
 class SimulatedBoard:
     """A part of a `World`: `board` holds the state, `commands` takes orders."""
@@ -44,6 +47,7 @@ class SimulatedBoard:
         self.commands = Commands(self.board)
         self._joints = tuple(prefix + name for name in robot_board.joints)
         self._hold_weight = hold_weight
+        self._unheated = 0.0
         self._zero = np.zeros(n) if encoder_zero is None else encoder_zero
         self._plain = bool(np.array_equal(robot_board.transmission, np.eye(n)))
         self._to_joint = np.linalg.inv(robot_board.transmission)
@@ -81,10 +85,14 @@ class SimulatedBoard:
         return weight if self._plain else self._to_board @ weight
 
     def after_step(self, dt: float) -> None:
-        """Motors warm up by their current and cool down in the room."""
+        """Motors warm up by their current and cool down in the room; slowly, so now and then."""
+        self._unheated += dt
+        if self._unheated < HEAT_PERIOD:
+            return
         motors, current = self.board.motors, self.board.current
         final = ROOM_TEMPERATURE + WARMING * motors.resistance * current * current
-        motors.temperature += (final - motors.temperature) * (dt / COOLING)
+        motors.temperature += (final - motors.temperature) * (self._unheated / COOLING)
+        self._unheated = 0.0
 
     @staticmethod
     def _find(model: Any, name: str) -> tuple[int, int, int]:

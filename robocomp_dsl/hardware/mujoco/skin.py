@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.errors import SceneError
-from robocomp_dsl.hardware.mujoco.contact_forces import Touch, collect, merge
+from robocomp_dsl.hardware.mujoco.contact_forces import ContactRecorder, merge
 from robocomp_dsl.tactile.skin.contacts import SkinContact, contacts
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.kernel import SIGMA, Kernel
@@ -78,7 +78,6 @@ class SimulatedSkin:
         self._heard: list[Callable[[SkinFrame], None]] = []
         self._samples: list[Raw] = []
         self._calibrating = 0
-        self._touches: list[Touch] = []
         self._steps, self._elapsed, self._sequence = 0, 0.0, 0
 
     def build(self, spec: Any) -> None:
@@ -89,9 +88,9 @@ class SimulatedSkin:
         self._model, self._data = model, data
         self._sensor = Sensor(self.geometry.size, self.settings.imperfections, random)
         frames = self.geometry.frames
-        self._body = np.array([self._find(limb.body) for limb in frames], dtype=np.int64)
-        self._origin = np.array([limb.origin for limb in frames]).reshape(-1, 3)
-        self._axes = np.array([limb.axes for limb in frames]).reshape(-1, 3, 3)
+        bodies = [self._find(limb.body) for limb in frames]
+        origins = np.array([limb.origin for limb in frames]).reshape(-1, 3)
+        axes = np.array([limb.axes for limb in frames]).reshape(-1, 3, 3)
         limb_of_body = np.full(model.nbody, -1)
         for i, limb in enumerate(frames):
             for name in (limb.body, *limb.covers):
@@ -100,6 +99,9 @@ class SimulatedSkin:
                     raise SceneError(f"the body `{name}` belongs to two limbs of the skin")
                 limb_of_body[body] = i
         self._limb_of_geom = limb_of_body[model.geom_bodyid]
+        self._recorder = ContactRecorder(
+            model, self._limb_of_geom, np.array(bodies, dtype=np.int64), origins, axes
+        )
 
     def subscribe(self, hear: Callable[[SkinFrame], None]) -> None:
         """Call `hear` with every new frame."""
@@ -121,10 +123,7 @@ class SimulatedSkin:
 
     def after_step(self, dt: float) -> None:
         """Take in the contacts of this step, and tell a frame when its time has come."""
-        if self._data.ncon:
-            touch = collect(self._model, self._data, self._limb_of_geom)
-            if touch is not None:
-                self._touches.append(self._in_limbs(touch))
+        self._recorder.record(self._data)
         self._steps += 1
         self._elapsed += dt
         if self._elapsed * self.settings.rate >= 1.0 - 1e-9:
@@ -132,27 +131,18 @@ class SimulatedSkin:
             for hear in self._heard:
                 hear(self.frame)
 
-    def _in_limbs(self, touch: Touch) -> Touch:
-        """Points and forces of the world, carried into the frames of their limbs."""
-        body = self._body[touch.limb]
-        turn = self._data.xmat[body].reshape(-1, 3, 3)
-        axes = np.matmul(turn, self._axes[touch.limb])
-        away = touch.points - self._data.xpos[body]
-        away = away - np.einsum("nij,nj->ni", turn, self._origin[touch.limb])
-        points = np.einsum("nij,ni->nj", axes, away)
-        return Touch(touch.limb, points, touch.normal, np.einsum("nij,ni->nj", axes, touch.along))
-
     def _make_frame(self) -> SkinFrame:
         n, steps, dt = self.geometry.size, self._steps, self._elapsed
         force, shear, missed = np.zeros(n), np.zeros((n, 3)), 0.0
-        if self._touches:
-            touch = merge(self._touches)
+        taken = self._recorder.take()
+        if taken is not None:
+            touch = merge(taken)
             columns = np.column_stack((touch.normal, touch.along))
             used = columns if self.settings.shear else touch.normal[:, None]
             share = self.kernel.share(touch.points, touch.limb, used / steps)
             force, missed = share.felt[:, 0], float(share.missed[0])
             shear = share.felt[:, 1:] if self.settings.shear else shear
-        self._touches, self._steps, self._elapsed = [], 0, 0.0
+        self._steps, self._elapsed = 0, 0.0
         self._sequence += 1
         told, raw = self._measured(force, dt)
         return SkinFrame(
