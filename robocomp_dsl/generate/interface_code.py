@@ -6,41 +6,18 @@ template of `generated/interfaces.py`.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from robocomp_dsl.generate import layout, literals, names
-from robocomp_dsl.generate.layout import BODY, INNER, Group
+from robocomp_dsl.generate import layout, literals
+from robocomp_dsl.generate.component_names import InterfaceNames
+from robocomp_dsl.generate.layout import INNER, Group
+from robocomp_dsl.generate.proxy_code import FormCode, MethodCode, form_codes, method_code
 from robocomp_dsl.generate.python_types import PythonTypes
 from robocomp_dsl.generate.type_code import TypeCode, type_code
 from robocomp_dsl.model.component import Port, Role
-from robocomp_dsl.model.interface import Interface, Operation, Pattern
-from robocomp_dsl.model.types import Enum, Struct
-
-PROXY_MEMBERS = frozenset(("INTERFACE", "set_timeout", "wait_for_server"))
-"""Public members of the base of all proxies."""
-
-
-@dataclass(frozen=True, slots=True)
-class MethodCode:
-    """One operation of a proxy: its slot, the line that binds it, its definition."""
-
-    slot: str
-    bind: str
-    definition: str
-    doc: str
-    statement: str
-
-
-@dataclass(frozen=True, slots=True)
-class FormCode:
-    """`query`, `command` or `publish` of a proxy: one signature for each struct it takes."""
-
-    overloads: tuple[str, ...]
-    definition: str
-    doc: str
-    statements: tuple[str, ...]
+from robocomp_dsl.model.interface import Interface, Operation
+from robocomp_dsl.model.types import Enum
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,40 +27,11 @@ class InterfaceCode:
     constant: str
     spec: str
     proxy: str = ""
+    head: str = ""
     doc: str = ""
     slots: str = ""
     methods: tuple[MethodCode, ...] = ()
     forms: tuple[FormCode, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class InterfaceNames:
-    """What the other generated modules call an interface."""
-
-    constant: str
-    proxy: str
-    methods: dict[Operation, str]
-
-
-def named(interfaces: Iterable[Interface], types: PythonTypes) -> dict[Interface, InterfaceNames]:
-    """Names for the interfaces of a component, none of them that of a type."""
-    wanted = list(interfaces)
-    count = Counter(i.name for i in wanted)
-    found = {}
-    for one in wanted:
-        name = f"{one.module}_{one.name}" if count[one.name] > 1 else one.name
-        found[one] = InterfaceNames(
-            types.scope.claim(name.upper()),
-            types.scope.claim(f"{name}Proxy"),
-            _method_names(one, types),
-        )
-    return found
-
-
-def _method_names(interface: Interface, types: PythonTypes) -> dict[Operation, str]:
-    reserved = PROXY_MEMBERS | names.ANNOTATION | set(types.names.values())
-    called = names.unique([o.name for o in interface.operations], reserved)
-    return dict(zip(interface.operations, called, strict=True))
 
 
 def interface_code(
@@ -98,16 +46,17 @@ def interface_code(
     outgoing = [p for p in ports if p.role in (Role.REQUIRES, Role.PUBLISHES)]
     if not outgoing:
         return InterfaceCode(called.constant, stated)
-    methods = tuple(_method(i, o, called, types) for i, o in enumerate(interface.operations))
+    methods = tuple(method_code(i, o, called, types) for i, o in enumerate(interface.operations))
     slots = sorted((m.slot.partition(":")[0] for m in methods), key=layout.natural)
     return InterfaceCode(
         called.constant,
         stated,
         called.proxy,
+        layout.class_head(called.proxy, "rt.Proxy"),
         literals.docstring(interface.doc, INNER, f"Calls {interface.qualified}."),
         layout.statement("__slots__ = ", layout.tuple_of(*map(literals.quoted, slots)), INNER),
         methods,
-        tuple(_forms(interface, called, outgoing, types)),
+        tuple(form_codes(interface, called, outgoing, types)),
     )
 
 
@@ -127,74 +76,6 @@ def _operation(one: Operation, types: PythonTypes) -> Group:
         throws,
         f"idempotent={one.idempotent}",
     )
-
-
-def _method(
-    position: int, one: Operation, called: InterfaceNames, types: PythonTypes
-) -> MethodCode:
-    name = called.methods[one]
-    slot = f"_call_{name}"
-    returns = types.returns(one)
-    hint = layout.subscript("Callable", "...", returns)
-    arguments = types.arguments(one)
-    made = layout.call(f"self.{slot}", *(a for a, _ in arguments))
-    keyword = "" if returns == "None" else "return "
-    parameters = ("self", *(f"{a}: {t}" for a, t in arguments))
-    bound = layout.call("bind", f"{called.constant}.operations[{position}]")
-    return MethodCode(
-        layout.statement(f"{slot}: ", hint, INNER),
-        layout.statement(f"self.{slot} = ", bound, BODY),
-        layout.definition(name, parameters, returns),
-        literals.docstring(one.doc, BODY) if literals.lines(one.doc) else "",
-        layout.statement(keyword, made, BODY),
-    )
-
-
-def _forms(
-    interface: Interface, called: InterfaceNames, ports: list[Port], types: PythonTypes
-) -> Iterable[FormCode]:
-    """The calls by request: `query(req)`, `command(req)`, `publish(req)`."""
-    for form in (Pattern.QUERY, Pattern.COMMAND, Pattern.PUBLISH):
-        takers = [
-            o
-            for o in interface.operations
-            if len(o.inputs) == 1
-            and isinstance(o.inputs[0].type, Struct)
-            and any(p.pattern(o) is form for p in ports)
-        ]
-        count = Counter(o.inputs[0].type for o in takers)
-        clear = [o for o in takers if count[o.inputs[0].type] == 1]
-        if clear and form.value not in called.methods.values():
-            yield _form(form.value, clear, called, types)
-
-
-def _form(
-    name: str, takers: list[Operation], called: InterfaceNames, types: PythonTypes
-) -> FormCode:
-    given = "request_" if "request" in types.scope.taken else "request"
-    rows = [
-        (types.annotation(o.inputs[0].type), types.returns(o), called.methods[o]) for o in takers
-    ]
-    listed = ", ".join(f"`{method}`" for _, _, method in rows)
-    doc = literals.docstring(f"The operation that takes the request: {listed}.", BODY)
-    if len(rows) == 1:
-        taken, returns, method = rows[0]
-        keyword = "" if returns == "None" else "return "
-        body = layout.statement(keyword, layout.call(f"self.{method}", given), BODY)
-        return FormCode(
-            (), layout.definition(name, ("self", f"{given}: {taken}"), returns), doc, (body,)
-        )
-    overloads = tuple(
-        layout.definition(name, ("self", f"{given}: {taken}"), returns)
-        for taken, returns, _ in rows
-    )
-    statements = [
-        f"if isinstance({given}, {taken}):\n{BODY}    return self.{method}({given})"
-        for taken, _, method in rows
-    ]
-    failure = f'raise TypeError(f"no operation takes a {{type({given}).__name__}}")'
-    general = layout.definition(name, ("self", f"{given}: Any"), "Any")
-    return FormCode(overloads, general, doc, (*statements, failure))
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,6 +83,20 @@ def statement(prefix: str, item: Item, indent: str = "") -> str:
     return prefix + laid_out(item, indent, len(prefix))
 
 
+def assignment(target: str, value: str, indent: str, sign: str = " = ") -> str:
+    """`target = value`, the value on a line of its own where it does not fit."""
+    if len(indent) + len(target) + len(sign) + len(value) <= WIDTH:
+        return f"{target}{sign}{value}"
+    return f"{target}{sign}(\n{indent}{STEP}{value}\n{indent})"
+
+
+def optional(name: str, type_: str, indent: str) -> str:
+    """`name: type_ | None = None` as one of several parameters at `indent`."""
+    flat_ = f"{name}: {type_} | None = None"
+    # The formatter breaks at the bar, because the line is one parameter and can break nowhere else.
+    return flat_ if len(indent) + len(flat_) < WIDTH else f"{name}: {type_}\n{indent}| None = None"
+
+
 def choice(target: str, then: str, condition: str, otherwise: str, indent: str) -> str:
     """`target = then if condition else otherwise`, broken as the formatter breaks it."""
     value = f"{then} if {condition} else {otherwise}"
@@ -104,6 +118,11 @@ def definition(name: str, parameters: Iterable[Item], returns: Item, indent: str
         return text
     head = text[: -len(f") -> {answer}:")]
     return f"{head}) -> {laid_out(returns, indent, WIDTH)}:"
+
+
+def class_head(name: str, base: Item) -> str:
+    """`class name(base):`."""
+    return laid_out(call(f"class {name}", base, tail="):"))
 
 
 def natural(name: str) -> list[tuple[int, int, str]]:

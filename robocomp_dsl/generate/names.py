@@ -42,9 +42,10 @@ setattr slice sorted staticmethod str sum super tuple type vars zip"""
 BUILTINS = frozenset(_BUILTINS.split())
 """Python's own names; a list, because `dir(builtins)` differs between versions."""
 
-_MODULE = """annotations np rt main generated interfaces params genericworker specificworker Any
-Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec CalledPort ServedPort
-Group Parameter ParameterGroup Parameters SPEC initialize compute emergency restore finalize"""
+_MODULE = """INTERFACE SCHEMA SPEC annotations np rt main generated interfaces params genericworker
+specificworker Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
+CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
+finalize"""
 MODULE = frozenset(_MODULE.split())
 """What generated modules and their classes call things that are not the user's."""
 
@@ -52,6 +53,84 @@ ANNOTATION = frozenset(
     ("bool", "int", "float", "str", "list", "dict", "tuple", "rt", "np", "Any", "Callable")
 )
 """What annotations inside a class may mention; a member of that name would hide it from mypy."""
+
+
+ENUM_MEMBERS = frozenset(
+    (
+        "as_integer_ratio",
+        "bit_count",
+        "bit_length",
+        "conjugate",
+        "denominator",
+        "from_bytes",
+        "imag",
+        "is_integer",
+        "mro",
+        "name",
+        "numerator",
+        "real",
+        "to_bytes",
+        "value",
+    )
+)
+"""What an `IntEnum` has itself."""
+
+
+STRUCT_MEMBERS = frozenset(("np",))
+"""Names that a struct needs itself: a field of that name gets an underscore."""
+
+ERROR_MEMBERS = STRUCT_MEMBERS | {"add_note", "args", "with_traceback"}
+"""The same for declared exceptions, with the public members of their base."""
+
+ARGUMENTS = frozenset(("rt", "super"))
+"""Names that the bodies of methods need."""
+
+ARRAY_MEMBERS = frozenset(
+    (
+        "append",
+        "clear",
+        "column",
+        "copy",
+        "count",
+        "extend",
+        "from_columns",
+        "index",
+        "insert",
+        "nested",
+        "pop",
+        "remove",
+        "reverse",
+        "sort",
+    )
+)
+"""Public members of the base of all arrays of records."""
+
+PROXY_MEMBERS = frozenset(("INTERFACE", "set_timeout", "wait_for_server"))
+"""Public members of the base of all proxies."""
+
+COMPONENT_MEMBERS = frozenset(
+    (
+        "SPEC",
+        "clock",
+        "compute",
+        "declare_emergency",
+        "emergency",
+        "end_emergency",
+        "finalize",
+        "initialize",
+        "log",
+        "name",
+        "params",
+        "quit",
+        "restore",
+    )
+)
+"""Public members of the base of all components; an operation or proxy never hides one."""
+
+PARAMETER_MEMBERS = frozenset(
+    ("SCHEMA", "bind", "describe", "load", "set", "set_text", "values", "Literal")
+)
+"""Public members of the base of all parameters, and what the annotations mention."""
 
 
 def identifier(name: str, reserved: Iterable[str] = ()) -> str:

@@ -15,9 +15,6 @@ from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.parameter import Kind, Parameter
 from robocomp_dsl.model.types import Literal
 
-MEMBERS = frozenset(("SCHEMA", "bind", "describe", "load", "set", "set_text", "values", "Literal"))
-"""Public members of the base of all parameters, and what the annotations mention."""
-
 _TYPES = {Kind.STRING: "str", Kind.INT: "int", Kind.FLOAT: "float", Kind.BOOL: "bool"}
 _WORDS = {
     Kind.STRING: "a text",
@@ -85,7 +82,9 @@ class _Classes:
     made: list[ParametersCode]
 
     def add(self, name: str, base: str, doc: str, parameters: tuple[Parameter, ...]) -> None:
-        called = names.unique([p.name for p in parameters], MEMBERS | names.ANNOTATION)
+        called = names.unique(
+            [p.name for p in parameters], names.PARAMETER_MEMBERS | names.ANNOTATION
+        )
         entries: list[Item] = []
         attributes = []
         for attribute, one in zip(called, parameters, strict=True):

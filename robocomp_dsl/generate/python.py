@@ -6,18 +6,15 @@ In: a `Component`. Out: `OutputFile`s; nothing is read from the disk but the tem
 from __future__ import annotations
 
 from robocomp_dsl.generate import literals, params, worker
-from robocomp_dsl.generate.interface_code import interfaces_code, named
+from robocomp_dsl.generate.component_names import modules_of, names_of
+from robocomp_dsl.generate.interface_code import interfaces_code
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.python_types import PythonTypes
 from robocomp_dsl.generate.schema import config_schema
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.interface import Module
 from robocomp_dsl.model.parameter import Parameter
 
 FOLDER = "python/component/"
-USER_CODE = "specificworker.py"
-CLASS = "SpecificWorker"
 
 
 def component_files(component: Component, middleware: str) -> list[OutputFile]:
@@ -40,23 +37,10 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
         _file("generated/params.py", code=parameters),
         _file("generated/genericworker.py", worker=code),
         OutputFile("etc/config.schema.json", schema),
-        _file(USER_CODE, keep=True, worker=code),
+        _file("specificworker.py", keep=True, worker=code),
         _file("etc/config.yaml", "config.yaml", keep=True, title=code.title, lines=config),
         _file("README.md", keep=True, worker=code, parameters=rows),
     ]
-
-
-def names_of(component: Component) -> worker.Called:
-    """What everything of a component is called in Python."""
-    types = PythonTypes(modules_of(component))
-    interfaces = named(dict.fromkeys(p.interface for p in component.ports), types)
-    return worker.members(component, types, interfaces)
-
-
-def modules_of(component: Component) -> tuple[Module, ...]:
-    """All imported modules, directly or not, imported ones first."""
-    found = (m for module in component.modules for m in module.closure())
-    return tuple(dict.fromkeys(found))
 
 
 def _row(one: Parameter) -> tuple[str, str, str, str]:

@@ -36,35 +36,6 @@ from robocomp_dsl.model.types import (
 
 _ANNOTATION = {BOOL: "bool", STRING: "str", FLOAT: "float", DOUBLE: "float"}  # others: int
 _ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
-ENUM_MEMBERS = frozenset(
-    (
-        "as_integer_ratio",
-        "bit_count",
-        "bit_length",
-        "conjugate",
-        "denominator",
-        "from_bytes",
-        "imag",
-        "is_integer",
-        "mro",
-        "name",
-        "numerator",
-        "real",
-        "to_bytes",
-        "value",
-    )
-)
-"""What an `IntEnum` has itself."""
-
-
-STRUCT_MEMBERS = frozenset(("np",))
-"""Names that a struct needs itself: a field of that name gets an underscore."""
-
-ERROR_MEMBERS = STRUCT_MEMBERS | {"add_note", "args", "with_traceback"}
-"""The same for declared exceptions, with the public members of their base."""
-
-ARGUMENTS = frozenset(("rt", "super"))
-"""Names that the bodies of methods need."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +131,7 @@ class PythonTypes:
 
     def arguments(self, operation: Operation) -> list[tuple[str, str]]:
         """Name and annotation of each input."""
-        called = names.unique([p.name for p in operation.inputs], ARGUMENTS)
+        called = names.unique([p.name for p in operation.inputs], names.ARGUMENTS)
         return [
             (name, self.annotation(p.type))
             for name, p in zip(called, operation.inputs, strict=True)
@@ -198,7 +169,7 @@ def record_element(type_: Type) -> Struct | None:
 
 def field_names(one: Struct | ExceptionType) -> tuple[str, ...]:
     """The attributes of a struct or exception."""
-    reserved = STRUCT_MEMBERS if isinstance(one, Struct) else ERROR_MEMBERS
+    reserved = names.STRUCT_MEMBERS if isinstance(one, Struct) else names.ERROR_MEMBERS
     return names.unique([f.name for f in one.fields], reserved)
 
 
@@ -211,7 +182,7 @@ def _hidden(found: Iterable[Declaration], called: dict[Declaration, str]) -> Ite
 
 
 def _enumerator_names(type_: Enum) -> Iterator[tuple[Enumerator, str]]:
-    called = names.unique([e.name for e in type_.enumerators], ENUM_MEMBERS)
+    called = names.unique([e.name for e in type_.enumerators], names.ENUM_MEMBERS)
     return zip(type_.enumerators, called, strict=True)
 
 

@@ -29,26 +29,6 @@ from robocomp_dsl.model.types import (
     Type,
 )
 
-ARRAY_MEMBERS = frozenset(
-    (
-        "append",
-        "clear",
-        "column",
-        "copy",
-        "count",
-        "extend",
-        "from_columns",
-        "index",
-        "insert",
-        "nested",
-        "pop",
-        "remove",
-        "reverse",
-        "sort",
-    )
-)
-"""Public members of the base of all arrays of records."""
-
 
 @dataclass(frozen=True, slots=True)
 class ColumnCode:
@@ -68,7 +48,7 @@ class TypeCode:
     """
 
     kind: str
-    name: str
+    head: str = ""
     doc: str = ""
     alias: str = ""
     slots: str = ""
@@ -88,13 +68,14 @@ def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
         case Struct() | ExceptionType():
             return _record(name, doc, declaration, types)
         case Enum():
-            return TypeCode("enum", name, doc, statements=tuple(_values(declaration, types)))
+            head = layout.class_head(name, "rt.Enum")
+            return TypeCode("enum", head, doc, statements=tuple(_values(declaration, types)))
         case Dictionary():
-            return TypeCode("alias", name, statements=tuple(_dictionary(name, declaration, types)))
+            return TypeCode("alias", statements=tuple(_dictionary(name, declaration, types)))
         case Sequence():
             if element := record_element(declaration):
                 return _records(name, doc, element, types)
-            return TypeCode("alias", name, statements=tuple(_sequence(name, declaration, types)))
+            return TypeCode("alias", statements=tuple(_sequence(name, declaration, types)))
     raise TypeError(f"{declaration.qualified} is no type")
 
 
@@ -135,9 +116,10 @@ def _record(name: str, doc: str, one: Struct | ExceptionType, types: PythonTypes
         assignments.append(assignment)
     slots = layout.tuple_of(*map(literals.quoted, sorted(called, key=layout.natural)))
     wired = layout.statement("_names_ = ", layout.tuple_of(*map(literals.quoted, called)), INNER)
+    kind = "struct" if isinstance(one, Struct) else "error"
     return TypeCode(
-        "struct" if isinstance(one, Struct) else "error",
-        name,
+        kind,
+        layout.class_head(name, "rt.Struct" if kind == "struct" else "rt.DeclaredError"),
         doc,
         alias=_alias(name, types),
         slots=layout.statement("__slots__ = ", slots, INNER),
@@ -153,23 +135,25 @@ def _field(name: str, field: Field, types: PythonTypes) -> tuple[str, str]:
     zero = types.zero(field.type, field.default)
     hint = types.annotation(field.type)
     if not zero.fresh:
-        return f"{name}: {hint} = {zero.text}", f"self.{name} = {name}"
+        return f"{name}: {hint} = {zero.text}", layout.assignment(f"self.{name}", name, BODY)
     made = f"_{zero.text}" if zero.text.removesuffix("()") in types.hidden else zero.text
     value = layout.choice(f"self.{name}", made, f"{name} is None", name, BODY)
-    return f"{name}: {hint} | None = None", value
+    return layout.optional(name, hint, BODY), value
 
 
 def _records(name: str, doc: str, element: Struct, types: PythonTypes) -> TypeCode:
     attributes = field_names(element)
     # The columns share their scope with the list's own methods, the fields do not.
-    called = names.unique(attributes, ARRAY_MEMBERS | names.ANNOTATION | set(types.names.values()))
+    called = names.unique(
+        attributes, names.ARRAY_MEMBERS | names.ANNOTATION | set(types.names.values())
+    )
     columns = tuple(
         _column(column, attribute, field.type, types)
         for column, attribute, field in zip(called, attributes, element.fields, strict=True)
     )
     return TypeCode(
         "records",
-        name,
+        layout.class_head(name, layout.subscript("rt.StructArray", types.names[element])),
         doc,
         alias=_alias(name, types),
         element=types.names[element],

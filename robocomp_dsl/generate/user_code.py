@@ -11,10 +11,11 @@ from pathlib import Path
 
 from robocomp_dsl.diagnostics import Diagnostic, Note, Report, nearest
 from robocomp_dsl.generate import codes
-from robocomp_dsl.generate.python import CLASS, names_of
+from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
+CLASS = "SpecificWorker"
 BASE = "GenericWorker"
 
 

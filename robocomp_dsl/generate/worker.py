@@ -5,37 +5,15 @@ In: the component, its named types and interfaces. Out: plain data for the templ
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, literals, names
-from robocomp_dsl.generate.interface_code import InterfaceNames
+from robocomp_dsl.generate.component_names import SERVED, Called
 from robocomp_dsl.generate.layout import BODY, INNER, Group, Item, definition
-from robocomp_dsl.generate.python_types import PythonTypes
+from robocomp_dsl.generate.worker_imports import generic_imports, specific_imports
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.interface import Interface, Operation, Pattern
-from robocomp_dsl.model.types import Declaration, Type
+from robocomp_dsl.model.interface import Operation, Pattern
 
-COMPONENT_MEMBERS = frozenset(
-    (
-        "SPEC",
-        "clock",
-        "compute",
-        "declare_emergency",
-        "emergency",
-        "end_emergency",
-        "finalize",
-        "initialize",
-        "log",
-        "name",
-        "params",
-        "quit",
-        "restore",
-    )
-)
-"""Public members of the base of all components; an operation or proxy never hides one."""
-
-SERVED = (Role.IMPLEMENTS, Role.SUBSCRIBES)
 _LISTS = {
     Role.IMPLEMENTS: "implements",
     Role.REQUIRES: "requires",
@@ -66,16 +44,11 @@ class ServedCode:
 
 
 @dataclass(frozen=True, slots=True)
-class CalledCode:
-    """One port that calls others: its attribute and the class of that."""
-
-    proxy: str
-    hint: str
-
-
-@dataclass(frozen=True, slots=True)
 class WorkerCode:
-    """Both classes and what is said of the component as a whole."""
+    """Both classes and what is said of the component as a whole.
+
+    `called` declares the proxies; `about` and `rows` are for the README.
+    """
 
     title: str
     source: str
@@ -84,39 +57,12 @@ class WorkerCode:
     params: str
     period: int
     served: tuple[ServedCode, ...]
-    called: tuple[CalledCode, ...]
+    called: tuple[str, ...]
     generic_imports: tuple[str, ...]
     specific_imports: tuple[str, ...]
     examples: tuple[str, ...]
     about: tuple[str, ...]
     rows: tuple[tuple[str, str, str], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Called:
-    """All names of one component."""
-
-    types: PythonTypes
-    interfaces: dict[Interface, InterfaceNames]
-    handlers: dict[tuple[Port, Operation], str]
-    proxies: dict[Port, str]
-    params: str
-
-
-def members(
-    component: Component, types: PythonTypes, interfaces: dict[Interface, InterfaceNames]
-) -> Called:
-    """Names for the methods and proxies; none hides a type or what every component has."""
-    params = types.scope.claim(f"{names.camel(component.name)}Params")
-    scope = names.Scope(COMPONENT_MEMBERS | types.scope.taken)
-    served = [p for p in component.ports if p.role in SERVED]
-    proxies = {
-        p: scope.claim(f"{p.name.lower()}_proxy") for p in component.ports if p not in served
-    }
-    handlers = {
-        (p, o): scope.claim(f"{p.name}_{o.name}") for p in served for o in p.interface.operations
-    }
-    return Called(types, interfaces, handlers, proxies, params)
 
 
 def worker_code(component: Component, called: Called, middleware: str) -> WorkerCode:
@@ -132,10 +78,13 @@ def worker_code(component: Component, called: Called, middleware: str) -> Worker
         period=component.period,
         served=served,
         called=tuple(
-            CalledCode(called.proxies[p], called.interfaces[p.interface].proxy) for p in proxies
+            layout.assignment(
+                called.proxies[p], called.interfaces[p.interface].proxy, INNER, sign=": "
+            )
+            for p in proxies
         ),
-        generic_imports=tuple(_generic_imports(component, called)),
-        specific_imports=tuple(_specific_imports(called)),
+        generic_imports=tuple(generic_imports(component, called)),
+        specific_imports=tuple(specific_imports(called)),
         examples=tuple(_example(p, called) for p in proxies if p.interface.operations),
         about=("", *about) if (about := literals.lines(component.doc)) else (),
         rows=tuple(_row(p, called) for p in component.ports),
@@ -202,49 +151,6 @@ def _about(one: Operation, port: Port) -> str:
     below += [f"May raise {throws}."] if throws else []
     said = one.doc.strip() or f"{port.interface.qualified}: {one.name}."
     return "\n".join([said, "", *below]) if below else said
-
-
-def _mentioned(one: Operation, types: PythonTypes) -> Iterator[str]:
-    """The types that the signature of a handler names."""
-    kinds: list[Type] = [p.type for p in one.inputs]
-    kinds += [type_ for _, type_ in types.results(one)]
-    return (types.names[t] for t in kinds if isinstance(t, Declaration))
-
-
-def _signature_types(called: Called) -> set[str]:
-    return {name for _, o in called.handlers for name in _mentioned(o, called.types)}
-
-
-def _generic_imports(component: Component, called: Called) -> Iterator[str]:
-    runtime = {"Component", "ComponentSpec"}
-    runtime |= {"CalledPort"} if called.proxies else set()
-    runtime |= {"ServedPort"} if len(called.proxies) < len(component.ports) else set()
-    used = _signature_types(called)
-    for port in component.ports:
-        interface = called.interfaces[port.interface]
-        used.add(interface.proxy if port in called.proxies else interface.constant)
-    yield _import("robocomp_dsl.runtime", runtime)
-    if called.handlers:
-        yield "from robocomp_dsl.runtime import types as rt"
-    yield ""
-    if used:
-        yield _import("generated.interfaces", used)
-    yield _import("generated.params", {called.params})
-
-
-def _specific_imports(called: Called) -> Iterator[str]:
-    yield "from generated.genericworker import GenericWorker"
-    if used := _signature_types(called):
-        yield _import("generated.interfaces", used)
-
-
-def _import(module: str, used: Iterable[str]) -> str:
-    """`from module import …`, sorted as ruff sorts: constants, classes, the rest."""
-    ordered = sorted(used, key=lambda n: (not (n.isupper() and len(n) > 1), n[:1].islower(), n))
-    line = f"from {module} import {', '.join(ordered)}"
-    if len(line) <= layout.WIDTH:
-        return line
-    return f"from {module} import (\n" + "".join(f"    {n},\n" for n in ordered) + ")"
 
 
 def _example(port: Port, called: Called) -> str:

@@ -16,7 +16,7 @@ import jsonschema
 import pytest
 import yaml
 
-from robocomp_dsl.generate import interface_code, params, python_types, type_code, worker
+from robocomp_dsl.generate import names
 from robocomp_dsl.runtime import Component
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.parameters import ParameterGroup, Parameters
@@ -254,14 +254,14 @@ def test_the_schema_refuses(generated: Path, wrong: dict[str, object]) -> None:
 
 
 RESERVED = [
-    (rt.Struct, python_types.STRUCT_MEMBERS),
-    (rt.DeclaredError, python_types.ERROR_MEMBERS),
-    (rt.StructArray, type_code.ARRAY_MEMBERS),
-    (rt.Enum, python_types.ENUM_MEMBERS | {"name", "value", "mro"}),
-    (rt.Proxy, interface_code.PROXY_MEMBERS),
-    (Component, worker.COMPONENT_MEMBERS),
-    (Parameters, params.MEMBERS),
-    (ParameterGroup, params.MEMBERS),
+    (rt.Struct, names.STRUCT_MEMBERS),
+    (rt.DeclaredError, names.ERROR_MEMBERS),
+    (rt.StructArray, names.ARRAY_MEMBERS),
+    (rt.Enum, names.ENUM_MEMBERS | {"name", "value", "mro"}),
+    (rt.Proxy, names.PROXY_MEMBERS),
+    (Component, names.COMPONENT_MEMBERS),
+    (Parameters, names.PARAMETER_MEMBERS),
+    (ParameterGroup, names.PARAMETER_MEMBERS),
 ]
 
 

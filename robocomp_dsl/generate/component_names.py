@@ -1,0 +1,88 @@
+"""What everything of a component is called in Python.
+
+In: a component. Out: `Called`: its types, interfaces, proxies and methods, each with its name.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from robocomp_dsl.generate import names
+from robocomp_dsl.generate.python_types import PythonTypes
+from robocomp_dsl.model.component import Component, Port, Role
+from robocomp_dsl.model.interface import Interface, Module, Operation
+
+SERVED = (Role.IMPLEMENTS, Role.SUBSCRIBES)
+"""The roles in which others call the component."""
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceNames:
+    """What the other generated modules call an interface."""
+
+    constant: str
+    proxy: str
+    methods: dict[Operation, str]
+
+
+def named(interfaces: Iterable[Interface], types: PythonTypes) -> dict[Interface, InterfaceNames]:
+    """Names for the interfaces of a component, none of them that of a type."""
+    wanted = list(interfaces)
+    count = Counter(i.name for i in wanted)
+    found = {}
+    for one in wanted:
+        name = f"{one.module}_{one.name}" if count[one.name] > 1 else one.name
+        found[one] = InterfaceNames(
+            types.scope.claim(name.upper()),
+            types.scope.claim(f"{name}Proxy"),
+            _method_names(one, types),
+        )
+    return found
+
+
+def _method_names(interface: Interface, types: PythonTypes) -> dict[Operation, str]:
+    reserved = names.PROXY_MEMBERS | names.ANNOTATION | set(types.names.values())
+    called = names.unique([o.name for o in interface.operations], reserved)
+    return dict(zip(interface.operations, called, strict=True))
+
+
+@dataclass(frozen=True, slots=True)
+class Called:
+    """All names of one component."""
+
+    types: PythonTypes
+    interfaces: dict[Interface, InterfaceNames]
+    handlers: dict[tuple[Port, Operation], str]
+    proxies: dict[Port, str]
+    params: str
+
+
+def members(
+    component: Component, types: PythonTypes, interfaces: dict[Interface, InterfaceNames]
+) -> Called:
+    """Names for the methods and proxies; none hides a type or what every component has."""
+    params = types.scope.claim(f"{names.camel(component.name)}Params")
+    scope = names.Scope(names.COMPONENT_MEMBERS | types.scope.taken)
+    served = [p for p in component.ports if p.role in SERVED]
+    proxies = {
+        p: scope.claim(f"{p.name.lower()}_proxy") for p in component.ports if p not in served
+    }
+    handlers = {
+        (p, o): scope.claim(f"{p.name}_{o.name}") for p in served for o in p.interface.operations
+    }
+    return Called(types, interfaces, handlers, proxies, params)
+
+
+def names_of(component: Component) -> Called:
+    """What everything of a component is called in Python."""
+    types = PythonTypes(modules_of(component))
+    interfaces = named(dict.fromkeys(p.interface for p in component.ports), types)
+    return members(component, types, interfaces)
+
+
+def modules_of(component: Component) -> tuple[Module, ...]:
+    """All imported modules, directly or not, imported ones first."""
+    found = (m for module in component.modules for m in module.closure())
+    return tuple(dict.fromkeys(found))
