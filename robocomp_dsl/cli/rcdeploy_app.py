@@ -21,10 +21,11 @@ app = click.argument("app", metavar="APP.ddsl", type=click.Path(path_type=Path))
 
 @dataclass(frozen=True, slots=True)
 class Checked:
-    """`plan` is None when there are errors among `findings`."""
+    """`plan` is None when the text has errors; `ready`: nothing keeps it from running here."""
 
     findings: Sequence[Diagnostic]
     plan: Plan | None
+    ready: bool
 
 
 def check(
@@ -40,7 +41,7 @@ def check(
     workspace = Workspace(folders)
     deployment = check_ddsl(path, workspace, report)
     if deployment is None or report.failed:
-        return Checked(report.sorted(), None)
+        return Checked(report.sorted(), None, ready=False)
     running = name or deployment.name
     made = plan(
         deployment,
@@ -48,7 +49,18 @@ def check(
         domain=domain or f"{running}-{secrets.token_hex(3)}",
         interpreter=sys.executable,
     )
-    report.extend(preflight(deployment, made))
+    report.extend(preflight(deployment, made, ports=not _runs(made)))
     if not report.failed:
         report.extend(outdated(deployment, workspace.middlewares))
-    return Checked(report.sorted(), None if report.failed else made)
+    return Checked(report.sorted(), made, ready=not report.failed)
+
+
+def _runs(plan: Plan) -> bool:
+    """Whether it is running already; then it is itself that has its ports."""
+    from robocomp_dsl.deploy import folder  # noqa: PLC0415
+
+    try:
+        known = folder.running()
+    except folder.Unavailable:
+        return False
+    return any(one.name == plan.name and one.path == str(plan.path.resolve()) for one in known)

@@ -19,7 +19,7 @@ def command(app: Path, folders: tuple[Path, ...], form: str) -> None:
     """Check a deployment, its components, configurations and this machine; start nothing."""
     checked = rcdeploy_app.check(app, folders)
     options.show(checked.findings, form, sys.stdout)
-    if checked.plan is None:
+    if checked.plan is None or not checked.ready:
         sys.exit(FINDINGS)
     if form == "full":
         count = len(checked.plan.processes)

@@ -27,7 +27,10 @@ from robocomp_dsl.deploy.preflight import short
 def command(
     app: Path, folders: tuple[Path, ...], name: str | None, domain: str | None, form: str
 ) -> None:
-    """Show what `up` would start, in which order, with which wiring; start nothing."""
+    """Show what `up` would start, in which order, with which wiring; start nothing.
+
+    Exit code 1: it could not be started now; why is told on standard error.
+    """
     checked = rcdeploy_app.check(app, folders, name, domain)
     options.show(checked.findings, "full", sys.stderr)
     if checked.plan is None:
@@ -36,6 +39,7 @@ def command(
         print(json.dumps(as_data(checked.plan), indent=1))
     else:
         print("\n".join(map(harmless, as_text(checked.plan))))
+    sys.exit(0 if checked.ready else FINDINGS)
 
 
 def as_data(plan: Plan) -> dict[str, Any]:

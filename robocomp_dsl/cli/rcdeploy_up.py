@@ -57,7 +57,7 @@ def command(
     """
     checked = rcdeploy_app.check(app, folders, name, domain)
     options.show(checked.findings, "full", sys.stderr)
-    if checked.plan is None:
+    if checked.plan is None or not checked.ready:
         options.complain(f"{app}: nothing was started ({options.summary(checked.findings)})")
         sys.exit(FINDINGS)
     if reason := lacking():

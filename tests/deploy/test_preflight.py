@@ -130,7 +130,8 @@ def test_what_the_machine_lacks(
     change(folder)
     checked = judged(folder, arm, eye)
     assert told(checked, folder) == expected
-    assert (checked.plan is None) == any("RC905" not in line for line in expected)
+    assert checked.plan
+    assert checked.ready == all("RC905" in line for line in expected)
 
 
 def test_what_must_be_given_is_missed_in_the_file_that_should_give_it(folder: Path) -> None:
@@ -207,6 +208,10 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     wrong = rcdeploy("check", "app.ddsl", "--format", "json")
     assert wrong.returncode == 1
     assert [one["code"] for one in json.loads(wrong.stdout)] == ["RC902"]
+    shown = rcdeploy("plan", "app.ddsl")
+    assert shown.returncode == 1
+    assert "there is no program `nothing` for it" in shown.stderr
+    assert "cd arm && nothing --name arm" in shown.stdout
     started = rcdeploy("app.ddsl")
     assert started.returncode == 1
     assert "nothing was started (1 error)" in started.stderr

@@ -126,6 +126,24 @@ def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> N
         assert app.end() == 0
 
 
+def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    (folder / "app.ddsl").write_text(APP.replace("env MODE", f"port {port}; env MODE"))
+    with up() as app:
+        app.until("all 2 components are ready")
+        assert rcdeploy("app.ddsl", "check").returncode == 0
+        assert f"--listen-port {port}" in rcdeploy("app.ddsl", "plan").stdout
+        again = rcdeploy("app.ddsl")
+        assert again.returncode == 1
+        assert "`app` is running already (pid" in again.stderr
+        other = rcdeploy("app.ddsl", "--name", "other")
+        assert other.returncode == 1
+        assert f"port {port} cannot be used" in other.stderr
+        app.process.terminate()
+        assert app.end() == 0
+
+
 def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
     with up() as one:
         one.until("all 2 components are ready")
@@ -191,7 +209,7 @@ def test_a_port_in_use_starts_nothing(folder: Path, sockets: Path) -> None:
         with up() as app:
             assert app.end() == 1
     assert app.has(f"port {port} cannot be used: Address already in use")
-    assert not sockets.exists()
+    assert [path.name for path in sockets.iterdir()] == [".deployments"]  # no domain was opened
 
 
 def test_a_named_domain_may_be_joined_by_hand(folder: Path) -> None:
