@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
-from importlib.metadata import entry_points
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoints
+
     from robocomp_dsl.runtime.middleware.base import Host, Middleware
 
 GROUP = "robocomp_dsl.middleware"
@@ -23,7 +24,7 @@ class UnknownMiddleware(Exception):
 
 def names() -> list[str]:
     """All that can be opened here."""
-    return sorted({*OWN, *(one.name for one in entry_points(group=GROUP))})
+    return sorted({*OWN, *(one.name for one in _installed())})
 
 
 def open_middleware(name: str, host: Host) -> Middleware:
@@ -33,10 +34,17 @@ def open_middleware(name: str, host: Host) -> Middleware:
     """
     if name in OWN:
         return _opened(import_module(OWN[name]).open_for, host)
-    for one in entry_points(group=GROUP):
+    for one in _installed():
         if one.name == name:
             return _opened(one.load(), host)
     raise UnknownMiddleware(f"there is no middleware `{name}`; there are {', '.join(names())}")
+
+
+def _installed() -> EntryPoints:
+    """Those of other distributions."""
+    from importlib.metadata import entry_points  # noqa: PLC0415 - it takes long to load
+
+    return entry_points(group=GROUP)
 
 
 def _opened(opener: Callable[[Host], Middleware], host: Host) -> Middleware:

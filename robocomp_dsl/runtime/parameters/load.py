@@ -14,9 +14,7 @@ from robocomp_dsl.runtime.parameters import overrides as command_line
 from robocomp_dsl.runtime.parameters.check import check
 from robocomp_dsl.runtime.parameters.findings import ConfigError, Finding, Place, Text
 from robocomp_dsl.runtime.parameters.schema import Schema
-from robocomp_dsl.runtime.parameters.toml_text import read_toml
 from robocomp_dsl.runtime.parameters.tree import Mapping
-from robocomp_dsl.runtime.parameters.yaml_text import read_yaml
 
 MAX_BYTES = 1024 * 1024
 """Larger files are refused; a configuration of a component has a few kilobytes."""
@@ -49,8 +47,14 @@ def _read(path: Path | None, findings: list[Finding]) -> Mapping | None:
         findings.append(Finding(place, f"the configuration cannot be used: {error}"))
         return None
     text = Text(str(path), tuple(source.splitlines()))
-    read = read_toml if path.suffix.lower() == ".toml" else read_yaml
-    return read(text, source, findings)
+    # A component without a file needs no reader; that of YAML takes long to load.
+    if path.suffix.lower() == ".toml":
+        from robocomp_dsl.runtime.parameters.toml_text import read_toml  # noqa: PLC0415
+
+        return read_toml(text, source, findings)
+    from robocomp_dsl.runtime.parameters.yaml_text import read_yaml  # noqa: PLC0415
+
+    return read_yaml(text, source, findings)
 
 
 class _Unreadable(Exception):
