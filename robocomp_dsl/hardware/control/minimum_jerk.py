@@ -22,7 +22,8 @@ PEAK = 1.875
 class MinimumJerk:
     """The trajectories; `position` and `velocity` (n,) are the references after the last step.
 
-    `active` tells whether any joint moves.
+    `active` tells whether any joint moves. A joint at rest is a trajectory of rate 0, so that a
+    step treats all joints alike; ends are looked for only when the next one is due.
     """
 
     def __init__(self, position: Floats) -> None:
@@ -31,61 +32,66 @@ class MinimumJerk:
         self.velocity = np.zeros(n)
         self.goal = position.copy()
         self.moving = np.zeros(n, bool)
+        self.active = False
         self._time = np.zeros(n)
         self._rate = np.zeros(n)
-        # factors of t^0 to t^5, of the position and of its derivative by t: (6, 2, n)
+        # factors of t^0 to t^5, of the position and of its derivative by t
         self._factors = np.zeros((6, 2, n))
-        self.active = False
+        self._factors[0, 0] = position
+        self._clock = 0.0
+        self._end = np.full(n, np.inf)
+        self._next_end = np.inf
 
     def move(self, joints: Ints, goal: Floats, speed: Floats, dt: float) -> None:
         """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves."""
-        way = goal - self.position[joints]
+        start, way = self.position[joints], goal - self.position[joints]
         duration = np.abs(way) / speed
         at_once = duration < dt
         v = self.velocity[joints] * duration
         third, fourth, fifth = 10 * way - 6 * v, 8 * v - 15 * way, 6 * way - 3 * v
         none = np.zeros(len(joints))
-        self._factors[:, 0, joints] = (self.position[joints], v, none, third, fourth, fifth)
+        self._factors[:, 0, joints] = (start, v, none, third, fourth, fifth)
         self._factors[:, 1, joints] = (v, none, 3 * third, 4 * fourth, 5 * fifth, none)
         self._rate[joints] = 1.0 / np.where(at_once, dt, duration)
         self._time[joints] = 0.0
+        self._end[joints] = self._clock + duration
         self.goal[joints] = goal
-        self.moving[joints] = ~at_once
-        done = joints[at_once]
-        self.position[done] = self.goal[done]
-        self.velocity[done] = 0.0
-        self.active = bool(self.moving.any())
+        self.moving[joints] = True
+        self.halt(joints[at_once], goal[at_once])
 
     def halt(self, joints: Ints, position: Floats) -> None:
         """Forget the motion of `joints`: at rest at `position`."""
         self.position[joints] = self.goal[joints] = position
-        self.velocity[joints] = 0.0
+        self.velocity[joints] = self._rate[joints] = 0.0
+        self._factors[:, :, joints] = 0.0
+        self._factors[0, 0, joints] = position
         self.moving[joints] = False
+        self._end[joints] = np.inf
+        self._next_end = float(self._end.min())
         self.active = bool(self.moving.any())
 
     def shift(self, way: Floats, low: Floats, high: Floats) -> None:
         """Carry everything along by `way` (n,), between `low` and `high`."""
         self.position = np.minimum(np.maximum(self.position + way, low), high)
         self.goal = np.minimum(np.maximum(self.goal + way, low), high)
-        self._factors[0, 0] += way
+        start = self._factors[0, 0]
+        start += way
+        np.copyto(start, self.position, where=~self.moving)
 
     def step(self, dt: float) -> None:
         """Let `dt` seconds pass."""
         if not self.active:
             return
-        moving = self.moving
-        step = self._rate * dt
+        self._clock += dt
         t = self._time
-        np.add(t, step, out=t, where=moving)
+        t += self._rate * dt
         value = self._factors[5] * t
         for factor in self._factors[4:0:-1]:
             value += factor
             value *= t
         value += self._factors[0]
-        np.copyto(self.position, value[0], where=moving)
-        np.multiply(value[1], self._rate, out=self.velocity, where=moving)
-        step *= 0.5
-        step += t
-        done = (step >= 1.0) & moving
-        if np.count_nonzero(done):
-            self.halt(np.flatnonzero(done), self.goal[done])
+        self.position = value[0]
+        np.multiply(value[1], self._rate, out=self.velocity)
+        if self._clock >= self._next_end - 0.5 * dt:
+            done = np.flatnonzero(self._end <= self._clock + 0.5 * dt)
+            self.halt(done, self.goal[done])

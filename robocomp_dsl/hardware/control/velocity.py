@@ -10,39 +10,56 @@ from robocomp_dsl.hardware.control.joints import Floats, Ints
 class VelocityRamp:
     """`target` is what was commanded, `velocity` where the ramp is, both (n,) [rad/s].
 
-    A target may hold for a limited time (`until` seconds from now), as velocity commands of a
-    caller that may die do.
+    A target may hold for a limited time, as velocity commands of a caller that may die do. `active`
+    tells whether anything turns or is about to.
     """
 
     def __init__(self, size: int) -> None:
         self.target = np.zeros(size)
         self.velocity = np.zeros(size)
-        self._left = np.full(size, np.inf)
         self.active = False
+        self._steady = True
+        self._clock = 0.0
+        self._until = np.full(size, np.inf)
+        self._next_end = np.inf
 
     def command(self, joints: Ints, target: Floats, hold: float = np.inf) -> None:
         """Aim for `target`, for `hold` seconds."""
         self.target[joints] = target
-        self._left[joints] = hold
-        self.active = True
+        self._until[joints] = self._clock + hold
+        self._next_end = float(self._until.min())
+        self.active, self._steady = True, False
 
     def halt(self, joints: Ints) -> None:
         """At rest at once."""
         self.target[joints] = 0.0
         self.velocity[joints] = 0.0
-        self._left[joints] = np.inf
+        self._until[joints] = np.inf
+        self._next_end = float(self._until.min())
+        self._steady = False
 
     def step(self, acceleration: Floats, dt: float) -> Floats:
         """Let `dt` seconds pass; the velocities (n,)."""
         if not self.active:
             return self.velocity
-        self._left -= dt
-        over = self._left < 0.0
-        if np.count_nonzero(over):
-            self.target[over] = 0.0
-            self._left[over] = np.inf
+        self._clock += dt
+        if self._clock > self._next_end:
+            self._expire()
+        if self._steady:
+            return self.velocity
         reach = acceleration * dt
         change = np.minimum(self.target - self.velocity, reach)
-        self.velocity += np.maximum(change, -reach, out=change)
-        self.active = bool(np.count_nonzero(self.velocity) or np.count_nonzero(self.target))
+        np.maximum(change, -reach, out=change)
+        self.velocity += change
+        self._steady = not np.count_nonzero(change)
+        if self._steady:
+            self.active = bool(np.count_nonzero(self.velocity))
         return self.velocity
+
+    def _expire(self) -> None:
+        """Targets that were given for a time that is over become 0."""
+        over = self._until < self._clock
+        self.target[over] = 0.0
+        self._until[over] = np.inf
+        self._next_end = float(self._until.min())
+        self._steady = False
