@@ -94,8 +94,8 @@ AMBIGUOUS_INTERFACE = Code(
     Severity.ERROR,
     "the name of an interface has several meanings",
     """\
-Two imported files declare an interface of this name. Direct imports come first; among those the
-module in front of the name says which one is meant.
+Two imported files declare an interface of this name. Direct imports come first, and among those a
+file that is called as the interface; else the module in front of the name says which is meant.
 
 Wrong, where both files declare `Laser`:
 

@@ -16,8 +16,13 @@ from robocomp_dsl.syntax.ast_base import QualifiedName
 
 
 def find_interface(name: QualifiedName, visible: Visible, report: Report) -> Interface | None:
-    """The interface called `name`: of a direct import, else of what these import."""
+    """The interface called `name`: of a direct import, else of what these import.
+
+    Of several that of the file with its name, as RoboComp has it: its AGMExecutive.idsl and
+    AGMExecutiveTopic.idsl both declare an AGMExecutiveTopic, and every agent imports both.
+    """
     found = visible.find(name, Interface)
+    found = [one for one in found if one.span.source.path.stem == one.name] or found
     if len(found) == 1:
         return found[0]
     if found:
