@@ -33,7 +33,6 @@ def _hold(command: Commands) -> None:
 
 def _move(command: Commands) -> None:
     command.set_mode(None, Mode.POSITION)
-    command.set_reference_speed(None, 0.1)
     command.position_move(None, 1.5)
 
 

@@ -24,6 +24,8 @@ from robocomp_dsl.hardware.control.faults import Fault
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
 from robocomp_dsl.hardware.control.parking import Parking, ParkState
+from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.settings import Settings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
@@ -72,6 +74,7 @@ class Arm:
         set_pose(self.world.model, self.world.data, robot)
         self.world.advance(0.001)
         self.board, self.command = self.part.board, self.part.commands
+        self.settings = self.part.settings
         self.spec = self.board.spec
 
     def wait(self, done, seconds: float) -> bool:
@@ -107,6 +110,7 @@ SEQUENCE = (
     (Mode.POSITION, Mode.POSITION),
     (Mode.POSITION_DIRECT, Mode.POSITION_DIRECT),
     (Mode.VELOCITY, Mode.VELOCITY),
+    (Mode.VELOCITY_DIRECT, Mode.VELOCITY_DIRECT),
     (Mode.TORQUE, Mode.TORQUE),
     (Mode.MIXED, Mode.MIXED),
     (Mode.PWM, Mode.PWM),
@@ -167,7 +171,7 @@ def test_joint_limits_hold_in_every_mode(arm):
     n = len(arm.spec.joints)
     low, high = arm.board.limits.low, arm.board.limits.high
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 4.0)
+    arm.settings.set_reference_speed(None, 4.0)
     arm.go(None, arm.inside)
     for joint in range(n):
         for bound, beyond in ((low, -1.0), (high, 1.0)):
@@ -199,7 +203,7 @@ def test_joint_limits_hold_in_every_mode(arm):
 
 def test_motors_reach_their_targets_in_time(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 0.35)
+    arm.settings.set_reference_speed(None, 0.35)
     low, high = arm.board.limits.low, arm.board.limits.high
     for share in (0.5, 0.3, 0.7):
         goal = low + share * (high - low)
@@ -216,7 +220,7 @@ def test_motors_reach_their_targets_in_time(arm):
 
 def test_a_stop_ends_the_motion_where_it_is(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 0.3)
+    arm.settings.set_reference_speed(None, 0.3)
     arm.command.position_move(None, arm.inside)
     arm.world.advance(0.3)
     arm.command.stop()
@@ -230,7 +234,7 @@ def test_a_stop_ends_the_motion_where_it_is(arm):
 def test_motor_encoders_count_the_way_the_motor_pushes(arm):
     arm.world.model.opt.gravity[:] = 0
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 1.0)
+    arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
     for motor in range(len(arm.spec.motors)):
         arm.command.set_mode(None, Mode.POSITION)
@@ -247,7 +251,7 @@ def test_motor_encoders_count_the_way_the_motor_pushes(arm):
 
 def test_joints_follow_a_stream_of_direct_positions(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 1.0)
+    arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
     arm.command.set_mode(None, Mode.POSITION_DIRECT)
     arm.world.advance(0.1)
@@ -262,7 +266,7 @@ def test_joints_follow_a_stream_of_direct_positions(arm):
 
 def test_both_encoders_agree_while_the_arm_moves(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 0.7)
+    arm.settings.set_reference_speed(None, 0.7)
     arm.command.position_move(None, arm.inside)
     motors, last = arm.board.motors, arm.board.state()
     for _ in range(400):
@@ -279,10 +283,10 @@ def test_both_encoders_agree_while_the_arm_moves(arm):
 
 def test_velocities_are_reached_by_the_acceleration_and_held(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 1.0)
+    arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
     arm.command.set_mode(None, Mode.VELOCITY)
-    arm.command.set_acceleration(None, 0.5)
+    arm.settings.set_acceleration(None, 0.5)
     arm.command.velocity_move(None, 0.2)
     arm.world.advance(0.2)
     assert arm.board.references.velocity == pytest.approx(np.full(len(arm.inside), 0.1), abs=0.01)
@@ -297,13 +301,28 @@ def test_velocities_are_reached_by_the_acceleration_and_held(arm):
     arm.command.stop()
 
 
+def test_direct_velocities_are_there_at_once(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.command.set_mode(None, Mode.VELOCITY_DIRECT)
+    arm.command.set_velocity(None, 0.2)
+    arm.world.advance(0.002)
+    assert arm.board.references.velocity == pytest.approx(np.full(len(arm.inside), 0.2))
+    arm.world.advance(0.5)
+    assert arm.board.velocity == pytest.approx(np.full(len(arm.inside), 0.2), abs=0.02)
+    arm.command.set_velocity(None, 0.0)
+    arm.world.advance(0.3)
+    assert arm.board.velocity == pytest.approx(np.zeros(len(arm.inside)), abs=0.01)
+
+
 def test_mixed_mode_adds_a_velocity_to_a_motion(arm):
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 1.0)
+    arm.settings.set_reference_speed(None, 1.0)
     start = arm.inside - 0.15
     arm.go(None, start)
     arm.command.set_mode(None, Mode.MIXED)
-    arm.command.set_reference_speed(None, 0.1)
+    arm.settings.set_reference_speed(None, 0.1)
     arm.command.position_move(None, start + 0.1)
     arm.command.velocity_move(None, 0.05, hold=1.0)
     arm.world.advance(2.0)
@@ -313,14 +332,14 @@ def test_mixed_mode_adds_a_velocity_to_a_motion(arm):
 def test_a_compliant_arm_gives_way_and_comes_back(arm):
     joint = 3
     arm.command.set_mode(None, Mode.POSITION)
-    arm.command.set_reference_speed(None, 1.0)
+    arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
     torque, dof = 0.1 * arm.spec.joints[joint].torque_limit, arm.part._speed[joint]
 
     def pushed(stiffness: float | None) -> float:
         if stiffness:
             arm.command.set_interaction([joint], Interaction.COMPLIANT)
-            arm.command.set_impedance([joint], stiffness, 0.1 * stiffness)
+            arm.settings.set_impedance([joint], stiffness, 0.1 * stiffness)
         before = arm.board.position[joint]
         arm.world.data.qfrc_applied[dof] = torque
         arm.world.advance(3.0)
@@ -334,7 +353,7 @@ def test_a_compliant_arm_gives_way_and_comes_back(arm):
     assert abs(pushed(None)) < 0.01
     assert pushed(soft) == pytest.approx(0.25, abs=0.03)
     assert pushed(2 * soft) == pytest.approx(0.125, abs=0.02)
-    arm.command.set_impedance_offset([joint], -0.1 * torque)
+    arm.settings.set_impedance_offset([joint], -0.1 * torque)
     arm.world.advance(2.0)
     assert arm.board.position[joint] - arm.inside[joint] == pytest.approx(-0.0125, abs=0.005)
 
@@ -353,6 +372,7 @@ WRONG_COMMANDS = {
     "relative_move": (Mode.POSITION, Mode.MIXED),
     "set_position": (Mode.POSITION_DIRECT,),
     "velocity_move": (Mode.VELOCITY, Mode.MIXED),
+    "set_velocity": (Mode.VELOCITY_DIRECT,),
     "set_torque": (Mode.TORQUE,),
     "set_duty": (Mode.PWM,),
     "set_current": (Mode.CURRENT,),
@@ -404,7 +424,7 @@ def test_other_refusals():
     with pytest.raises(NotEquipped):
         command.set_interaction(None, Interaction.COMPLIANT)
     command.set_mode(None, Mode.POSITION)
-    command.set_reference_speed([1], 0.0)
+    Settings(board).set_reference_speed([1], 0.0)
     with pytest.raises(NoSpeed, match="`j1`"):
         command.position_move(None, 0.5)
     command.set_mode(None, Mode.TORQUE)
@@ -473,7 +493,7 @@ def test_the_eyes_turn_by_version_and_vergence():
     head = SimulatedBoard(robot_board(robot, "head"))
     world = World(spec, [head])
     head.commands.set_mode(None, Mode.POSITION)
-    head.commands.set_reference_speed(None, 1.0)
+    head.settings.set_reference_speed(None, 1.0)
     head.commands.position_move(["eyes_version", "eyes_vergence"], [0.2, 0.3])
     world.advance(1.5)
     left, right = (world.data.joint(f"{side}_eye_pan").qpos[0] for side in "lr")
@@ -569,6 +589,36 @@ def test_parking_may_be_stopped_and_may_fail(arm):
     arm.board.fault(np.array([0]), Fault.EXTERNAL, "test")
     with pytest.raises(ModeRefused):
         parking.park()
+
+
+def test_settings_are_checked_and_move_nothing(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.world.advance(0.2)
+    first = arm.spec.names[0]
+    arm.settings.set_pid(first, Gains(kp=1.0))
+    assert arm.settings.pid(0).kp == 1.0
+    here = arm.board.position.copy()
+    arm.settings.set_encoder([first], here[0] + 0.1)
+    arm.settings.set_motor_encoder([first], 7)
+    assert arm.board.state().motor_counts[0] == 7
+    arm.world.advance(0.2)
+    moved = arm.world.data.joint(first).qpos[0] - here[0]
+    assert abs(moved) < 0.02
+    assert arm.board.position[0] == pytest.approx(here[0] + 0.1, abs=0.02)
+    low, high = arm.settings.position_limits()
+    arm.settings.set_position_limits([1], low[1] + 0.1, high[1] - 0.1)
+    assert arm.settings.position_limits([1])[0] == pytest.approx(low[1] + 0.1)
+    assert arm.settings.last_fault(first).code is Fault.NONE
+    arm.settings.set_speed_limits(None, 1.0)
+    for wrong in (
+        lambda: arm.settings.set_position_limits([1], low[1] - 1.0, high[1]),
+        lambda: arm.settings.set_encoder([0], np.nan),
+        lambda: arm.settings.set_speed_limits(None, 0.0),
+        lambda: arm.settings.set_impedance([0], 1e9, 0.0),
+        lambda: arm.settings.pid("nobody"),
+    ):
+        with pytest.raises(ControlRefused):
+            wrong()
 
 
 def test_remote_variables_are_read_and_written():

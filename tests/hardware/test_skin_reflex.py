@@ -80,7 +80,7 @@ class TouchedRobot:
     def obey(self, action) -> None:
         if isinstance(action, Move):
             orders: Orders = self.arm.move(action.position, action.speed)
-            self.board.commands.set_reference_speed(self.names, orders.speeds)
+            self.board.settings.set_reference_speed(self.names, orders.speeds)
             self.board.commands.position_move(self.names, orders.values)
             if self.first_move is None:
                 self.first_move = self.world.time

@@ -77,6 +77,11 @@ def test_the_triangle_has_ten_taxels_at_the_measured_pitch():
     assert triangle.index(1, 2, 3) == 192 + 24 + 3
 
 
+def test_a_part_publishes_all_its_channels():
+    vector = triangle.published(np.array([0, 5, 13]), np.array([1, 2, 3], np.uint8), 24)
+    assert vector.tolist() == [1, 240, 240, 240, 240, 2] + [240] * 7 + [3] + [240] * 10
+
+
 RAW = 240.0
 
 

@@ -70,6 +70,16 @@ class Commands:
         clipped: Bools = kept != values
         return clipped
 
+    def set_velocity(self, joints: Joints, velocity: Values) -> Bools:
+        """Turn at `velocity` [rad/s] at once, without a ramp; where velocities were clipped."""
+        chosen = self._in(joints, "set_velocity", Mode.VELOCITY_DIRECT)
+        values = numbers("velocity", velocity, len(chosen))
+        most = self._board.limits.speed[chosen]
+        kept = np.clip(values, -most, most)
+        self._board.references.drive_at_once(chosen, kept)
+        clipped: Bools = kept != values
+        return clipped
+
     def set_torque(self, joints: Joints, torque: Values) -> Bools:
         """Reference torques [N m]; where they were clipped."""
         chosen = self._in(joints, "set_torque", Mode.TORQUE)
@@ -103,30 +113,6 @@ class Commands:
         """Whether the trajectories of `joints` have ended."""
         done: Bools = ~self._board.references.trajectory.moving[self._board.select.indices(joints)]
         return done
-
-    def set_reference_speed(self, joints: Joints, speed: Values) -> None:
-        """Mean speeds [rad/s] of the next position moves; held below the speed limit."""
-        chosen = self._board.select.indices(joints)
-        values = np.abs(numbers("speed", speed, len(chosen)))
-        most = self._board.limits.speed[chosen]
-        self._board.references.reference_speed[chosen] = np.minimum(values, most)
-
-    def set_acceleration(self, joints: Joints, acceleration: Values) -> None:
-        """How fast velocities change [rad/s²] in the velocity and mixed modes."""
-        chosen = self._board.select.indices(joints)
-        values = np.abs(numbers("acceleration", acceleration, len(chosen)))
-        self._board.references.acceleration[chosen] = values
-
-    def set_impedance(self, joints: Joints, stiffness: Values, damping: Values) -> None:
-        """Spring [N m/rad] and damper [N m s/rad] of the compliant interaction."""
-        chosen = self._board.select.indices(joints)
-        k = numbers("stiffness", stiffness, len(chosen))
-        self._board.impedance.set(chosen, k, numbers("damping", damping, len(chosen)))
-
-    def set_impedance_offset(self, joints: Joints, torque: Values) -> None:
-        """Constant torque [N m] of the compliant interaction."""
-        chosen = self._board.select.indices(joints)
-        self._board.impedance.offset[chosen] = numbers("torque", torque, len(chosen))
 
     def _move(self, joints: Ints, goal: Floats) -> Bools:
         speeds = self._board.references.reference_speed[joints]

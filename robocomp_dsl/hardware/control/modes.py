@@ -18,6 +18,7 @@ class Mode(StrEnum):
     POSITION = "pos"
     POSITION_DIRECT = "posd"
     VELOCITY = "vel"
+    VELOCITY_DIRECT = "veld"
     MIXED = "mix"
     TORQUE = "torq"
     PWM = "ipwm"
@@ -43,6 +44,7 @@ SELECTABLE = (
     Mode.POSITION,
     Mode.POSITION_DIRECT,
     Mode.VELOCITY,
+    Mode.VELOCITY_DIRECT,
     Mode.MIXED,
     Mode.TORQUE,
     Mode.PWM,
@@ -50,7 +52,13 @@ SELECTABLE = (
 )
 """Modes that a command may ask for; the others are states that the joint comes into by itself."""
 
-POSITIONED = (Mode.POSITION, Mode.POSITION_DIRECT, Mode.VELOCITY, Mode.MIXED)
+POSITIONED = (
+    Mode.POSITION,
+    Mode.POSITION_DIRECT,
+    Mode.VELOCITY,
+    Mode.VELOCITY_DIRECT,
+    Mode.MIXED,
+)
 """Modes that hold a reference position."""
 
 

@@ -59,6 +59,10 @@ class References:
         """Reference velocities, reached by the joints' acceleration, for `hold` seconds."""
         self.ramp.command(joints, velocity, hold)
 
+    def drive_at_once(self, joints: Ints, velocity: Floats) -> None:
+        """Reference velocities without a ramp."""
+        self.ramp.jump(joints, velocity)
+
     def stop(self, joints: Ints) -> None:
         """End every motion of `joints` where the reference is now; velocities ramp down."""
         self.trajectory.halt(joints, self.trajectory.position[joints])

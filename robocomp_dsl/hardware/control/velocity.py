@@ -30,6 +30,11 @@ class VelocityRamp:
         self._next_end = float(self._until.min())
         self.active, self._steady = True, False
 
+    def jump(self, joints: Ints, velocity: Floats) -> None:
+        """Turn at `velocity` at once."""
+        self.command(joints, velocity)
+        self.velocity[joints] = velocity
+
     def halt(self, joints: Ints) -> None:
         """At rest at once."""
         self.target[joints] = 0.0

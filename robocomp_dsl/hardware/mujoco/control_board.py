@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.motors import ROOM_TEMPERATURE
+from robocomp_dsl.hardware.control.settings import Settings
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.robots.boards import RobotBoard
 
@@ -32,7 +33,7 @@ HEAT_PERIOD = 0.1
 
 
 class SimulatedBoard:
-    """A part of a `World`: `board` holds the state, `commands` takes orders."""
+    """A part of a `World`: `board` has the state, `commands` takes orders, `settings` adjusts."""
 
     def __init__(
         self,
@@ -44,7 +45,7 @@ class SimulatedBoard:
     ) -> None:
         n = len(robot_board.joints)
         self.board = Board(robot_board.spec)
-        self.commands = Commands(self.board)
+        self.commands, self.settings = Commands(self.board), Settings(self.board)
         self._joints = tuple(prefix + name for name in robot_board.joints)
         self._hold_weight = hold_weight
         self._unheated = 0.0

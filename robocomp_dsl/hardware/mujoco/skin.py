@@ -21,8 +21,9 @@ from robocomp_dsl.tactile.skin.contacts import SkinContact, contacts
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.kernel import SIGMA, Kernel
 from robocomp_dsl.tactile.skin.manager import Compensation, SkinManager
-from robocomp_dsl.tactile.skin.sensor import COUNTS_PER_NEWTON, PERFECT, Imperfections, Raw, Sensor
+from robocomp_dsl.tactile.skin.sensor import COUNTS_PER_NEWTON, PERFECT, Imperfections, Sensor
 from robocomp_dsl.tactile.skin.touches import Neighbours
+from robocomp_dsl.tactile.skin.triangle import Raw
 
 Floats = NDArray[np.float64]
 

@@ -9,16 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.skin.triangle import Raw
 
 IDLE = 240.0
 """Raw value of an untouched taxel."""
 
 COUNTS_PER_NEWTON = 20.0
-
-Raw = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True)

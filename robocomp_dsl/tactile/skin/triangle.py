@@ -7,6 +7,11 @@ iCub skin GUI layout; 257.2 layout units are the 6.5 mm measured between neighbo
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.tactile.arrays import Ints
+
+Raw = NDArray[np.uint8]
 
 CHANNELS = 12
 THERMAL = (6, 10)
@@ -33,6 +38,16 @@ LAYOUT = _UNIT * np.array(
     ]
 )
 """Place of each channel [m], shape (12, 2); the centre taxel, channel 3, at the origin."""
+
+
+def published(channels: Ints, values: Raw, size: int, rest: int = 240) -> Raw:
+    """The vector of `size` channels that a skin part publishes: `values` at `channels`.
+
+    All others, thermal channels and absent modules, stay at `rest`.
+    """
+    vector = np.full(size, rest, np.uint8)
+    vector[channels] = values
+    return vector
 
 
 def index(board: int, triangle: int, channel: int) -> int:

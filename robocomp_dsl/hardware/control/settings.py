@@ -1,0 +1,85 @@
+"""Settings of a control board, by joint: speeds, springs, regulators, limits, encoders.
+
+In: joints by name or number, values in SI units. Nothing moves by a setting; what cannot be is
+refused with a typed error and changes nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.commands import Joints, Values
+from robocomp_dsl.hardware.control.faults import FaultReport
+from robocomp_dsl.hardware.control.joints import Floats, numbers
+from robocomp_dsl.hardware.control.pid import Gains
+
+
+class Settings:
+    """What a client may adjust on a board."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+
+    def set_reference_speed(self, joints: Joints, speed: Values) -> None:
+        """Mean speeds [rad/s] of the next position moves; held below the speed limit."""
+        chosen = self._board.select.indices(joints)
+        values = np.abs(numbers("speed", speed, len(chosen)))
+        most = self._board.limits.speed[chosen]
+        self._board.references.reference_speed[chosen] = np.minimum(values, most)
+
+    def set_acceleration(self, joints: Joints, acceleration: Values) -> None:
+        """How fast velocities change [rad/s²] in the velocity and mixed modes."""
+        chosen = self._board.select.indices(joints)
+        values = np.abs(numbers("acceleration", acceleration, len(chosen)))
+        self._board.references.acceleration[chosen] = values
+
+    def set_impedance(self, joints: Joints, stiffness: Values, damping: Values) -> None:
+        """Spring [N m/rad] and damper [N m s/rad] of the compliant interaction."""
+        chosen = self._board.select.indices(joints)
+        k = numbers("stiffness", stiffness, len(chosen))
+        self._board.impedance.set(chosen, k, numbers("damping", damping, len(chosen)))
+
+    def set_impedance_offset(self, joints: Joints, torque: Values) -> None:
+        """Constant torque [N m] of the compliant interaction."""
+        chosen = self._board.select.indices(joints)
+        self._board.impedance.offset[chosen] = numbers("torque", torque, len(chosen))
+
+    def set_pid(self, joint: str | int, gains: Gains) -> None:
+        """The position regulator of one joint."""
+        self._board.pid.set(self._board.select.index(joint), gains)
+
+    def pid(self, joint: str | int) -> Gains:
+        """The position regulator of one joint."""
+        return self._board.pid.gains[self._board.select.index(joint)]
+
+    def set_position_limits(self, joints: Joints, low: Values, high: Values) -> None:
+        """Narrow the ranges [rad]; wider than the joint's own is refused."""
+        chosen = self._board.select.indices(joints)
+        lowest = numbers("low", low, len(chosen))
+        self._board.limits.set_position(chosen, lowest, numbers("high", high, len(chosen)))
+
+    def position_limits(self, joints: Joints = None) -> tuple[Floats, Floats]:
+        """Lower and upper limits [rad]."""
+        chosen = self._board.select.indices(joints)
+        return self._board.limits.low[chosen], self._board.limits.high[chosen]
+
+    def set_speed_limits(self, joints: Joints, speed: Values) -> None:
+        """Largest speeds [rad/s]."""
+        chosen = self._board.select.indices(joints)
+        self._board.limits.set_speed(chosen, numbers("speed", speed, len(chosen)))
+
+    def set_encoder(self, joints: Joints, position: Values) -> None:
+        """Let the encoders stand at `position` [rad] now; nothing moves."""
+        chosen = self._board.select.indices(joints)
+        self._board.set_encoders(chosen, numbers("position", position, len(chosen)))
+
+    def set_motor_encoder(self, motors: Joints, counts: Values) -> None:
+        """Let the motors' counters stand at `counts` now."""
+        chosen = self._board.select.indices(motors)
+        values = numbers("counts", counts, len(chosen))
+        self._board.motors.set_encoder(chosen, values, self._board.position)
+
+    def last_fault(self, joint: str | int) -> FaultReport:
+        """The last fault of a joint, also after it was cleared."""
+        return self._board.faults.last[self._board.select.index(joint)]
