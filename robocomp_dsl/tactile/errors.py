@@ -5,7 +5,6 @@ TactileError
     InvalidCommand       a command holds NaN, or has the wrong number of values
     Unreachable          no joint angles within the limits reach the pose
     RejectedFrame        a taxel frame cannot be used; says why
-    NotCalibrated        the skin has no baseline yet
     BadFit               points describe no cone
     NoState              the arm has not been measured yet
     NoChain              the description gives no kinematic chain
@@ -43,10 +42,6 @@ class DescriptionError(TactileError):
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(sorted(findings, key=lambda one: (one.file, one.line, one.column)))
         super().__init__("\n".join(str(one) for one in self.findings))
-
-
-class NotCalibrated(TactileError):
-    """The baseline of the skin is not known yet."""
 
 
 class BadFit(TactileError):

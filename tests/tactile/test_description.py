@@ -134,6 +134,10 @@ def test_all_faults_are_told_at_once():
     assert len(faults(text)) == 2
 
 
+def test_a_number_that_is_none_is_told_once():
+    assert len(faults(GOOD.replace("gamma: -1,", "gamma: much,"))) == 1
+
+
 def test_positions_come_from_a_file_beside_the_description(tmp_path):
     points = cartesian(np.array([0.03, 0.05]), np.array([0.0, 1.0]), 0.03)
     body = read_robot(GOOD, Path("r.yaml")).part("left_arm").limb("lower").to_body(points)

@@ -70,10 +70,7 @@ def _servo(entry: Entry) -> Servo:
     if unit not in UNITS:
         entry.complain(f"`{unit}` is no unit of a joint", "use one of " + ", ".join(UNITS))
         unit = "rad"
-    gamma = table.number("gamma", None if joint else 1.0)
-    if gamma == 0.0:
-        entry.complain("gamma must not be 0: a command could not be carried to the device")
-        gamma = 1.0
+    gamma = _gamma(table, entry, joint)
     servo = Servo(
         joint=joint,
         part=table.text("part", ""),
@@ -92,6 +89,15 @@ def _servo(entry: Entry) -> Servo:
         entry.complain(f"the lower limit {low:g} lies above the upper limit {high:g}")
     table.finish()
     return servo
+
+
+def _gamma(table: Table, entry: Entry, joint: str) -> float:
+    """The factor of a servo; 1 after a complaint, so that it is complained about once."""
+    faults = len(entry.reading.findings)
+    gamma = table.number("gamma", None if joint else 1.0)
+    if gamma == 0.0 and len(entry.reading.findings) == faults:
+        entry.complain("gamma must not be 0: a command could not be carried to the device")
+    return gamma or 1.0
 
 
 def _limb(name: str, entry: Entry) -> Limb:
