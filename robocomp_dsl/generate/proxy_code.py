@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from robocomp_dsl.generate import layout, literals
+from robocomp_dsl.generate import docs, layout, literals
 from robocomp_dsl.generate.component_names import InterfaceNames
 from robocomp_dsl.generate.layout import BODY, INNER
 from robocomp_dsl.generate.python_types import PythonTypes
@@ -49,6 +49,7 @@ def method_code(
     hint = layout.subscript("Callable", "...", returns)
     arguments = types.arguments(one)
     made = layout.call(f"self.{slot}", *(a for a, _ in arguments))
+    doc = docs.of_operation(one, types)
     keyword = "" if returns == "None" else "return "
     parameters = ("self", *(f"{a}: {t}" for a, t in arguments))
     bound = layout.call("bind", f"{called.constant}.operations[{position}]")
@@ -56,7 +57,7 @@ def method_code(
         layout.statement(f"{slot}: ", hint, INNER),
         layout.statement(f"self.{slot} = ", bound, BODY),
         layout.definition(name, parameters, returns),
-        literals.docstring(one.doc, BODY) if literals.lines(one.doc) else "",
+        literals.docstring(doc, BODY) if doc else "",
         layout.statement(keyword, made, BODY),
     )
 

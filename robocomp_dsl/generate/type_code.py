@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from robocomp_dsl.generate import layout, literals, names
+from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.layout import BODY, INNER, Item
 from robocomp_dsl.generate.python_types import (
     PythonTypes,
@@ -63,10 +63,10 @@ class TypeCode:
 def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
     """The class or the alias of one type."""
     name = types.names[declaration]
-    doc = literals.docstring(declaration.doc, INNER, declaration.qualified)
+    doc = literals.docstring(declaration.doc, INNER, f"{declaration.qualified}.")
     match declaration:
         case Struct() | ExceptionType():
-            return _record(name, doc, declaration, types)
+            return _record(name, declaration, types)
         case Enum():
             head = layout.class_head(name, "rt.Enum")
             return TypeCode("enum", head, doc, statements=tuple(_values(declaration, types)))
@@ -105,8 +105,9 @@ def _sequence(name: str, one: Sequence, types: PythonTypes) -> Iterator[str]:
     yield layout.statement(f"_{name} = ", layout.call("rt.Sequence", element))
 
 
-def _record(name: str, doc: str, one: Struct | ExceptionType, types: PythonTypes) -> TypeCode:
+def _record(name: str, one: Struct | ExceptionType, types: PythonTypes) -> TypeCode:
     called = field_names(one)
+    doc = literals.docstring(docs.of_record(one, called), INNER)
     schemas = [layout.tuple_of(literals.quoted(f.name), types.schema(f.type)) for f in one.fields]
     parameters: list[Item] = ["self"]
     assignments = []

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from robocomp_dsl.generate import layout, literals, names
+from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.component_names import SERVED, Called
 from robocomp_dsl.generate.layout import BODY, INNER, Group, Item, definition
 from robocomp_dsl.generate.worker_imports import generic_imports, specific_imports
@@ -137,20 +137,10 @@ def _handler(port: Port, one: Operation, called: Called) -> HandlerCode:
     answers = port.pattern(one) is Pattern.QUERY
     return HandlerCode(
         definition(name, parameters, returns),
-        literals.docstring(_about(one, port), BODY),
+        literals.docstring(docs.of_operation(one, called.types, port.interface.qualified), BODY),
         layout.statement("raise ", refused, BODY),
         layout.statement(keyword, above, BODY) if answers else "",
     )
-
-
-def _about(one: Operation, port: Port) -> str:
-    """The doc comment of an operation, with the units and the exceptions below it."""
-    units = [f"{p.name} in {p.unit}" for p in (*one.inputs, *one.outputs) if p.unit]
-    throws = ", ".join(t.name for t in one.throws)
-    below = [f"Units: {', '.join(units)}."] if units else []
-    below += [f"May raise {throws}."] if throws else []
-    said = one.doc.strip() or f"{port.interface.qualified}: {one.name}."
-    return "\n".join([said, "", *below]) if below else said
 
 
 def _example(port: Port, called: Called) -> str:

@@ -58,7 +58,7 @@ class SpecificWorker(GenericWorker):
     def Laser_query(self, p: RoboCompA_Pose) -> RoboCompA_Pose:
         """RoboCompA::Laser: query.
 
-        May raise Failed.
+        May raise RoboCompA_Failed.
         """
         # Put your code here. Until then a caller is told that there is none.
         return super().Laser_query(p)
@@ -99,7 +99,7 @@ class SpecificWorker(GenericWorker):
     def Laser_INTERFACE(self) -> LaserProxy:
         """RoboCompA::Laser: INTERFACE.
 
-        May raise Exception.
+        May raise Exception_.
         """
         # Put your code here. Until then a caller is told that there is none.
         return super().Laser_INTERFACE()
@@ -109,7 +109,7 @@ class SpecificWorker(GenericWorker):
     def Laser1_where(self) -> RoboCompB_Pose:
         """RoboCompB::Laser: where.
 
-        May raise Failed.
+        May raise RoboCompB_Failed.
         """
         # Put your code here. Until then a caller is told that there is none.
         return super().Laser1_where()

@@ -28,6 +28,7 @@ class SpecificWorker(GenericWorker):
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
         """Say a sentence; the answer tells how many wait.
 
+        Returns the result, resp.
         May raise NoVoice.
         """
         # Put your code here. Until then a caller is told that there is none.

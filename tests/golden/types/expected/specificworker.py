@@ -45,7 +45,10 @@ class SpecificWorker(GenericWorker):
         return super().Types_one(a)
 
     def Types_twoOut(self) -> tuple[int, Texts]:
-        """RoboCompTypes::Types: twoOut."""
+        """RoboCompTypes::Types: twoOut.
+
+        Returns a, b.
+        """
         # Put your code here. Until then a caller is told that there is none.
         return super().Types_twoOut()
 
@@ -58,6 +61,7 @@ class SpecificWorker(GenericWorker):
     ) -> tuple[Gear, Everything, EverythingSeq]:
         """RoboCompTypes::Types: all.
 
+        Returns the result, result, more.
         May raise Broken, Late.
         """
         # Put your code here. Until then a caller is told that there is none.
@@ -81,7 +85,10 @@ class SpecificWorker(GenericWorker):
         aVeryLongNameOfAParameter: EverythingSeq,
         another: ByPoint,
     ) -> tuple[ByGear, NestedSeq]:
-        """RoboCompTypes::Types: aVeryLongNameOfAnOperationThatDoesNotEnd."""
+        """RoboCompTypes::Types: aVeryLongNameOfAnOperationThatDoesNotEnd.
+
+        Returns aVeryLongNameOfAnOutput, second.
+        """
         # Put your code here. Until then a caller is told that there is none.
         return super().Types_aVeryLongNameOfAnOperationThatDoesNotEnd(
             aVeryLongNameOfAParameter,

@@ -10,7 +10,10 @@ from robocomp_dsl.runtime import types as rt
 
 
 class A(rt.Struct):
-    """ends with a quote\""""
+    """ends with a quote"
+
+    s: \"\"\"import os\"\"\"
+    """
 
     __slots__ = ("s",)
     _fields_ = (("s", rt.STRING),)
@@ -72,7 +75,10 @@ class HostileProxy(rt.Proxy):
         self._call_call = bind(HOSTILE.operations[0])
 
     def call(self, a: A) -> A:
-        """\\u0041 \\x41 \\N{DIGIT ONE} "\""""
+        """\\u0041 \\x41 \\N{DIGIT ONE} ""
+
+        May raise X.
+        """
         return self._call_call(a)
 
     def query(self, request: A) -> A:

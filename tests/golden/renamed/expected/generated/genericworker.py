@@ -122,7 +122,7 @@ class GenericWorker(Component):
     def Laser_query(self, p: RoboCompA_Pose) -> RoboCompA_Pose:
         """RoboCompA::Laser: query.
 
-        May raise Failed.
+        May raise RoboCompA_Failed.
         """
         raise rt.NotImplementedOperation("Laser_query")
 
@@ -157,14 +157,14 @@ class GenericWorker(Component):
     def Laser_INTERFACE(self) -> LaserProxy:
         """RoboCompA::Laser: INTERFACE.
 
-        May raise Exception.
+        May raise Exception_.
         """
         raise rt.NotImplementedOperation("Laser_INTERFACE")
 
     def Laser1_where(self) -> RoboCompB_Pose:
         """RoboCompB::Laser: where.
 
-        May raise Failed.
+        May raise RoboCompB_Failed.
         """
         raise rt.NotImplementedOperation("Laser1_where")
 

@@ -11,7 +11,7 @@ from robocomp_dsl.runtime import types as rt
 
 
 class lambda_(rt.Enum):
-    """RoboCompA::lambda"""
+    """RoboCompA::lambda."""
 
     None_ = 0
     real_ = 1
@@ -22,7 +22,7 @@ class lambda_(rt.Enum):
 
 
 class RoboCompA_Pose(rt.Struct):
-    """RoboCompA::Pose"""
+    """RoboCompA::Pose."""
 
     __slots__ = (
         "class_",
@@ -87,7 +87,7 @@ class RoboCompA_Pose(rt.Struct):
 
 
 class list_(rt.StructArray[RoboCompA_Pose]):
-    """RoboCompA::list"""
+    """RoboCompA::list."""
 
     __slots__ = ()
     _element_ = RoboCompA_Pose
@@ -143,7 +143,7 @@ _Component_ = rt.Sequence(rt.STRING)
 
 
 class GenericWorker_(rt.Struct):
-    """RoboCompA::GenericWorker"""
+    """RoboCompA::GenericWorker."""
 
     __slots__ = ("numbers", "pose", "poses")
     _fields_ = (("pose", RoboCompA_Pose), ("poses", list_), ("numbers", _dict_))
@@ -164,7 +164,7 @@ _LaserProxy = rt.Dictionary(rt.STRING, GenericWorker_)
 
 
 class Wheel(rt.Struct):
-    """RoboCompA::Wheel"""
+    """RoboCompA::Wheel."""
 
     __slots__ = ("r",)
     _fields_ = (("r", rt.INT),)
@@ -177,7 +177,7 @@ _Wheel = Wheel  # a field is called as the type
 
 
 class request(rt.Struct):
-    """RoboCompA::request"""
+    """RoboCompA::request."""
 
     __slots__ = ("Wheel", "list_", "np_")
     _names_ = ("Wheel", "list_", "np_")
@@ -195,7 +195,7 @@ class request(rt.Struct):
 
 
 class RoboCompA_Failed(rt.DeclaredError):
-    """RoboCompA::Failed"""
+    """RoboCompA::Failed."""
 
     __slots__ = ("args_",)
     _names_ = ("args_",)
@@ -206,7 +206,7 @@ class RoboCompA_Failed(rt.DeclaredError):
 
 
 class Exception_(rt.DeclaredError):
-    """RoboCompA::Exception"""
+    """RoboCompA::Exception."""
 
     __slots__ = ("add_note_",)
     _names_ = ("add_note_",)
@@ -217,7 +217,7 @@ class Exception_(rt.DeclaredError):
 
 
 class RoboCompB_Pose(rt.Struct):
-    """RoboCompB::Pose"""
+    """RoboCompB::Pose."""
 
     __slots__ = ("x",)
     _fields_ = (("x", rt.DOUBLE),)
@@ -227,7 +227,7 @@ class RoboCompB_Pose(rt.Struct):
 
 
 class RoboCompB_Failed(rt.DeclaredError):
-    """RoboCompB::Failed"""
+    """RoboCompB::Failed."""
 
     __slots__ = ("why",)
     _fields_ = (("why", rt.STRING),)
@@ -500,6 +500,7 @@ class RoboCompA_LaserProxy(rt.Proxy):
         self._call_INTERFACE_ = bind(ROBOCOMPA_LASER.operations[8])
 
     def query(self, p: RoboCompA_Pose) -> RoboCompA_Pose:
+        """May raise RoboCompA_Failed."""
         return self._call_query(p)
 
     def publish(self, p: RoboCompA_Pose, q: int) -> None:
@@ -524,6 +525,7 @@ class RoboCompA_LaserProxy(rt.Proxy):
         return self._call_Pose(None_, lambda_, n_, n__)
 
     def INTERFACE_(self) -> LaserProxy:
+        """May raise Exception_."""
         return self._call_INTERFACE_()
 
 
@@ -553,6 +555,7 @@ class RoboCompB_LaserProxy(rt.Proxy):
         self._call_where = bind(ROBOCOMPB_LASER.operations[0])
 
     def where(self) -> RoboCompB_Pose:
+        """May raise RoboCompB_Failed."""
         return self._call_where()
 
 

@@ -52,6 +52,7 @@ class GenericWorker(Component):
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
         """Say a sentence; the answer tells how many wait.
 
+        Returns the result, resp.
         May raise NoVoice.
         """
         raise rt.NotImplementedOperation("Speech_say")

@@ -10,7 +10,10 @@ from robocomp_dsl.runtime import types as rt
 
 
 class DatasayReq(rt.Struct):
-    """What to say."""
+    """What to say.
+
+    override: Whether to stop what is being said now.
+    """
 
     __slots__ = ("override", "text")
     _fields_ = (("text", rt.STRING), ("override", rt.BOOL))
@@ -21,7 +24,10 @@ class DatasayReq(rt.Struct):
 
 
 class DatasayResp(rt.Struct):
-    """RoboCompSpeech::DatasayResp"""
+    """RoboCompSpeech::DatasayResp.
+
+    queued [sentences]
+    """
 
     __slots__ = ("queued",)
     _fields_ = (("queued", rt.INT),)
@@ -31,7 +37,7 @@ class DatasayResp(rt.Struct):
 
 
 class NoVoice(rt.DeclaredError):
-    """RoboCompSpeech::NoVoice"""
+    """RoboCompSpeech::NoVoice."""
 
     __slots__ = ("voice",)
     _fields_ = (("voice", rt.STRING),)
@@ -41,7 +47,11 @@ class NoVoice(rt.DeclaredError):
 
 
 class Ray(rt.Struct):
-    """One ray."""
+    """One ray.
+
+    angle [rad]
+    distance [mm]
+    """
 
     __slots__ = ("angle", "distance")
     _fields_ = (("angle", rt.FLOAT), ("distance", rt.FLOAT))
@@ -52,7 +62,7 @@ class Ray(rt.Struct):
 
 
 class Scan(rt.StructArray[Ray]):
-    """RoboCompRange::Scan"""
+    """RoboCompRange::Scan."""
 
     __slots__ = ()
     _element_ = Ray

@@ -74,7 +74,10 @@ class GenericWorker(Component):
         raise rt.NotImplementedOperation("Types_one")
 
     def Types_twoOut(self) -> tuple[int, Texts]:
-        """RoboCompTypes::Types: twoOut."""
+        """RoboCompTypes::Types: twoOut.
+
+        Returns a, b.
+        """
         raise rt.NotImplementedOperation("Types_twoOut")
 
     def Types_all(
@@ -86,6 +89,7 @@ class GenericWorker(Component):
     ) -> tuple[Gear, Everything, EverythingSeq]:
         """RoboCompTypes::Types: all.
 
+        Returns the result, result, more.
         May raise Broken, Late.
         """
         raise rt.NotImplementedOperation("Types_all")
@@ -107,7 +111,10 @@ class GenericWorker(Component):
         aVeryLongNameOfAParameter: EverythingSeq,
         another: ByPoint,
     ) -> tuple[ByGear, NestedSeq]:
-        """RoboCompTypes::Types: aVeryLongNameOfAnOperationThatDoesNotEnd."""
+        """RoboCompTypes::Types: aVeryLongNameOfAnOperationThatDoesNotEnd.
+
+        Returns aVeryLongNameOfAnOutput, second.
+        """
         raise rt.NotImplementedOperation(
             "Types_aVeryLongNameOfAnOperationThatDoesNotEnd",
         )

@@ -11,7 +11,11 @@ from robocomp_dsl.runtime import types as rt
 
 
 class Point(rt.Struct):
-    """RoboCompOther::Point"""
+    """RoboCompOther::Point.
+
+    x [m]
+    y [m]
+    """
 
     __slots__ = ("x", "y")
     _fields_ = (("x", rt.DOUBLE), ("y", rt.DOUBLE))
@@ -22,7 +26,7 @@ class Point(rt.Struct):
 
 
 class Points(rt.StructArray[Point]):
-    """RoboCompOther::Points"""
+    """RoboCompOther::Points."""
 
     __slots__ = ()
     _element_ = Point
@@ -37,7 +41,7 @@ class Points(rt.StructArray[Point]):
 
 
 class Cell(rt.Struct):
-    """RoboCompOther::Cell"""
+    """RoboCompOther::Cell."""
 
     __slots__ = ("name", "row")
     _fields_ = (("row", rt.INT), ("name", rt.STRING))
@@ -48,7 +52,10 @@ class Cell(rt.Struct):
 
 
 class Late(rt.DeclaredError):
-    """RoboCompOther::Late"""
+    """RoboCompOther::Late.
+
+    by [ms]
+    """
 
     __slots__ = ("by",)
     _fields_ = (("by", rt.INT),)
@@ -66,14 +73,17 @@ class Gear(rt.Enum):
 
 
 class Plain(rt.Enum):
-    """RoboCompTypes::Plain"""
+    """RoboCompTypes::Plain."""
 
     A = 0
     B = 1
 
 
 class Numbers(rt.Struct):
-    """RoboCompTypes::Numbers"""
+    """RoboCompTypes::Numbers.
+
+    stamp [ns]
+    """
 
     __slots__ = (
         "count",
@@ -122,7 +132,7 @@ class Numbers(rt.Struct):
 
 
 class NumbersSeq(rt.StructArray[Numbers]):
-    """RoboCompTypes::NumbersSeq"""
+    """RoboCompTypes::NumbersSeq."""
 
     __slots__ = ()
     _element_ = Numbers
@@ -165,7 +175,7 @@ class NumbersSeq(rt.StructArray[Numbers]):
 
 
 class Nested(rt.Struct):
-    """RoboCompTypes::Nested"""
+    """RoboCompTypes::Nested."""
 
     __slots__ = ("inner", "where")
     _fields_ = (("inner", Numbers), ("where", Point))
@@ -180,7 +190,7 @@ class Nested(rt.Struct):
 
 
 class NestedSeq(rt.StructArray[Nested]):
-    """RoboCompTypes::NestedSeq"""
+    """RoboCompTypes::NestedSeq."""
 
     __slots__ = ()
     _element_ = Nested
@@ -227,14 +237,14 @@ _Dictionaries = rt.Sequence(_ByName)
 
 
 class Empty(rt.Struct):
-    """RoboCompTypes::Empty"""
+    """RoboCompTypes::Empty."""
 
     __slots__ = ()
     _fields_ = ()
 
 
 class Everything(rt.Struct):
-    """RoboCompTypes::Everything"""
+    """RoboCompTypes::Everything."""
 
     __slots__ = (
         "bytes",
@@ -335,7 +345,7 @@ _EverythingSeq = rt.Sequence(Everything)
 
 
 class Broken(rt.DeclaredError):
-    """RoboCompTypes::Broken"""
+    """RoboCompTypes::Broken."""
 
     __slots__ = ("gear", "where", "why")
     _fields_ = (("gear", Gear), ("why", rt.STRING), ("where", _Ints))
@@ -468,6 +478,7 @@ class TypesProxy(rt.Proxy):
         return self._call_one(a)
 
     def twoOut(self) -> tuple[int, Texts]:
+        """Returns a, b."""
         return self._call_twoOut()
 
     def all(
@@ -477,6 +488,9 @@ class TypesProxy(rt.Proxy):
         n: NumbersSeq,
         d: ByName,
     ) -> tuple[Gear, Everything, EverythingSeq]:
+        """Returns the result, result, more.
+        May raise Broken, Late.
+        """
         return self._call_all(e, i, n, d)
 
     def go(self, e: Everything) -> None:
@@ -493,6 +507,7 @@ class TypesProxy(rt.Proxy):
         aVeryLongNameOfAParameter: EverythingSeq,
         another: ByPoint,
     ) -> tuple[ByGear, NestedSeq]:
+        """Returns aVeryLongNameOfAnOutput, second."""
         return self._call_aVeryLongNameOfAnOperationThatDoesNotEnd(
             aVeryLongNameOfAParameter,
             another,
