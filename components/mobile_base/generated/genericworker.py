@@ -75,6 +75,7 @@ class GenericWorker(Component):
         """The odometry pose alone, in whole millimetres.
 
         Units: x in mm, z in mm, alpha in rad.
+        Returns x, z, alpha.
         May raise HardwareFailedException.
         """
         raise rt.NotImplementedOperation("DifferentialRobot_getBasePose")
@@ -129,7 +130,10 @@ class GenericWorker(Component):
         raise rt.NotImplementedOperation("Laser_getLaserData")
 
     def Laser_getLaserAndBStateData(self) -> tuple[TLaserData, TBaseState]:
-        """The latest scan, and the state of the base that carries the laser at that moment."""
+        """The latest scan, and the state of the base that carries the laser at that moment.
+
+        Returns the result, bState.
+        """
         raise rt.NotImplementedOperation("Laser_getLaserAndBStateData")
 
     def Laser_getLaserConfData(self) -> LaserConfData:

@@ -20,7 +20,18 @@ class HardwareFailedException(rt.DeclaredError):
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there."""
+    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there.
+
+    x [mm]
+    correctedX [mm]
+    z [mm]
+    correctedZ [mm]
+    alpha [rad]
+    correctedAlpha [rad]
+    advVx [mm/s]
+    advVz [mm/s]
+    rotV [rad/s]
+    """
 
     __slots__ = (
         "advVx",
@@ -73,7 +84,13 @@ class TBaseState(rt.Struct):
 
 
 class TMechParams(rt.Struct):
-    """How the base is built and how fast it may go."""
+    """How the base is built and how fast it may go.
+
+    wheelRadius [mm]
+    axisLength [mm]
+    maxVelAdv [mm/s]
+    maxVelRot [rad/s]
+    """
 
     __slots__ = (
         "axisLength",
@@ -126,7 +143,17 @@ _shortVector = rt.Array(rt.INT)
 
 
 class LaserConfData(rt.Struct):
-    """How the laser is set up. A `staticConf` of 0 means that it may change while running."""
+    """How the laser is set up. A `staticConf` of 0 means that it may change while running.
+
+    maxDegrees [deg]
+    maxRange [mm]
+    minRange [mm]
+    iniRange [deg]
+    endRange [deg]
+    sampleRate [ms]
+    angleRes [deg]
+    angleIni [deg]
+    """
 
     __slots__ = (
         "angleIni",
@@ -191,7 +218,11 @@ class LaserConfData(rt.Struct):
 
 
 class TData(rt.Struct):
-    """One ray. A ray that hits nothing has the largest range."""
+    """One ray. A ray that hits nothing has the largest range.
+
+    angle [rad]
+    dist [mm]
+    """
 
     __slots__ = ("angle", "dist")
     _fields_ = (("angle", rt.FLOAT), ("dist", rt.FLOAT))
@@ -202,7 +233,7 @@ class TData(rt.Struct):
 
 
 class TLaserData(rt.StructArray[TData]):
-    """RoboCompLaser::TLaserData"""
+    """RoboCompLaser::TLaserData."""
 
     __slots__ = ()
     _element_ = TData
@@ -344,5 +375,8 @@ class DifferentialRobotPubProxy(rt.Proxy):
         self._call_pushBaseState = bind(DIFFERENTIALROBOTPUB.operations[0])
 
     def pushBaseState(self, state: TBaseState, time: float) -> None:
-        """The state at `time`, which counts from the start of the base and is simulated time in a simulator."""
+        """The state at `time`, which counts from the start of the base and is simulated time in a simulator.
+
+        Units: time in s.
+        """
         self._call_pushBaseState(state, time)

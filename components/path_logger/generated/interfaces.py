@@ -17,7 +17,18 @@ class HardwareFailedException(rt.DeclaredError):
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there."""
+    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there.
+
+    x [mm]
+    correctedX [mm]
+    z [mm]
+    correctedZ [mm]
+    alpha [rad]
+    correctedAlpha [rad]
+    advVx [mm/s]
+    advVz [mm/s]
+    rotV [rad/s]
+    """
 
     __slots__ = (
         "advVx",
@@ -70,7 +81,11 @@ class TBaseState(rt.Struct):
 
 
 class PathSummary(rt.Struct):
-    """`runs` counts how often the base has begun again, `time` is that of the last state heard."""
+    """`runs` counts how often the base has begun again, `time` is that of the last state heard.
+
+    time [s]
+    distance [mm]
+    """
 
     __slots__ = ("distance", "runs", "samples", "time")
     _fields_ = (

@@ -20,7 +20,18 @@ class HardwareFailedException(rt.DeclaredError):
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there."""
+    """Odometry of the base. The corrected pose has known drift removed; a simulator puts the true pose there.
+
+    x [mm]
+    correctedX [mm]
+    z [mm]
+    correctedZ [mm]
+    alpha [rad]
+    correctedAlpha [rad]
+    advVx [mm/s]
+    advVz [mm/s]
+    rotV [rad/s]
+    """
 
     __slots__ = (
         "advVx",
@@ -73,7 +84,13 @@ class TBaseState(rt.Struct):
 
 
 class TMechParams(rt.Struct):
-    """How the base is built and how fast it may go."""
+    """How the base is built and how fast it may go.
+
+    wheelRadius [mm]
+    axisLength [mm]
+    maxVelAdv [mm/s]
+    maxVelRot [rad/s]
+    """
 
     __slots__ = (
         "axisLength",
@@ -126,7 +143,17 @@ _shortVector = rt.Array(rt.INT)
 
 
 class LaserConfData(rt.Struct):
-    """How the laser is set up. A `staticConf` of 0 means that it may change while running."""
+    """How the laser is set up. A `staticConf` of 0 means that it may change while running.
+
+    maxDegrees [deg]
+    maxRange [mm]
+    minRange [mm]
+    iniRange [deg]
+    endRange [deg]
+    sampleRate [ms]
+    angleRes [deg]
+    angleIni [deg]
+    """
 
     __slots__ = (
         "angleIni",
@@ -191,7 +218,11 @@ class LaserConfData(rt.Struct):
 
 
 class TData(rt.Struct):
-    """One ray. A ray that hits nothing has the largest range."""
+    """One ray. A ray that hits nothing has the largest range.
+
+    angle [rad]
+    dist [mm]
+    """
 
     __slots__ = ("angle", "dist")
     _fields_ = (("angle", rt.FLOAT), ("dist", rt.FLOAT))
@@ -202,7 +233,7 @@ class TData(rt.Struct):
 
 
 class TLaserData(rt.StructArray[TData]):
-    """RoboCompLaser::TLaserData"""
+    """RoboCompLaser::TLaserData."""
 
     __slots__ = ()
     _element_ = TData
@@ -321,35 +352,64 @@ class DifferentialRobotProxy(rt.Proxy):
         self._call_correctOdometer = bind(DIFFERENTIALROBOT.operations[7])
 
     def getBaseState(self) -> TBaseState:
-        """The whole state."""
+        """The whole state.
+
+        May raise HardwareFailedException.
+        """
         return self._call_getBaseState()
 
     def getBasePose(self) -> tuple[int, int, float]:
-        """The odometry pose alone, in whole millimetres."""
+        """The odometry pose alone, in whole millimetres.
+
+        Units: x in mm, z in mm, alpha in rad.
+        Returns x, z, alpha.
+        May raise HardwareFailedException.
+        """
         return self._call_getBasePose()
 
     def setSpeedBase(self, adv: float, rot: float) -> None:
-        """Drive ahead at `adv` while turning at `rot`; holds until the next command."""
+        """Drive ahead at `adv` while turning at `rot`; holds until the next command.
+
+        Units: adv in mm/s, rot in rad/s.
+        May raise HardwareFailedException.
+        """
         self._call_setSpeedBase(adv, rot)
 
     def stopBase(self) -> None:
-        """Stop as fast as the base can."""
+        """Stop as fast as the base can.
+
+        May raise HardwareFailedException.
+        """
         self._call_stopBase()
 
     def resetOdometer(self) -> None:
-        """The odometry starts again at x = z = alpha = 0."""
+        """The odometry starts again at x = z = alpha = 0.
+
+        May raise HardwareFailedException.
+        """
         self._call_resetOdometer()
 
     def setOdometer(self, state: TBaseState) -> None:
-        """The odometry goes on from the pose in `state`."""
+        """The odometry goes on from the pose in `state`.
+
+        May raise HardwareFailedException.
+        """
         self._call_setOdometer(state)
 
     def setOdometerPose(self, x: int, z: int, alpha: float) -> None:
-        """The odometry goes on from this pose."""
+        """The odometry goes on from this pose.
+
+        Units: x in mm, z in mm, alpha in rad.
+        May raise HardwareFailedException.
+        """
         self._call_setOdometerPose(x, z, alpha)
 
     def correctOdometer(self, x: int, z: int, alpha: float) -> None:
-        """The corrected pose goes on from this pose; the raw odometry is left alone."""
+        """The corrected pose goes on from this pose; the raw odometry is left alone.
+
+        Units: x in mm, z in mm, alpha in rad.
+        May raise HardwareFailedException.
+        """
         self._call_correctOdometer(x, z, alpha)
 
     def query(self, request: TBaseState) -> None:
@@ -411,7 +471,10 @@ class LaserProxy(rt.Proxy):
         return self._call_getLaserData()
 
     def getLaserAndBStateData(self) -> tuple[TLaserData, TBaseState]:
-        """The latest scan, and the state of the base that carries the laser at that moment."""
+        """The latest scan, and the state of the base that carries the laser at that moment.
+
+        Returns the result, bState.
+        """
         return self._call_getLaserAndBStateData()
 
     def getLaserConfData(self) -> LaserConfData:
