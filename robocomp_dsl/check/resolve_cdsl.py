@@ -53,6 +53,7 @@ def resolve_cdsl(
         path=file.source.path,
         span=tree.name.span,
         language=tree.language.text if tree.language else "Python",
+        language_span=tree.language.span if tree.language else None,
         modules=visible.direct,
         ports=tuple(port for _, port in pairs),
         parameters=parameters_of(tree.parameters, file.source.path, workspace, report),

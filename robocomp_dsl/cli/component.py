@@ -120,8 +120,8 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
         return found
     report.add(
         codes.NO_TARGET,
-        found.span,
-        f"`{found.name}` is to be written in {found.language}, and there is no target for that yet",
+        found.language_span or found.span,
+        f"there is no target for {found.language} yet",
         help="generate it for Python with `--language python`",
     )
     return None

@@ -57,8 +57,9 @@ class StateMachineRef:
 class Component:
     """One CDSL file.
 
-    `language` is as written (`Python`, `Cpp`, `Cpp11`); `period` in ms, 0 for only on events;
-    `threads` 1 for serialised execution. `modules` are the imported IDSL modules (direct imports).
+    `language` is as written (`Python`, `Cpp`, `Cpp11`), at `language_span`; `period` in ms, 0 for
+    only on events; `threads` 1 for serialised execution. `modules` are the imported IDSL modules
+    (direct imports).
     """
 
     name: str
@@ -75,6 +76,7 @@ class Component:
     gui: str = ""
     options: tuple[str, ...] = ()
     doc: str = ""
+    language_span: Span | None = None
 
     def with_role(self, role: Role) -> tuple[Port, ...]:
         """The ports of one role, in order of writing."""
