@@ -38,9 +38,9 @@ def elsewhere(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     venv.create(folder, with_pip=False)
     (site,) = folder.glob("lib/python*/site-packages")
     (site / "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    install = [sys.executable, "-m", "pip", "install", "--no-deps", "--no-index", "-q"]
+    pip = [sys.executable, "-m", "pip", "--python", str(folder / "bin/python")]
     subprocess.run(
-        [*install, "--python", str(folder / "bin/python"), str(wheel)],
+        [*pip, "install", "--no-deps", "--no-index", "-q", str(wheel)],
         check=True,
         capture_output=True,
     )
