@@ -9,6 +9,7 @@ about the file itself all, about the files that it mentions the errors.
     CDSL      parse_cdsl    resolve_cdsl              rules_cdsl               `check_cdsl`
     PDSL      parse_pdsl    resolve_pdsl              rules_pdsl               `check_pdsl`
     DDSL      parse_ddsl    resolve_ddsl              in its parts             `check_ddsl`
+    SMDSL     parse_smdsl   resolve_smdsl             rules_smdsl              `check_smdsl`
     InnerModel              resolve_innermodel        rules_innermodel         `check_innermodel`
 
 The parts of a DDSL file: `components`, `instances`, `settings`, `order`, `wiring`, `implied_wires`.
@@ -35,6 +36,7 @@ from robocomp_dsl.syntax import (
     parse_ddsl,
     parse_innermodel,
     parse_pdsl,
+    parse_smdsl,
 )
 from robocomp_dsl.syntax import (
     codes as form,
@@ -46,8 +48,11 @@ if TYPE_CHECKING:  # what a run does not need is not loaded: see the imports in 
     from robocomp_dsl.model.deployment import Deployment
     from robocomp_dsl.model.interface import Module
     from robocomp_dsl.model.parameter import ParameterSet
+    from robocomp_dsl.model.statemachine import StateMachine
 
-    Model: TypeAlias = tuple[Module, ...] | Component | ParameterSet | Deployment | Body
+    Model: TypeAlias = (
+        tuple[Module, ...] | Component | ParameterSet | Deployment | StateMachine | Body
+    )
     Check: TypeAlias = Callable[[Path, Workspace, Report], Model | None]
 
 Tree = TypeVar("Tree")
@@ -114,6 +119,19 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
 
 
+def check_smdsl(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:
+    """The state machine of a file."""
+    from robocomp_dsl.check.resolve_smdsl import resolve_smdsl  # noqa: PLC0415
+    from robocomp_dsl.check.rules_smdsl import judge_smdsl  # noqa: PLC0415
+
+    file = _parsed(path, parse_smdsl, workspace, report)
+    resolved = resolve_smdsl(file, report) if file else None
+    if resolved is None:
+        return None
+    judge_smdsl(*resolved, report)
+    return resolved[0]
+
+
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> Body | None:
     """The body of an InnerModel file, with all that it includes."""
     from robocomp_dsl.check.resolve_innermodel import resolve_innermodel  # noqa: PLC0415
@@ -133,6 +151,7 @@ CHECKS: Mapping[str, Check] = {
     ".cdsl": check_cdsl,
     ".pdsl": check_pdsl,
     ".ddsl": check_ddsl,
+    ".smdsl": check_smdsl,
     ".xml": check_innermodel,
 }
 """File suffix (lower case) to all passes of its language."""

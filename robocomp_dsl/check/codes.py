@@ -4,4 +4,5 @@ from robocomp_dsl.check.codes_body import *  # noqa: F403 - the families have no
 from robocomp_dsl.check.codes_deployment import *  # noqa: F403
 from robocomp_dsl.check.codes_names import *  # noqa: F403
 from robocomp_dsl.check.codes_parameters import *  # noqa: F403
+from robocomp_dsl.check.codes_states import *  # noqa: F403
 from robocomp_dsl.check.codes_types import *  # noqa: F403

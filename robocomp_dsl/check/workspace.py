@@ -28,8 +28,9 @@ class Workspace:
         environ: Mapping[str, str] = os.environ,
         middlewares: Iterable[str] = MIDDLEWARES,
         shipped: Path = INTERFACES,
+        files: Files | None = None,
     ) -> None:
-        self.files = Files()
+        self.files = Files() if files is None else files
         self.search = Search(self.files, folders, environ, shipped)
         self.library = Library(self.files, self.search)
         self.middlewares = tuple(middlewares)

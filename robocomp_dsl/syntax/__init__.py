@@ -14,9 +14,18 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
 
 if TYPE_CHECKING:
-    from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_innermodel, ast_pdsl
+    from robocomp_dsl.syntax import (
+        ast_cdsl,
+        ast_ddsl,
+        ast_idsl,
+        ast_innermodel,
+        ast_pdsl,
+        ast_smdsl,
+    )
 
-    AnyFile: TypeAlias = ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File
+    AnyFile: TypeAlias = (
+        ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File | ast_smdsl.File
+    )
 
 
 def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
@@ -47,6 +56,13 @@ def parse_ddsl(source: Source, report: Report) -> ast_ddsl.File:
     return ddsl.parse(source, report)
 
 
+def parse_smdsl(source: Source, report: Report) -> ast_smdsl.File:
+    """The tree of a state machine."""
+    from robocomp_dsl.syntax import smdsl  # noqa: PLC0415 - loaded on first use
+
+    return smdsl.parse(source, report)
+
+
 def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
     """The tree of an InnerModel file (XML)."""
     from robocomp_dsl.syntax import innermodel  # noqa: PLC0415 - loaded on first use
@@ -59,5 +75,6 @@ LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".cdsl": parse_cdsl,
     ".pdsl": parse_pdsl,
     ".ddsl": parse_ddsl,
+    ".smdsl": parse_smdsl,
 }
 """File suffix (lower case) to parser."""

@@ -17,16 +17,20 @@ from robocomp_dsl.source import Span
 class NodeType(type):
     """Makes the fields of a class body into slots and parameters of the constructor, in order."""
 
+    defaults: dict[str, Any]
+
     def __new__(
         cls, name: str, bases: tuple[type, ...], body: dict[str, Any], **extra: Any
     ) -> NodeType:
         """The class called `name`; its fields follow those of its base."""
         own = tuple(body.get("__annotations__", ()))
-        defaults = {field: body.pop(field) for field in own if field in body}
+        defaults = {} if not bases else dict(bases[0].defaults)  # type: ignore[attr-defined]
+        defaults |= {field: body.pop(field) for field in own if field in body}
         inherited: tuple[str, ...] = bases[0].__match_args__ if bases else ()  # type: ignore[attr-defined]
         body["__slots__"] = own
         body["__match_args__"] = inherited + own
         made = super().__new__(cls, name, bases, body, **extra)
+        made.defaults = defaults
         made.__init__ = _constructor(made, inherited + own, defaults)  # type: ignore[misc]
         return made
 

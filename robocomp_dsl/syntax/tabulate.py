@@ -28,7 +28,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 # understood only to be reported well, and signs, which each language has its own of.
 _FIRST = {"MERGE_MARK": r"^(?:<{7}|\|{7}|={7}|>{7})(?=[ \r\n]|\Z)[^\n]*"}
 _LAST = {
-    "SIGN": r"->|::|[!-/:-@\[-`{-~]",
+    "SIGN": r"->|=>|::|[!-/:-@\[-`{-~]",
     "STRAY": r"\S",
 }
 _MISSPELT = {

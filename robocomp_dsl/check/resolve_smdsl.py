@@ -1,0 +1,159 @@
+"""From the tree of an SMDSL file to its state machine.
+
+In: the tree. Out: a `StateMachine` of nested states, and findings about names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from robocomp_dsl.check import codes
+from robocomp_dsl.check.files import Parsed
+from robocomp_dsl.check.names import report_repeat
+from robocomp_dsl.diagnostics import Note, Report, did_you_mean
+from robocomp_dsl.model.statemachine import State, StateMachine, Transition
+from robocomp_dsl.syntax import ast_smdsl as ast
+from robocomp_dsl.syntax.ast_base import Name
+
+
+@dataclass(slots=True)
+class Blocks:
+    """The blocks of a file by the state they are inside ("" for the machine).
+
+    `home` tells the block of every state; of a name that is used twice the first.
+    """
+
+    inside: dict[str, ast.Block] = field(default_factory=dict)
+    home: dict[str, str] = field(default_factory=dict)
+
+    def around(self, block: str) -> Iterator[str]:
+        """The block, and those around it, innermost first."""
+        while block:
+            yield block
+            block = self.home.get(block, "")
+        yield ""
+
+
+def resolve_smdsl(file: Parsed[ast.File], report: Report) -> tuple[StateMachine, Blocks] | None:
+    """The machine that a file describes; None where none is to be seen."""
+    machine = file.tree.machine
+    if machine is None:
+        return None
+    blocks = _blocks(machine, file.tree.substates, report)
+    transitions = tuple(
+        one
+        for name, block in blocks.inside.items()
+        for one in _transitions(name, block, blocks, report)
+    )
+    made = StateMachine(
+        machine.name.text,
+        file.source.path,
+        machine.name.span,
+        _states("", blocks),
+        transitions,
+        machine.doc,
+    )
+    return made, blocks
+
+
+def _blocks(machine: ast.Machine, substates: tuple[ast.Substates, ...], report: Report) -> Blocks:
+    made = Blocks({"": machine})
+    names: dict[str, Name] = {}
+    for block in (machine, *substates):
+        home = "" if block is machine else block.name.text
+        for state in block.all_states:
+            first = names.setdefault(state.text, state)
+            if first is not state:
+                report_repeat(state, first, "state", report)
+            else:
+                made.home[state.text] = home
+    for block in substates:
+        earlier = made.inside.setdefault(block.name.text, block)
+        if block.name.text not in names:
+            del made.inside[block.name.text]
+            _unknown(block.name, names, report)
+        elif earlier is not block:
+            report_repeat(block.name, earlier.name, "block", report)
+    _cut_circles(made, report)
+    return made
+
+
+def _cut_circles(blocks: Blocks, report: Report) -> None:
+    """A state inside itself, directly or not."""
+    for name in list(blocks.inside):
+        seen = {name}
+        block = blocks.home.get(name, "") if name else ""
+        while block and block not in seen:
+            seen.add(block)
+            block = blocks.home.get(block, "")
+        if block:
+            at = blocks.inside[name].name
+            report.add(codes.UNKNOWN_STATE, at.span, f"`{name}` would be inside itself")
+            blocks.home[name] = ""
+
+
+def _states(block: str, blocks: Blocks) -> tuple[State, ...]:
+    """The states of a block, with what is inside them."""
+    tree = blocks.inside[block]
+    docs = dict(tree.docs)
+    made = []
+    for name in tree.all_states:
+        if blocks.home.get(name.text) != block:
+            continue
+        within = blocks.inside.get(name.text)
+        made.append(
+            State(
+                name.text,
+                name.span,
+                initial=name is tree.initial,
+                final=name is tree.end,
+                parallel=isinstance(within, ast.Substates) and within.parallel,
+                inside=_states(name.text, blocks) if within else (),
+                doc=docs.get(name.text, ""),
+            )
+        )
+    return tuple(made)
+
+
+def _transitions(
+    block: str, tree: ast.Block, blocks: Blocks, report: Report
+) -> Iterator[Transition]:
+    allowed = set(blocks.around(block))
+    for edge in tree.edges:
+        known = _known(edge.source, {block}, blocks, report)
+        for target in edge.targets:
+            if not _known(target, allowed, blocks, report) or not known:
+                continue
+            event = edge.event.text if edge.event else f"t_{edge.source.text}_to_{target.text}"
+            after = edge.after.seconds if edge.after else None
+            if edge.after and not edge.event:
+                event = ""
+            yield Transition(edge.source.text, target.text, event, target.span, after, edge.doc)
+
+
+def _known(name: Name, allowed: set[str], blocks: Blocks, report: Report) -> bool:
+    home = blocks.home.get(name.text)
+    if home in allowed:
+        return True
+    if home is None:
+        _unknown(name, dict.fromkeys(blocks.home, name), report)
+        return False
+    where = f"inside `{home}`" if home else "outside of this block"
+    report.add(
+        codes.UNKNOWN_STATE,
+        name.span,
+        f"the state `{name.text}` is {where}",
+        notes=[Note(blocks.inside[home].name.span, "it belongs to this block")],
+        help=f"write the transition in the block of `{home}`" if home else "",
+    )
+    return False
+
+
+def _unknown(name: Name, known: dict[str, Name], report: Report) -> None:
+    report.add(
+        codes.UNKNOWN_STATE,
+        name.span,
+        f"there is no state `{name.text}`",
+        label=did_you_mean(name.text, known),
+    )
