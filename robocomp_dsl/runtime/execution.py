@@ -14,30 +14,34 @@ from typing import Self
 
 
 class Execution:
-    """The token of one component."""
+    """The token of one component.
 
-    __slots__ = ("_acquire", "_holders", "_release", "_relieve")
+    `acquire`, `release` and `holders` are for the middlewares: what they do for every message is
+    written out there, as `enter` and `leave` do it, because calling them costs as much again.
+    """
+
+    __slots__ = ("_relieve", "acquire", "holders", "release")
 
     def __init__(self, threads: int = 1) -> None:
         lock = threading.Lock() if threads == 1 else threading.Semaphore(threads)
-        self._acquire: Callable[..., bool] = lock.acquire
-        self._release: Callable[[], None] = lock.release
-        self._holders: set[int] = set()
+        self.acquire: Callable[..., bool] = lock.acquire
+        self.release: Callable[[], None] = lock.release
+        self.holders: set[int] = set()
         self._relieve: dict[int, Callable[[], None]] = {}
 
     def enter(self, timeout: float | None = None) -> bool:
         """Take the token; False when `timeout` s went by first."""
         if timeout is None:
-            self._acquire()
-        elif not self._acquire(True, timeout):
+            self.acquire()
+        elif not self.acquire(True, timeout):
             return False
-        self._holders.add(get_ident())
+        self.holders.add(get_ident())
         return True
 
     def leave(self) -> None:
         """Give the token back."""
-        self._holders.discard(get_ident())
-        self._release()
+        self.holders.discard(get_ident())
+        self.release()
 
     def __enter__(self) -> Self:
         self.enter()
@@ -49,15 +53,15 @@ class Execution:
     @property
     def busy(self) -> bool:
         """Whether somebody runs."""
-        return bool(self._holders)
+        return bool(self.holders)
 
     def pause(self) -> bool:
         """Before waiting for a remote answer: let others run. Tells whether to `resume`."""
         me = get_ident()
-        if me not in self._holders:
+        if me not in self.holders:
             return False
-        self._holders.remove(me)
-        self._release()
+        self.holders.remove(me)
+        self.release()
         relieve = self._relieve.get(me)
         if relieve:
             relieve()
@@ -65,8 +69,8 @@ class Execution:
 
     def resume(self) -> None:
         """Take the token again after a `pause` that said so."""
-        self._acquire()
-        self._holders.add(get_ident())
+        self.acquire()
+        self.holders.add(get_ident())
 
     def on_pause(self, relieve: Callable[[], None] | None) -> None:
         """Whom to call when this thread pauses (None: nobody any more)."""

@@ -13,6 +13,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from queue import SimpleQueue
+from threading import get_ident
 from typing import Any
 
 from robocomp_dsl.runtime.errors import (
@@ -206,36 +207,46 @@ class ServiceLink:
 
     def _query(self, operation: Operation, counts: OperationCounts) -> Bound:
         name, throws = operation.name, operation.throws
-        pause, resume = self._host.execution.pause, self._host.execution.resume
+        mine = self._host.execution
+        pause, resume, my_holders = mine.pause, mine.resume, mine.holders
+        # Those of the server, found at the first call.
         server: _Served | None = None
         handler: Bound = self.bind
-        theirs = counts
-        enter, leave = self._host.execution.enter, self._host.execution.leave
+        theirs, acquire, release, holders = counts, mine.acquire, mine.release, my_holders
+
+        def find() -> _Served:
+            nonlocal server, handler, theirs, acquire, release, holders
+            server = self._find()
+            handler, theirs = server.handlers[name], server.counts(name)
+            its = server.execution
+            acquire, release, holders = its.acquire, its.release, its.holders
+            return server
 
         def query(*arguments: Any) -> Any:
-            nonlocal server, handler, enter, leave, theirs
-            if server is None or not server.alive:
-                server = self._find()
-                handler, theirs = server.handlers[name], server.counts(name)
-                enter, leave = server.execution.enter, server.execution.leave
+            served = server
+            if served is None or not served.alive:
+                served = find()
             counts.calls += 1
             theirs.calls += 1
-            paused = pause()
+            me = get_ident()
+            paused = me in my_holders and pause()
+            if not acquire(True, self.timeout):
+                if paused:
+                    resume()
+                raise Timeout(f"{served.name} was busy for {self.timeout:g} s")
+            holders.add(me)
             try:
-                if not enter(self.timeout):
-                    raise Timeout(f"{server.name} was busy for {self.timeout:g} s")
-                try:
-                    return handler(*arguments)
-                except Exception as error:
-                    counts.failures += 1
-                    theirs.failures += 1
-                    if isinstance(error, DeclaredError) and isinstance(error, throws):
-                        raise
-                    log_failure(name, error)
-                    raise RemoteError(_failed(server, name, error)) from error
-                finally:
-                    leave()
+                return handler(*arguments)
+            except Exception as error:
+                counts.failures += 1
+                theirs.failures += 1
+                if isinstance(error, DeclaredError) and isinstance(error, throws):
+                    raise
+                log_failure(name, error)
+                raise RemoteError(_failed(served, name, error)) from error
             finally:
+                holders.discard(me)
+                release()
                 if paused:
                     resume()
 

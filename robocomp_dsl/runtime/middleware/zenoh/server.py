@@ -11,6 +11,7 @@ just been woken, its caches are cold, and each line here costs five times what i
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from threading import get_ident
 from time import perf_counter_ns
 from typing import Any, TypeAlias
 
@@ -102,15 +103,15 @@ class Port:
 
         return dispatch
 
-    def _dispatch_samples(self) -> Callable[[zenoh.Sample], None]:
-        known: dict[str, Hear] = {}
+    def _dispatch_samples(self) -> Hear:
+        by_operation = {name: self._hear(*found) for name, found in self._handlers.items()}
+        if len(by_operation) == 1 == len(self.at.interface.operations):
+            return next(iter(by_operation.values()))
 
         def dispatch(sample: zenoh.Sample) -> None:
-            key = str(sample.key_expr)
-            hear = known.get(key)
-            if hear is None:
-                hear = known[key] = self._hear(key)
-            hear(sample)
+            hear = by_operation.get(str(sample.key_expr).rpartition("/")[2])
+            if hear:
+                hear(sample)
 
         return dispatch
 
@@ -122,7 +123,8 @@ class Port:
         operation, handler = found
         counts = self._host.statistics.of(self.at.port, operation.name)
         decode, encode = operation.decode_request, operation.encode_reply
-        enter, leave = self._execution.enter, self._execution.leave
+        acquire, release = self._execution.acquire, self._execution.release
+        holders = self._execution.holders
 
         def answer(query: zenoh.Query, key: str) -> None:
             counts.calls += 1
@@ -132,11 +134,13 @@ class Port:
                 data = b"" if payload is None else payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
-                enter()
+                acquire()
+                holders.add(get_ident())
                 try:
                     result = handler(*arguments)
                 finally:
-                    leave()
+                    holders.discard(get_ident())
+                    release()
                 reply = encode(result)
                 counts.bytes_out += len(reply)
                 query.reply(key, reply)
@@ -147,34 +151,31 @@ class Port:
 
         return answer
 
-    def _hear(self, key: str) -> Hear:
-        """What hears the samples with this key: one operation of one sender."""
-        found = self._handlers.get(key.rpartition("/")[2])
-        if found is None:
-            return lambda _sample: None
-        operation, handler = found
+    def _hear(self, operation: Operation, handler: Bound) -> Hear:
+        """What hears the samples of one operation."""
         counts = self._host.statistics.of(self.at.port, operation.name)
         decode = operation.decode_request
-        enter, leave = self._execution.enter, self._execution.leave
-        received = -1
+        acquire, release = self._execution.acquire, self._execution.release
+        holders = self._execution.holders
+        losses = Losses(counts)
 
         def hear(sample: zenoh.Sample) -> None:
-            nonlocal received
             counts.calls += 1
             start = 0 if counts.calls % TIMED_EACH else perf_counter_ns()
             try:
                 attachment = sample.attachment
                 if attachment is not None:
-                    received = _counted(attachment.to_bytes(), received, counts)
-                received += 1
+                    losses.count(str(sample.key_expr), attachment.to_bytes())
                 data = sample.payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
-                enter()
+                acquire()
+                holders.add(get_ident())
                 try:
                     handler(*arguments)
                 finally:
-                    leave()
+                    holders.discard(get_ident())
+                    release()
             except Exception as error:
                 self._complain(operation, error, counts)
             if start:
@@ -214,12 +215,22 @@ class Port:
             one.join(0.5)
 
 
-def _counted(said: bytes, received: int, counts: OperationCounts) -> int:
-    """How many messages have come of those that were sent; adds to the losses."""
-    if len(said) != keys.NUMBER.size:
-        return received
-    sent: int = keys.NUMBER.unpack(said)[0]
-    # Before the first number nothing was lost; a smaller one is a publisher that began again.
-    if 0 <= received < sent:
-        counts.drops += sent - received
-    return sent
+class Losses:
+    """Counts what was sent and did not come: exact for one publisher, at least so many for more."""
+
+    def __init__(self, counts: OperationCounts) -> None:
+        self._counts = counts
+        self._before: dict[str, tuple[int, int]] = {}
+
+    def count(self, publisher: str, said: bytes) -> None:
+        """`said` is how many `publisher` has sent before the message that was just received."""
+        if len(said) != keys.NUMBER.size:
+            return
+        sent: int = keys.NUMBER.unpack(said)[0]
+        received = self._counts.calls
+        sent_before, received_before = self._before.get(publisher, (sent, received))
+        # A smaller number is a publisher that has begun again.
+        lost = (sent - sent_before) - (received - received_before)
+        if sent >= sent_before and lost > 0:
+            self._counts.drops += lost
+        self._before[publisher] = (sent, received)
