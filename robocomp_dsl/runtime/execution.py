@@ -16,18 +16,18 @@ from typing import Self
 class Execution:
     """The token of one component.
 
-    `acquire`, `release` and `holders` are for the middlewares: what they do for every message is
-    written out there, as `enter` and `leave` do it, because calling them costs as much again.
+    `acquire`, `release`, `holders` and `relieve` are for the middlewares: what they do for every
+    message is written out there, as the methods here do it; calling them costs as much again.
     """
 
-    __slots__ = ("_relieve", "acquire", "holders", "release")
+    __slots__ = ("acquire", "holders", "release", "relieve")
 
     def __init__(self, threads: int = 1) -> None:
         lock = threading.Lock() if threads == 1 else threading.Semaphore(threads)
         self.acquire: Callable[..., bool] = lock.acquire
         self.release: Callable[[], None] = lock.release
         self.holders: set[int] = set()
-        self._relieve: dict[int, Callable[[], None]] = {}
+        self.relieve: dict[int, Callable[[], None]] = {}
 
     def enter(self, timeout: float | None = None) -> bool:
         """Take the token; False when `timeout` s went by first."""
@@ -62,7 +62,7 @@ class Execution:
             return False
         self.holders.remove(me)
         self.release()
-        relieve = self._relieve.get(me)
+        relieve = self.relieve.get(me)
         if relieve:
             relieve()
         return True
@@ -75,6 +75,6 @@ class Execution:
     def on_pause(self, relieve: Callable[[], None] | None) -> None:
         """Whom to call when this thread pauses (None: nobody any more)."""
         if relieve:
-            self._relieve[get_ident()] = relieve
+            self.relieve[get_ident()] = relieve
         else:
-            self._relieve.pop(get_ident(), None)
+            self.relieve.pop(get_ident(), None)

@@ -205,10 +205,13 @@ class ServiceLink:
 
         return command
 
-    def _query(self, operation: Operation, counts: OperationCounts) -> Bound:
+    def _query(  # noqa: C901 - written out, see `Execution`
+        self, operation: Operation, counts: OperationCounts
+    ) -> Bound:
         name, throws = operation.name, operation.throws
         mine = self._host.execution
-        pause, resume, my_holders = mine.pause, mine.resume, mine.holders
+        my_acquire, my_release, my_holders = mine.acquire, mine.release, mine.holders
+        relieve = mine.relieve.get
         # Those of the server, found at the first call.
         server: _Served | None = None
         handler: Bound = self.bind
@@ -229,10 +232,16 @@ class ServiceLink:
             counts.calls += 1
             theirs.calls += 1
             me = get_ident()
-            paused = me in my_holders and pause()
+            paused = me in my_holders
+            if paused:
+                my_holders.remove(me)
+                my_release()
+                relief = relieve(me)
+                if relief:
+                    relief()
             if not acquire(True, self.timeout):
                 if paused:
-                    resume()
+                    mine.resume()
                 raise Timeout(f"{served.name} was busy for {self.timeout:g} s")
             holders.add(me)
             try:
@@ -248,7 +257,8 @@ class ServiceLink:
                 holders.discard(me)
                 release()
                 if paused:
-                    resume()
+                    my_acquire()
+                    my_holders.add(me)
 
         return query
 

@@ -8,6 +8,7 @@ go through a declared querier with the channel that it returns: measured 1.3 tim
 from __future__ import annotations
 
 import time
+from threading import get_ident
 from time import perf_counter_ns
 from typing import Any
 
@@ -86,6 +87,7 @@ class ServiceLink:
     def _query(self, operation: Operation) -> Bound:
         counts = self._host.statistics.of(self._at.port, operation.name)
         pause, resume, stop = self._host.execution.pause, self._host.execution.resume, self._stop
+        holders = self._host.execution.holders
         encode, decode = operation.encode_request, operation.decode_reply
         directory = self._directory
         version = -1
@@ -97,7 +99,7 @@ class ServiceLink:
             counts.calls += 1
             counts.bytes_out += len(data)
             start = 0 if counts.calls % TIMED_EACH else perf_counter_ns()
-            paused = pause()
+            paused = get_ident() in holders and pause()
             try:
                 if version != directory.version:
                     seen = directory.version
