@@ -117,11 +117,17 @@ class Runner:
             self._well = life.begin()
             if self._well:
                 self._open()
+                self._say_hello()
                 life.loop()
             self._well &= life.end()
         finally:
             self._ended.set()
             self.stop()
+
+    def _say_hello(self) -> None:
+        period = f"every {self.spec.period} ms" if self.spec.period else "on events"
+        through = f"{self.middleware_name}, domain {self.settings.domain}"
+        log.info("running %s (%s)", period, through)
 
     def stop(self) -> None:
         """Bring it to an end; returns at once, from any thread or signal handler."""

@@ -51,6 +51,11 @@ def log_failure(what: str, error: Exception) -> None:
 def describe(error: BaseException) -> str:
     """`Type: message (file:line)`, the place being the last one in the user's own code."""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [f for f in frames if not f.filename.startswith((_RUNTIME, "<"))] or frames
+    own = [f for f in frames if not _is_ours(f.filename)] or frames
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return f"{said} ({own[-1].filename}:{own[-1].lineno})" if own else said
+
+
+def _is_ours(file: str) -> bool:
+    """Whether no user wrote it: the runtime, what it compiles, what rcgen generates."""
+    return file.startswith((_RUNTIME, "<")) or Path(file).parent.name == "generated"
