@@ -1,0 +1,192 @@
+"""The server: the table of its features, and how questions reach them.
+
+In: a connection (stdin and stdout, or TCP). Out: answers until the client leaves. A feature that
+fails answers an error, which is logged in one line, and the server lives on.
+"""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException, JsonRpcInternalError, JsonRpcInvalidParams
+from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
+from pygls.uris import to_fs_path
+
+from robocomp_dsl import __version__
+from robocomp_dsl.editor import (
+    code_lens,
+    completion,
+    definition,
+    document_symbols,
+    folding,
+    hover,
+    inlay_hints,
+    links,
+    quick_fixes,
+    references,
+    rename,
+    semantic_tokens,
+    synchronize,
+    type_definition,
+    workspace_symbols,
+)
+from robocomp_dsl.editor.checking import Checking
+from robocomp_dsl.editor.positions import WrongPosition
+from robocomp_dsl.editor.session import Document, NoDescription, Session
+
+Feature = Callable[[Session, Any], Any]
+
+FEATURES: dict[str, tuple[Feature, Any]] = {
+    lsp.TEXT_DOCUMENT_DEFINITION: (definition.definition, None),
+    lsp.TEXT_DOCUMENT_TYPE_DEFINITION: (type_definition.type_definition, None),
+    lsp.TEXT_DOCUMENT_HOVER: (hover.hover, None),
+    lsp.TEXT_DOCUMENT_COMPLETION: (
+        completion.completion,
+        lsp.CompletionOptions(trigger_characters=completion.TRIGGERS),
+    ),
+    lsp.TEXT_DOCUMENT_REFERENCES: (references.references, None),
+    lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: (references.highlights, None),
+    lsp.TEXT_DOCUMENT_RENAME: (rename.rename, lsp.RenameOptions(prepare_provider=True)),
+    lsp.TEXT_DOCUMENT_PREPARE_RENAME: (rename.prepare, None),
+    lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: (document_symbols.document_symbols, None),
+    lsp.WORKSPACE_SYMBOL: (workspace_symbols.workspace_symbols, None),
+    lsp.TEXT_DOCUMENT_CODE_ACTION: (
+        quick_fixes.code_actions,
+        lsp.CodeActionOptions(code_action_kinds=quick_fixes.KINDS),
+    ),
+    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: (
+        semantic_tokens.semantic_tokens,
+        semantic_tokens.LEGEND,
+    ),
+    lsp.TEXT_DOCUMENT_FOLDING_RANGE: (folding.folding_ranges, None),
+    lsp.TEXT_DOCUMENT_DOCUMENT_LINK: (links.document_links, None),
+    lsp.TEXT_DOCUMENT_INLAY_HINT: (inlay_hints.inlay_hints, None),
+    lsp.TEXT_DOCUMENT_CODE_LENS: (code_lens.code_lenses, None),
+}
+"""Method of the protocol to the function that answers it, and what the client is told of it."""
+
+_logger = logging.getLogger(__name__)
+
+
+class _Protocol(LanguageServerProtocol):
+    """As pygls has it, but texts are kept by the session alone, with its own idea of lines."""
+
+    @lsp_method(lsp.TEXT_DOCUMENT_DID_OPEN)
+    def lsp_text_document__did_open(self, params: lsp.DidOpenTextDocumentParams) -> Iterator[Any]:
+        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_OPEN], (params,), None
+
+    @lsp_method(lsp.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(
+        self, params: lsp.DidChangeTextDocumentParams
+    ) -> Iterator[Any]:
+        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_CHANGE], (params,), None
+
+    @lsp_method(lsp.TEXT_DOCUMENT_DID_CLOSE)
+    def lsp_text_document__did_close(self, params: lsp.DidCloseTextDocumentParams) -> Iterator[Any]:
+        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_CLOSE], (params,), None
+
+
+class Server(LanguageServer):
+    """One client's server."""
+
+    def __init__(self) -> None:
+        super().__init__("rcgen", __version__, protocol_cls=_Protocol)
+        self.session = Session()
+        self.checking = Checking(self.session, self.text_document_publish_diagnostics)
+        for method, handler in self._notifications().items():
+            self.feature(method)(_guarded(method, handler))
+        for method, (function, options) in FEATURES.items():
+            handler = _answering(function, self.session)
+            self.feature(method, options)(_guarded(method, handler))
+
+    def _notifications(self) -> dict[str, Callable[[Any], Any]]:
+        return {
+            lsp.INITIALIZE: self._initialize,
+            lsp.TEXT_DOCUMENT_DID_OPEN: self._opened,
+            lsp.TEXT_DOCUMENT_DID_CHANGE: self._changed,
+            lsp.TEXT_DOCUMENT_DID_CLOSE: self._closed,
+            lsp.TEXT_DOCUMENT_DID_SAVE: self._disk_changed,
+            lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: self._disk_changed,
+            lsp.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS: self._folders_changed,
+        }
+
+    def _initialize(self, params: lsp.InitializeParams) -> None:
+        uris = [folder.uri for folder in params.workspace_folders or ()]
+        uris = uris or [params.root_uri or ""]
+        self.session.folders = _folders(uris)
+
+    def _opened(self, params: lsp.DidOpenTextDocumentParams) -> None:
+        document = synchronize.did_open(self.session, params)
+        if document:
+            self.checking.changed(document)
+            # A file that others missed may be here now.
+            self.checking.everything()
+
+    def _changed(self, params: lsp.DidChangeTextDocumentParams) -> None:
+        self.checking.changed(synchronize.did_change(self.session, params))
+
+    def _closed(self, params: lsp.DidCloseTextDocumentParams) -> None:
+        document: Document | None = synchronize.did_close(self.session, params)
+        if document:
+            self.checking.closed(document)
+
+    def _disk_changed(self, _: object) -> None:
+        self.checking.everything()
+
+    def _folders_changed(self, params: lsp.DidChangeWorkspaceFoldersParams) -> None:
+        gone = _folders([folder.uri for folder in params.event.removed])
+        come = _folders([folder.uri for folder in params.event.added])
+        kept = [one for one in self.session.folders if one not in gone]
+        self.session.folders = [*kept, *come]
+
+
+def serve_stdio() -> None:
+    """Answer on stdin and stdout until the client leaves."""
+    _log_to_stderr()
+    Server().start_io()
+
+
+def serve_tcp(host: str, port: int) -> None:
+    """Wait for one client at `host`:`port` and answer it until it leaves. Raises `OSError`."""
+    _log_to_stderr()
+    Server().start_tcp(host, port)
+
+
+def _answering(function: Feature, session: Session) -> Callable[[Any], Any]:
+    return lambda params: function(session, params)
+
+
+def _guarded(method: str, handler: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """`handler` with every failure made into an answer in the words of the user."""
+
+    def guarded(params: Any) -> Any:
+        try:
+            return handler(params)
+        except JsonRpcException:
+            raise
+        except (WrongPosition, NoDescription) as error:
+            raise JsonRpcInvalidParams(str(error)) from None
+        except Exception as error:
+            what = f"internal error in {method}: {type(error).__name__}: {error}"
+            _logger.debug("%s", what, exc_info=True)
+            raise JsonRpcInternalError(what) from None
+
+    return guarded
+
+
+def _folders(uris: list[str]) -> list[Path]:
+    paths = (to_fs_path(uri) for uri in uris if uri)
+    return [Path(path) for path in paths if path]
+
+
+def _log_to_stderr() -> None:
+    """Warnings and worse; stdout belongs to the protocol."""
+    logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="rcgen lsp: %(message)s")
+    # pygls logs whole traces of what it answers as an error anyway.
+    logging.getLogger("pygls").setLevel(logging.CRITICAL)

@@ -1,0 +1,43 @@
+"""A server of its own for each test, in a process of its own."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator, Callable
+from pathlib import Path
+from typing import Any
+
+import pytest_asyncio
+from editor_client import SERVER, Editor
+from lsprotocol import types as lsp
+from pygls.uris import from_fs_path
+from pytest_lsp import LanguageClient, client_capabilities, make_test_lsp_client
+
+
+@pytest_asyncio.fixture
+async def start() -> AsyncIterator[Callable[..., Any]]:
+    """Start a server for a folder, as the editor with the given capabilities would."""
+    running: list[LanguageClient] = []
+
+    async def started(folder: Path, capabilities: str = "visual-studio-code") -> Editor:
+        client = make_test_lsp_client()
+        await client.start_io(*SERVER)
+        running.append(client)
+        uri = from_fs_path(str(folder)) or ""
+        params = lsp.InitializeParams(
+            capabilities=client_capabilities(capabilities),
+            workspace_folders=[lsp.WorkspaceFolder(uri, "test")],
+        )
+        await client.initialize_session(params)
+        return Editor(client, folder)
+
+    yield started
+    for client in running:
+        await client.shutdown_session()
+        await client.stop()
+
+
+@pytest_asyncio.fixture
+async def editor(start: Callable[..., Any], tmp_path: Path) -> Editor:
+    """An editor on an empty folder."""
+    made: Editor = await start(tmp_path)
+    return made
