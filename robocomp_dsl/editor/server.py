@@ -7,6 +7,7 @@ fails answers an error, which is logged in one line, and the server lives on.
 from __future__ import annotations
 
 import logging
+import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -149,7 +150,9 @@ class Server(LanguageServer):
 def serve_stdio() -> None:
     """Answer on stdin and stdout until the client leaves."""
     _log_to_stderr()
-    Server().start_io()
+    # pygls closes what it writes to; the process still flushes its own stdout when it ends.
+    with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as stdout:
+        Server().start_io(stdout=stdout)
 
 
 def serve_tcp(host: str, port: int) -> None:

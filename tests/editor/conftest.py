@@ -27,8 +27,11 @@ async def start() -> AsyncIterator[Callable[..., Any]]:
             capabilities=client_capabilities(capabilities),
             workspace_folders=[lsp.WorkspaceFolder(uri, "test")],
         )
-        await client.initialize_session(params)
-        return Editor(client, folder)
+        offered = (await client.initialize_session(params)).capabilities
+        editor = Editor(client, folder)
+        if offered.semantic_tokens_provider:
+            editor.legend = list(offered.semantic_tokens_provider.legend.token_types)
+        return editor
 
     yield started
     for client in running:

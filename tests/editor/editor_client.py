@@ -23,6 +23,7 @@ class Editor:
         self.client = client
         self.folder = folder
         self.versions: dict[str, int] = {}
+        self.legend: list[str] = []
 
     def uri(self, name: str) -> str:
         return from_fs_path(str(self.folder / name)) or ""
