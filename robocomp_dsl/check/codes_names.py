@@ -367,3 +367,21 @@ Right:
     rcgen check robot.cdsl
 """,
 )
+
+SLICE_IMPORT = Code(
+    "RC221",
+    Severity.WARNING,
+    "an import names the Ice form of an interface",
+    """\
+RoboComp's older tools write a `.ice` file from each interface description, and some descriptions
+import it. The `.idsl` file of the same name says the same, and is taken in its place.
+
+Wrong:
+
+    import "Laser.ice";
+
+Right:
+
+    import "Laser.idsl";
+""",
+)

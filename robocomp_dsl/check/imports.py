@@ -14,25 +14,29 @@ from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.ast_base import Import
 
+_SLICE = "ice"
+
 Step = tuple[str, Import]
 """A file, by its name in messages, and the statement through which it imports the next one."""
 
 
 def locate(statement: Import, root: Path, search: Search) -> Path | None:
     """The IDSL file that an import in the checked file `root` means, or None."""
-    name = base_name(statement.path.value)
+    name = _meant(base_name(statement.path.value))
     return search.find(name, root) if name.lower().endswith(SUFFIX) else None
 
 
 def find_import(statement: Import, root: Path, search: Search, report: Report) -> Path | None:
     """As `locate`; an import that leads nowhere is reported."""
     found = locate(statement, root, search)
+    name = base_name(statement.path.value)
     if found is None:
-        name = base_name(statement.path.value)
         if name.lower().endswith(SUFFIX):
             _report_missing(name, statement, root, search, report)
         else:
             _report_no_idsl(name, statement, root, search, report)
+    elif _meant(name) != name:
+        _report_slice(name, statement, report)
     return found
 
 
@@ -82,6 +86,21 @@ def report_cycle(steps: Sequence[Step], report: Report) -> None:
 def replace(span: Span, text: str) -> Fix:
     """The fix for a name that was meant otherwise."""
     return Fix(f"change to `{text}`", (Edit(span, text),))
+
+
+def _meant(name: str) -> str:
+    """The file that `name` means: RoboComp writes the one `.ice` of an interface from its IDSL."""
+    stem, dot, suffix = name.rpartition(".")
+    return stem + SUFFIX if dot and suffix.lower() == _SLICE else name
+
+
+def _report_slice(name: str, statement: Import, report: Report) -> None:
+    report.add(
+        codes.SLICE_IMPORT,
+        statement.path.span,
+        f"`{name}` is the file that Ice reads; `{_meant(name)}` is taken",
+        fix=replace(statement.path.span, f'"{_meant(name)}"'),
+    )
 
 
 def _report_missing(

@@ -31,6 +31,11 @@ class Offer:
         verb = "declares" if len(self.paths) == 1 else "declare"
         return f"{listing([str(path) for path in self.paths], most=3)} {verb} it"
 
+    @property
+    def is_not(self) -> str:
+        """What follows `help` and "but"."""
+        return "is not" if len(self.paths) == 1 else "none is"
+
 
 def offer_import(
     name: QualifiedName, source: Source, imports: Sequence[Import], files: Files, search: Search

@@ -126,7 +126,7 @@ class TypeNames:
         offer = None if same_letters or own else self._visible.importable(name)
         if offer is not None:
             guess, fix = None, offer.fix
-            way_out = f"{offer.help}, but is not imported"
+            way_out = f"{offer.help}, but {offer.is_not} imported"
         self._report.add(
             codes.UNKNOWN_TYPE,
             name.span,
