@@ -24,7 +24,12 @@ _Names = rt.Sequence(rt.STRING)
 
 
 class PortInfo(rt.Struct):
-    """One port: an interface that the component serves, calls, publishes or hears."""
+    """One port: an interface that the component serves, calls, publishes or hears.
+
+    role: implements, requires, publishes or subscribesTo.
+    declared: `Module::Interface`.
+    peers: The components that the port is wired to; empty for any.
+    """
 
     __slots__ = ("declared", "middleware", "name", "peers", "role")
     _fields_ = (
@@ -55,7 +60,13 @@ _Ports = rt.Sequence(PortInfo)
 
 
 class ComponentInfo(rt.Struct):
-    """RoboCompComponent::ComponentInfo"""
+    """RoboCompComponent::ComponentInfo.
+
+    name: The name of this instance.
+    component: The name of the component as its CDSL file has it.
+    reason: Why it is in an emergency; empty otherwise.
+    uptime [s]
+    """
 
     __slots__ = (
         "component",
@@ -108,7 +119,12 @@ class ComponentInfo(rt.Struct):
 
 
 class ParameterInfo(rt.Struct):
-    """RoboCompComponent::ParameterInfo"""
+    """RoboCompComponent::ParameterInfo.
+
+    name: Its path, as in `motors[2].min`.
+    live: Whether it may change while the component runs.
+    low: Empty where there is no bound.
+    """
 
     __slots__ = (
         "choices",
@@ -165,7 +181,15 @@ _ParameterList = rt.Sequence(ParameterInfo)
 
 
 class OperationStatistics(rt.Struct):
-    """What happened at one operation of one port. Percentiles are over the latest 512."""
+    """What happened at one operation of one port. Percentiles are over the latest 512.
+
+    drops: Messages that were lost before they were handled.
+    malformed: Messages that could not be read.
+    p50 [ms]
+    p90 [ms]
+    p99 [ms]
+    longest [ms]
+    """
 
     __slots__ = (
         "bytesIn",
@@ -230,7 +254,17 @@ _OperationList = rt.Sequence(OperationStatistics)
 
 
 class Statistics(rt.Struct):
-    """RoboCompComponent::Statistics"""
+    """RoboCompComponent::Statistics.
+
+    period [ms]: The period that is wanted; 0: only events.
+    periodP50 [ms]
+    periodP99 [ms]
+    jitter [ms]: p99 less p50.
+    computeP50 [ms]
+    computeP99 [ms]
+    overruns: Cycles that took longer than the period.
+    failures: Cycles in which `compute` failed.
+    """
 
     __slots__ = (
         "computeP50",
@@ -396,15 +430,24 @@ class ComponentProxy(rt.Proxy):
         return self._call_getParameters()
 
     def setParameters(self, changes: Values) -> None:
-        """Change live parameters, all or none."""
+        """Change live parameters, all or none.
+
+        May raise Refusal.
+        """
         self._call_setParameters(changes)
 
     def setPeriod(self, period: int) -> None:
-        """Another period; 0: only events."""
+        """Another period; 0: only events.
+
+        May raise Refusal.
+        """
         self._call_setPeriod(period)
 
     def setLogLevel(self, level: str) -> None:
-        """debug, info, warning, error or critical."""
+        """debug, info, warning, error or critical.
+
+        May raise Refusal.
+        """
         self._call_setLogLevel(level)
 
     def getStatistics(self) -> Statistics:
