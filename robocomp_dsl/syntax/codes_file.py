@@ -65,3 +65,13 @@ TOO_DEEP = Code(
 About a hundred blocks inside one another are more than any description needs.
 """,
 )
+
+GARBAGE = Code(
+    "RC006",
+    Severity.ERROR,
+    "the file makes no sense",
+    """\
+After an error a hundred thousand words and signs followed without one that a statement or block
+could end with. The file is no description, or a text or comment without an end is in it.
+""",
+)

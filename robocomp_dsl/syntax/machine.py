@@ -53,7 +53,11 @@ class Plan(NamedTuple):
 
 
 class Machine:
-    """One run over one source; `trail` holds the last tokens that were taken onto the stack."""
+    """One run over one source.
+
+    `trail` holds the last tokens that were taken onto the stack. `told_behind` is the end of the
+    last token before an error that was reported, `untold` counts errors since then that were not.
+    """
 
     def __init__(self, tables: Tables, builder: Builder, findings: Findings) -> None:
         lexer = Lexer(findings.source, tables, findings)
@@ -65,6 +69,7 @@ class Machine:
         self.stack: list[Entry] = [(0, None, 0, 0)]
         self.trail: deque[Token] = deque(maxlen=TRAIL)
         self.told_behind = -1
+        self.untold = 0
         self._plans = [Plan.of(rule, builder) for rule in tables.rules]
 
     def reduce(self, number: int, at: int) -> None:

@@ -7,18 +7,32 @@ statement, which is dropped.
 
 from __future__ import annotations
 
+from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.machine import Entry, Machine
 from robocomp_dsl.syntax.repair import Repair, hopeless, stray_text
 from robocomp_dsl.syntax.repair_choice import choose
 from robocomp_dsl.syntax.situation import Situation, expectation, quote
+from robocomp_dsl.syntax.stream import Garbage
 from robocomp_dsl.syntax.tables import END
 
 LOOK_AHEAD = 24
+PATIENCE = 500
+"""Errors in a row, each but a consequence of the one before, after which a file is given up."""
 
 
 def recover(machine: Machine) -> None:
     """Report what is wrong with the next token and make parsing possible again."""
+    try:
+        _correct_or_drop(machine)
+    except Garbage as garbage:
+        at = garbage.last.start
+        message = "nothing makes sense any more; the rest of the file is not read"
+        machine.findings.add(codes.GARBAGE, at, garbage.last.end, message)
+        machine.cut(at)
+
+
+def _correct_or_drop(machine: Machine) -> None:
     _complete_statement(machine)
     stack, restarts = machine.stack, machine.tables.restarts
     base = max(i for i, entry in enumerate(stack) if entry[0] in restarts)
@@ -79,7 +93,12 @@ def _opened(entries: list[Entry]) -> list[Token]:
 def _tell(machine: Machine, situation: Situation, made: Repair) -> None:
     """Report once for a place: what follows without a step forward is a consequence."""
     cut = situation.ahead[0].kind == END and machine.findings.cut
-    if machine.told_behind != situation.before.end and not cut:
+    if machine.told_behind == situation.before.end:
+        machine.untold += 1
+        if machine.untold > PATIENCE:
+            raise Garbage(situation.ahead[0])
+    elif not cut:
+        machine.untold = 0
         expected = expectation(situation, machine.builder.ITEMS)
         made.tell(machine.findings, f"expected {expected}, found {quote(situation.ahead[0])}")
     machine.told_behind = -1 if made.put else situation.before.end

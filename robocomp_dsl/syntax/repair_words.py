@@ -16,8 +16,8 @@ from robocomp_dsl.syntax.situation import Situation, quote
 from robocomp_dsl.syntax.tables import END
 
 WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
-_BARE_TEXT = re.compile(r"[^\s;{}\",]+")
-_BARE_NAME = re.compile(r"[^\s;{}()<>\[\],:=\"'/#.]+")
+_BARE_TEXT = re.compile(r"[^\s;{}\",]{1,400}")
+_BARE_NAME = re.compile(r"[^\s;{}()<>\[\],:=\"'/#.]{1,400}")
 
 
 def keyword(situation: Situation, accepted: list[str]) -> Iterator[Repair]:

@@ -11,6 +11,17 @@ from collections.abc import Container, Iterable, Iterator
 from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.tables import END
 
+LONGEST = 100_000
+"""Tokens that are passed over before the rest of the file is given up."""
+
+
+class Garbage(Exception):
+    """There is no end to what makes no sense; the argument is the last token looked at."""
+
+    def __init__(self, last: Token) -> None:
+        super().__init__()
+        self.last = last
+
 
 class Stream:
     """An endless row of tokens; the last one, `$END`, repeats."""
@@ -46,7 +57,7 @@ class Stream:
         before the `}` of the block around it, or before one of the `keywords` at the start of a
         line.
         """
-        while True:
+        for _ in range(LONGEST):
             last = self.take()
             depth += (last.kind == "LBRACE") - (last.kind == "RBRACE")
             following = self._peek()
@@ -57,20 +68,21 @@ class Stream:
             begins = following.kind in keywords and "\n" in text[last.end : following.start]
             if begins or "RBRACE" in (last.kind, following.kind):
                 return last
+        raise Garbage(last)
 
     def pass_over_until(self, keywords: Container[str]) -> tuple[Token, bool]:
         """Take everything before one of the `keywords` or the end.
 
         Returns the last token taken, and whether it was but a few words, signs or closing braces.
         """
-        count, harmless = 0, True
-        while True:
+        harmless = True
+        for count in range(LONGEST):
             last = self.take()
-            count += 1
-            harmless = harmless and count <= 6 and last.kind != "LBRACE"
+            harmless = harmless and count < 6 and last.kind != "LBRACE"
             following = self._peek().kind
             if following == END or following in keywords:
                 return last, harmless
+        raise Garbage(last)
 
     def _peek(self) -> Token:
         if not self._ahead:
