@@ -19,7 +19,8 @@ from robocomp_dsl.source import UnreadableSource
 
 Publish = Callable[[lsp.PublishDiagnosticsParams], None]
 
-SLOW_S = 0.05
+SLOW_S = 0.25
+"""A check that took longer waits for a pause the next time: some ten thousand lines."""
 LONGEST_WAIT_S = 1.0
 
 

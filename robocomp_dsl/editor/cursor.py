@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -120,7 +120,9 @@ def _read(source: Source, tables: Tables) -> tuple[list[Token], list[Token], fro
             stack.append((action, token, token.start, token.end))
             token = take()
     states = [entry[0] for entry in stack]
-    situation = Situation(tables, source, states, token, (token,), ())
+    # Keywords that would be read as names are none to offer.
+    strict = replace(tables, words=frozenset())
+    situation = Situation(strict, source, states, token, (token,), ())
     return statement, blocks[-1] if blocks else [], frozenset(situation.accepted())
 
 

@@ -6,6 +6,7 @@ fails answers an error, which is logged in one line, and the server lives on.
 
 from __future__ import annotations
 
+import gc
 import logging
 import os
 import sys
@@ -71,6 +72,9 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
     lsp.TEXT_DOCUMENT_CODE_LENS: (code_lens.code_lenses, None),
 }
 """Method of the protocol to the function that answers it, and what the client is told of it."""
+
+COLLECTION = (50_000, 20, 100)
+"""Thresholds of the three generations of Python's garbage collector."""
 
 _logger = logging.getLogger(__name__)
 
@@ -149,7 +153,7 @@ class Server(LanguageServer):
 
 def serve_stdio() -> None:
     """Answer on stdin and stdout until the client leaves."""
-    _log_to_stderr()
+    _prepare_process()
     # pygls closes what it writes to; the process still flushes its own stdout when it ends.
     with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as stdout:
         Server().start_io(stdout=stdout)
@@ -157,7 +161,9 @@ def serve_stdio() -> None:
 
 def serve_tcp(host: str, port: int) -> None:
     """Wait for one client at `host`:`port` and answer it until it leaves. Raises `OSError`."""
-    _log_to_stderr()
+    _prepare_process()
+    # Tells on which port, which is news where it was left to the system (0).
+    logging.getLogger("pygls.server").setLevel(logging.INFO)
     Server().start_tcp(host, port)
 
 
@@ -188,8 +194,12 @@ def _folders(uris: list[str]) -> list[Path]:
     return [Path(path) for path in paths if path]
 
 
-def _log_to_stderr() -> None:
-    """Warnings and worse; stdout belongs to the protocol."""
+def _prepare_process() -> None:
+    """Log warnings and worse to stderr, as stdout belongs to the protocol; collect rarely.
+
+    Trees have no cycles, and a full collection over all that is kept takes longer than a check.
+    """
+    gc.set_threshold(*COLLECTION)
     logging.basicConfig(stream=sys.stderr, level=logging.WARNING, format="rcgen lsp: %(message)s")
     # pygls logs whole traces of what it answers as an error anyway.
     logging.getLogger("pygls").setLevel(logging.CRITICAL)

@@ -35,8 +35,9 @@ async def start() -> AsyncIterator[Callable[..., Any]]:
 
     yield started
     for client in running:
-        await client.shutdown_session()
-        await client.stop()
+        if not client.stopped:
+            await client.shutdown_session()
+            await client.stop()
 
 
 @pytest_asyncio.fixture

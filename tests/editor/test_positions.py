@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from lsprotocol.types import Position, Range
+
 from robocomp_dsl.editor.positions import (
     WrongPosition,
     edit_offset,

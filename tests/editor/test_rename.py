@@ -71,9 +71,7 @@ async def test_refusals_say_why(editor: Editor) -> None:
     for word, new, message in REFUSED:
         place = editor.at("Laser.idsl", marked("Laser.idsl", word))
         with pytest.raises(JsonRpcInvalidParams, match=message.replace("(", r"\(")):
-            await editor.client.text_document_rename_async(
-                lsp.RenameParams(new_name=new, **place)
-            )
+            await editor.client.text_document_rename_async(lsp.RenameParams(new_name=new, **place))
 
 
 async def test_what_came_with_the_tool_is_not_renamed(editor: Editor) -> None:

@@ -1,0 +1,150 @@
+"""Wrong positions, odd edits, huge and foreign files: an error answer at most, and life goes on."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import subprocess
+import sys
+
+import project
+import pytest
+from editor_client import DEADLINE_S, SERVER, Editor
+from lsprotocol import types as lsp
+from project import FILES
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
+
+pytestmark = pytest.mark.asyncio
+
+
+async def is_alive(editor: Editor) -> None:
+    name = "alive.pdsl"
+    editor.open(name, "ComponentParams a\n{\n    rate flaot 1;\n};\n")
+    await editor.until(name, bool)
+
+
+async def test_line_that_is_not_there(editor: Editor) -> None:
+    document = lsp.TextDocumentIdentifier(editor.open("app.ddsl", FILES["app.ddsl"]))
+    place = lsp.Position(999, 0)
+    with pytest.raises(JsonRpcInvalidParams, match="there is no line 999"):
+        await editor.client.text_document_hover_async(lsp.HoverParams(document, place))
+    with pytest.raises(JsonRpcInvalidParams, match="there is no line 999"):
+        await editor.client.text_document_completion_async(lsp.CompletionParams(document, place))
+    await is_alive(editor)
+
+
+async def test_column_behind_the_line_is_its_end(editor: Editor) -> None:
+    document = lsp.TextDocumentIdentifier(editor.open("app.ddsl", FILES["app.ddsl"]))
+    params = lsp.HoverParams(document, lsp.Position(2, 5000))
+    found = await editor.client.text_document_hover_async(params)
+    assert found is not None  # the name of the deployment ends the line
+
+
+async def test_files_of_others(editor: Editor) -> None:
+    editor.open("notes.txt", "hello")
+    with pytest.raises(JsonRpcInvalidParams, match="is not a file of a language"):
+        await editor.client.text_document_hover_async(
+            lsp.HoverParams(lsp.TextDocumentIdentifier(editor.uri("notes.txt")), lsp.Position(0, 0))
+        )
+    with pytest.raises(JsonRpcInvalidParams, match="cannot read"):
+        await editor.client.text_document_hover_async(
+            lsp.HoverParams(lsp.TextDocumentIdentifier(editor.uri("no.idsl")), lsp.Position(0, 0))
+        )
+    editor.client.text_document_did_open(
+        lsp.DidOpenTextDocumentParams(lsp.TextDocumentItem("untitled:a.idsl", "idsl", 0, "module"))
+    )
+    await is_alive(editor)
+
+
+async def test_edits_outside_and_the_wrong_way_round(editor: Editor) -> None:
+    editor.open("a.pdsl", "ComponentParams a\n{\n    rate flaot 1;\n};\n")
+    await editor.until("a.pdsl", bool)
+    turned = lsp.Range(lsp.Position(2, 14), lsp.Position(2, 9))
+    behind = lsp.Range(lsp.Position(400, 3), lsp.Position(500, 9))
+    partial = lsp.TextDocumentContentChangePartial
+    editor.change("a.pdsl", partial(turned, "float"), partial(behind, "// the end\n"))
+    await editor.until("a.pdsl", lambda found: not found)
+    params = lsp.FoldingRangeParams(lsp.TextDocumentIdentifier(editor.uri("a.pdsl")))
+    found = await editor.client.text_document_folding_range_async(params)
+    assert [(one.start_line, one.end_line) for one in found or ()] == [(1, 2)]
+
+
+async def test_change_of_a_file_that_is_not_open(editor: Editor) -> None:
+    editor.versions[editor.uri("a.pdsl")] = 0
+    editor.replace("a.pdsl", "x")
+    await is_alive(editor)
+
+
+async def test_fifty_thousand_lines(editor: Editor) -> None:
+    lines = "".join(f"    rate{number} flot 1;\n" for number in range(50_000))
+    editor.open("big.pdsl", f"ComponentParams a\n{{\n{lines}}};\n")
+    await editor.until("big.pdsl", lambda found: len(found) > 50)
+    await is_alive(editor)
+
+
+async def test_feature_that_crashes(start, tmp_path, monkeypatch) -> None:  # type: ignore[no-untyped-def]
+    crash = (
+        "from robocomp_dsl.editor import server as s\n"
+        "from lsprotocol import types as lsp\n"
+        "def crash(session, params): raise KeyError('oh')\n"
+        "s.FEATURES[lsp.TEXT_DOCUMENT_HOVER] = (crash, None)\n"
+        "s.serve_stdio()\n"
+    )
+    monkeypatch.setitem(start.__globals__, "SERVER", [sys.executable, "-c", crash])
+    editor = await start(tmp_path)
+    document = lsp.TextDocumentIdentifier(editor.open("app.ddsl", FILES["app.ddsl"]))
+    with pytest.raises(JsonRpcException, match="internal error in textDocument/hover: KeyError"):
+        await editor.client.text_document_hover_async(lsp.HoverParams(document, lsp.Position(0, 0)))
+    await is_alive(editor)
+
+
+async def test_every_place_of_every_file_gets_an_answer(editor: Editor) -> None:
+    project.write(editor)
+    for name, text in FILES.items():
+        document = lsp.TextDocumentIdentifier(editor.open(name, text[: len(text) * 2 // 3]))
+        for line in range(text[: len(text) * 2 // 3].count("\n") + 1):
+            place = {"text_document": document, "position": lsp.Position(line, 12)}
+            await editor.client.text_document_hover_async(lsp.HoverParams(**place))
+            await editor.client.text_document_completion_async(lsp.CompletionParams(**place))
+            await editor.client.text_document_definition_async(lsp.DefinitionParams(**place))
+
+
+async def test_leaving_in_order_is_exit_code_0(start, tmp_path) -> None:  # type: ignore[no-untyped-def]
+    editor = await start(tmp_path)
+    await is_alive(editor)
+    await editor.client.shutdown_async(None)
+    editor.client.exit(None)
+    async with asyncio.timeout(DEADLINE_S):
+        assert await editor.client._server.wait() == 0
+
+
+def frame(message: dict[str, object]) -> bytes:
+    body = json.dumps({"jsonrpc": "2.0", **message}).encode()
+    return b"Content-Length: %d\r\n\r\n%b" % (len(body), body)
+
+
+async def test_tcp_serves_one_client_and_ends() -> None:
+    command = [*SERVER, "--tcp", "0"]
+    process = await asyncio.create_subprocess_exec(*command, stderr=subprocess.PIPE)
+    try:
+        async with asyncio.timeout(DEADLINE_S):
+            assert process.stderr is not None
+            said = b""
+            while b"Serving on" not in said:
+                said = await process.stderr.readline()
+                assert said, "the server ended"
+            port = int(re.findall(rb"\d+", said)[-1])
+            reader, writer = await asyncio.open_connection("127.0.0.1", port)
+            writer.write(frame({"id": 1, "method": "initialize", "params": {"capabilities": {}}}))
+            header = await reader.readuntil(b"\r\n\r\n")
+            size = int(header.lower().split(b"content-length:")[1].split(b"\r\n")[0])
+            answer = json.loads(await reader.readexactly(size))
+            assert answer["result"]["serverInfo"]["name"] == "rcgen"
+            writer.write(frame({"id": 2, "method": "shutdown"}) + frame({"method": "exit"}))
+            assert await process.wait() == 0
+            writer.close()
+    finally:
+        if process.returncode is None:
+            process.kill()
+            await process.wait()

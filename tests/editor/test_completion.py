@@ -1,0 +1,107 @@
+"""Completion: what is offered at a place, and what is not."""
+
+from __future__ import annotations
+
+import project
+import pytest
+from editor_client import Editor, edited
+from lsprotocol import types as lsp
+
+pytestmark = pytest.mark.asyncio
+
+IDSL = "module M\n{{\n    enum Mode {{ Slow, Fast }};\n    struct S {{ {} }};\n    {}\n}};\n"
+CDSL = 'import "Laser.idsl";\nComponent c\n{{\n    Communications {{ {} }};\n    {}\n}};\n'
+DDSL = (
+    'import "reader.cdsl";\nimport "base.cdsl";\nDeployment d\n{{\n    host far {{ }};\n'
+    "    component eye : reader {{ {} }};\n    component base;\n    {}\n}};\n"
+)
+
+# file, text with the place, what must be offered, what must not
+CASES: list[tuple[str, str, set[str], set[str]]] = [
+    ("a.idsl", "|", {"import", "module"}, {"struct", "interface"}),
+    ("a.idsl", IDSL.format("", "|"), {"struct", "enum", "interface", "sequence"}, {"import", "out"}),
+    ("a.idsl", IDSL.format("flo|", ""), {"float", "Mode", "string"}, {"struct", "Slow"}),
+    ("a.idsl", IDSL.format("float |", ""), set(), {"float", "Mode"}),
+    ("a.idsl", IDSL.format("Mode m = |", ""), {"Slow", "Fast"}, {"Mode", "float"}),
+    ("a.idsl", IDSL.format("float x [|", ""), {"mm", "rad"}, {"query"}),
+    ("a.idsl", IDSL.format("", "interface I { [|"), {"command", "query", "publish"}, {"mm"}),
+    ("a.idsl", IDSL.format("", "interface I { void f(|"), {"S", "out", "int"}, {"struct"}),
+    ("a.idsl", IDSL.format("", "sequence<|"), {"S", "int", "Mode"}, {"out"}),
+    ("a.idsl", 'import "Laser.idsl";\n' + IDSL.format("Scans::|", ""), {"Beam", "Scan"},
+     {"Broken", "float"}),
+    ("a.idsl", 'import "Laser.idsl";\n' + IDSL.format("", "interface I { void f() throws |"),
+     {"Scans::Broken"}, {"Scans::Beam", "int"}),
+    ("a.idsl", 'import "|', {"Laser.idsl", "IMU.idsl"}, {"a.idsl", "reader.cdsl"}),
+    ("a.idsl", "// |", set(), {"import"}),
+    ("c.cdsl", CDSL.format("requires |", ""), {"Laser", "IMU"}, {"language", "Beam"}),
+    ("c.cdsl", CDSL.format("requires Laser, |", ""), {"Laser", "IMU"}, {"as"}),
+    ("c.cdsl", CDSL.format("requires Laser |", ""), {"as"}, {"IMU", "language"}),
+    ("c.cdsl", CDSL.format("requires Scans::|", ""), {"Laser"}, {"IMU", "Beam"}),
+    ("c.cdsl", CDSL.format("|", ""), {"implements", "requires", "publishes"}, {"period"}),
+    ("c.cdsl", CDSL.format("", "|"), {"language", "period", "middleware"}, {"requires", "no_gui"}),
+    ("c.cdsl", CDSL.format("", "language |"), {"Python", "Cpp"}, {"period"}),
+    ("c.cdsl", CDSL.format("", "middleware |"), {"zenoh", "inproc"}, {"Python"}),
+    ("c.cdsl", CDSL.format("", 'parameters "|";'), {"reader.pdsl"}, {"Laser.idsl"}),
+    ("p.pdsl", "ComponentParams p\n{\n    rate |\n};\n", {"float", "int", "string"}, {"live"}),
+    ("p.pdsl", "ComponentParams p\n{\n    rate float 5 |\n};\n", {"live"}, {"ComponentParams"}),
+    ("p.pdsl", "ComponentParams p\n{\n    on bool |\n};\n", {"true", "false", "live"}, set()),
+    ("d.ddsl", 'import "|', {"reader.cdsl", "base.cdsl"}, {"Laser.idsl"}),
+    ("d.ddsl", DDSL.format("", "component x : |"), {"reader", "base"}, {"eye"}),
+    ("d.ddsl", DDSL.format("", "component base on |"), {"far"}, {"reader"}),
+    ("d.ddsl", DDSL.format("after |", ""), {"base", "eye"}, {"reader", "set"}),
+    ("d.ddsl", DDSL.format("set |", ""), {"rate", "pid"}, {"gain"}),
+    ("d.ddsl", DDSL.format("set pid.|", ""), {"gain"}, {"rate"}),
+    ("d.ddsl", DDSL.format("restart |", ""), {"on-failure", "always", "never"}, set()),
+    ("d.ddsl", DDSL.format("", "connect |"), {"eye", "base"}, {"reader"}),
+    ("d.ddsl", DDSL.format("", "connect eye.|"), {"Laser"}, {"eye"}),
+    ("d.ddsl", DDSL.format("", "connect eye.Laser -> base.|"), {"Laser"}, {"eye"}),
+    ("d.ddsl", DDSL.format("", "connect base.|"), set(), {"Laser"}),
+    ("d.ddsl", DDSL.format("", "|"), {"component", "connect", "host"}, {"set", "after"}),
+]  # fmt: skip
+
+
+async def offered(editor: Editor, name: str, marked: str) -> dict[str, lsp.CompletionItem]:
+    params = lsp.CompletionParams(**editor.at(name, marked))
+    found = await editor.client.text_document_completion_async(params)
+    assert isinstance(found, list | tuple)
+    return {one.label: one for one in found}
+
+
+async def test_what_is_offered(editor: Editor) -> None:
+    project.write(editor)
+    for name, marked, wanted, unwanted in CASES:
+        labels = set(await offered(editor, name, marked))
+        assert wanted <= labels, (marked, wanted - labels, sorted(labels))
+        assert not unwanted & labels, (marked, unwanted & labels)
+        editor.close(name)
+
+
+async def test_interface_that_is_not_imported_brings_its_import(editor: Editor) -> None:
+    project.write(editor)
+    marked = CDSL.format("requires IM|", "")
+    item = (await offered(editor, "c.cdsl", marked))["IMU"]
+    assert isinstance(item.text_edit, lsp.TextEdit)
+    edits = [item.text_edit, *(item.additional_text_edits or ())]
+    after = edited(edits, marked.replace("|", ""))
+    assert "requires IMU }" in after
+    assert after.startswith('import "Laser.idsl";\nimport "IMU.idsl";\n')
+
+
+async def test_documentation_comes_along(editor: Editor) -> None:
+    project.write(editor)
+    item = (await offered(editor, "c.cdsl", CDSL.format("requires |", "")))["Laser"]
+    assert isinstance(item.documentation, lsp.MarkupContent)
+    assert "A planar laser." in item.documentation.value
+
+
+async def test_half_typed_file_keeps_its_last_good_model(editor: Editor) -> None:
+    whole = "module M\n{\n    struct S { | };\n    enum Mode { Slow, Fast };\n};\n"
+    broken = whole.replace("Slow, Fast };", "Slow, = (;")
+    assert "Mode" not in await offered(editor, "fresh.idsl", broken)
+    editor.open("a.idsl", whole.replace("|", ""))
+    await editor.until("a.idsl", lambda _: True)
+    editor.replace("a.idsl", broken.replace("|", ""))
+    params = lsp.CompletionParams(**editor.place("a.idsl", broken))
+    found = await editor.client.text_document_completion_async(params)
+    assert isinstance(found, list | tuple)
+    assert "Mode" in {one.label for one in found}
