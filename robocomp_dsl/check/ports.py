@@ -38,9 +38,10 @@ def _names_of_side(ports: Sequence[Port], report: Report) -> dict[int, str]:
             else:
                 report_repeat(port.alias, earlier, "port", report)
     taken: set[str] = set()
+    tried: dict[str, int] = {}
     for port in ports:
         if port.alias is None:
-            name = _numbered(port.interface.name.text, taken)
+            name = _numbered(port.interface.name.text, taken, tried)
             if name.lower() in aliases:
                 report_repeat(aliases[name.lower()], port.interface.name, "port", report)
             else:
@@ -49,9 +50,12 @@ def _names_of_side(ports: Sequence[Port], report: Report) -> dict[int, str]:
     return chosen
 
 
-def _numbered(stem: str, taken: set[str]) -> str:
-    name, number = stem, 0
+def _numbered(stem: str, taken: set[str], tried: dict[str, int]) -> str:
+    """`stem` with the first free number; `tried` says where the last search for it ended."""
+    number = tried.get(stem, 0)
+    name = f"{stem}{number or ''}"
     while name.lower() in taken:
         number += 1
         name = f"{stem}{number}"
+    tried[stem] = number
     return name

@@ -20,7 +20,13 @@ SKIPPED = ("__pycache__", "build", "node_modules")
 
 
 @click.command()
-@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="FILE…")
+@click.argument(
+    "files",
+    nargs=-1,
+    required=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="FILE…",
+)
 @click.option("--syntax", is_flag=True, help="Judge form only; follow no imports.")
 @options.output_format
 @click.option("-q", "quiet", is_flag=True, help="No summary.")

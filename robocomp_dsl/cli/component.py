@@ -39,11 +39,11 @@ class Known(click.ParamType[str]):
 
 
 @click.command()
-@click.argument("file", type=click.Path(path_type=Path), metavar="X.cdsl")
+@click.argument("file", type=click.Path(readable=False, path_type=Path), metavar="X.cdsl")
 @click.option(
     "-o",
     "output",
-    type=click.Path(path_type=Path),
+    type=click.Path(readable=False, path_type=Path),
     metavar="DIR",
     help="Write there instead of beside the file.",
 )
@@ -130,7 +130,10 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
 def _user_code(folder: Path, component: Component) -> list[Diagnostic]:
     """What the user's class lacks, where there is one already."""
     path = folder / "specificworker.py"
-    if not path.is_file():
+    try:
+        if not path.is_file():
+            return []
+    except OSError:  # a folder that cannot be entered: the writer says why
         return []
     from robocomp_dsl.generate.user_code import judge_user_code, unreadable  # noqa: PLC0415
 

@@ -65,7 +65,7 @@ def _ports(command: options.Command) -> options.Command:
 @click.option(
     "-o",
     "output",
-    type=click.Path(path_type=Path),
+    type=click.Path(readable=False, path_type=Path),
     metavar="DIR",
     help="Where to; by default a new folder with the name of the component.",
 )

@@ -18,7 +18,7 @@ folders = click.option(
     "-I",
     "folders",
     multiple=True,
-    type=click.Path(path_type=Path),
+    type=click.Path(readable=False, path_type=Path),
     metavar="DIR",
     help="Look for imported interfaces here, too; may be repeated.",
 )

@@ -16,7 +16,7 @@ import click
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic, Report
 
-app = click.argument("app", metavar="APP.ddsl", type=click.Path(path_type=Path))
+app = click.argument("app", metavar="APP.ddsl", type=click.Path(readable=False, path_type=Path))
 
 
 @dataclass(frozen=True, slots=True)

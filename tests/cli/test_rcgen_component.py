@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
 from pathlib import Path
 
@@ -238,3 +240,22 @@ def test_a_state_machine_is_not_passed_over_in_silence(rcgen: Rcgen, talker: Pat
     run = rcgen("component", "talker.cdsl")
     assert run.code == 0
     assert "warning[RC602]" in run.err
+
+
+def test_a_folder_with_a_name_no_disk_takes(rcgen: Rcgen, talker: Path) -> None:
+    run = rcgen("component", "talker.cdsl", "-o", "x" * 300)
+    assert run.code == 1
+    assert run.err == f"error: cannot write `{'x' * 300}`: the path is too long\n"
+
+
+def test_a_file_that_may_not_be_read_is_a_finding(
+    rcgen: Rcgen, talker: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(path: Path, *_: object, **__: object) -> None:
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+
+    monkeypatch.setattr(os, "access", lambda *_, **__: False)  # as the command line asks
+    monkeypatch.setattr(Path, "open", refuse)
+    run = rcgen("component", "talker.cdsl")
+    assert run.code == 1
+    assert run.err.startswith("error[RC001]: cannot read `talker.cdsl`")
