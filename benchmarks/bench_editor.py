@@ -26,12 +26,11 @@ GOALS = {60: 10, 1000: 25}
 
 def interface(lines: int) -> str:
     """An IDSL file of about that many lines: structs, sequences and operations on them."""
-    parts = []
-    for number in range((lines - 12) // 6):
-        parts.append(
-            f"    /** Number {number}. */\n    struct S{number}\n    {{\n"
-            f"        float x{number} = 0 [mm];\n    }};\n    sequence<S{number}> L{number};\n"
-        )
+    parts = [
+        f"    /** Number {number}. */\n    struct S{number}\n    {{\n"
+        f"        float x{number} = 0 [mm];\n    }};\n    sequence<S{number}> L{number};\n"
+        for number in range((lines - 12) // 6)
+    ]
     calls = "".join(f"        L{n} get{n}(S{n} given);\n" for n in range(4))
     return f"module Big\n{{\n{''.join(parts)}    interface Big\n    {{\n{calls}    }};\n}};\n// \n"
 

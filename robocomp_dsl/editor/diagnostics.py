@@ -19,6 +19,8 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast_base import Import
 
 SOURCE = "rcgen"
+MOST = 1000
+"""Findings shown of one file: an editor chokes on more, and nobody reads them."""
 _SEVERITIES = {
     Severity.ERROR: lsp.DiagnosticSeverity.Error,
     Severity.WARNING: lsp.DiagnosticSeverity.Warning,

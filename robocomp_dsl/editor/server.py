@@ -130,8 +130,6 @@ class Server(LanguageServer):
         document = synchronize.did_open(self.session, params)
         if document:
             self.checking.changed(document)
-            # A file that others missed may be here now.
-            self.checking.everything()
 
     def _changed(self, params: lsp.DidChangeTextDocumentParams) -> None:
         self.checking.changed(synchronize.did_change(self.session, params))

@@ -77,9 +77,11 @@ async def test_change_of_a_file_that_is_not_open(editor: Editor) -> None:
 
 
 async def test_fifty_thousand_lines(editor: Editor) -> None:
-    lines = "".join(f"    rate{number} flot 1;\n" for number in range(50_000))
-    editor.open("big.pdsl", f"ComponentParams a\n{{\n{lines}}};\n")
-    await editor.until("big.pdsl", lambda found: len(found) > 50)
+    lines = "".join(f"    rate{number} float 1;\n" for number in range(50_000))
+    text = f"ComponentParams a\n{{\n{lines}    last flaot 1;\n}};\n"
+    editor.open("big.pdsl", text)
+    (found,) = await editor.until("big.pdsl", bool)
+    assert found.range.start == lsp.Position(50_002, 9)
     await is_alive(editor)
 
 

@@ -19,7 +19,7 @@ DDSL = (
 # file, text with the place, what must be offered, what must not
 CASES: list[tuple[str, str, set[str], set[str]]] = [
     ("a.idsl", "|", {"import", "module"}, {"struct", "interface"}),
-    ("a.idsl", IDSL.format("", "|"), {"struct", "enum", "interface", "sequence"}, {"import", "out"}),
+    ("a.idsl", IDSL.format("", "|"), {"struct", "enum", "interface"}, {"import", "out"}),
     ("a.idsl", IDSL.format("flo|", ""), {"float", "Mode", "string"}, {"struct", "Slow"}),
     ("a.idsl", IDSL.format("float |", ""), set(), {"float", "Mode"}),
     ("a.idsl", IDSL.format("Mode m = |", ""), {"Slow", "Fast"}, {"Mode", "float"}),

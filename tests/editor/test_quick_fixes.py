@@ -55,7 +55,7 @@ async def test_fixes(editor: Editor) -> None:
 async def test_everything_at_once(editor: Editor) -> None:
     project.write(editor)
     text = FILES["Laser.idsl"].replace("float angle", "floot angle").replace("float dist", "reel d")
-    text = text.replace("int level", "integer level")
+    text = text.replace("int level", "int32 level")
     (one,) = await actions(editor, "Laser.idsl", text, "module", ["source.fixAll"])
     after = applied(editor, one, "Laser.idsl", text)
     assert "float angle" in after
