@@ -85,4 +85,4 @@ def _refuse_taken(session: Session, symbol: Symbol, name: str) -> None:
         )
         if one.name == name and same_place and one.key != symbol.key:
             where = f"{identity(one.span.source.path)}:{one.span.begin[0]}"
-            raise JsonRpcInvalidParams(f"there is a {one.kind} `{name}` already, at {where}")
+            raise JsonRpcInvalidParams(f"`{name}` is the name of another {one.kind}, at {where}")

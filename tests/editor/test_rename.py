@@ -60,7 +60,7 @@ async def test_rename(editor: Editor) -> None:
 
 
 REFUSED = [
-    ("Beam", "Mode", "there is a enum `Mode` already"),
+    ("Beam", "Mode", "`Mode` is the name of another enum"),
     ("Beam", "struct", "`struct` is a keyword here"),
     ("Beam", "2beams", "`2beams` is not a name"),
 ]
