@@ -71,9 +71,17 @@ def _property(text: str) -> str:
     return _message(text).replace(":", "%3A").replace(",", "%2C")
 
 
+def as_sarif(findings: Sequence[Diagnostic]) -> str:
+    """A log of SARIF 2.1.0."""
+    from robocomp_dsl.cli.sarif import sarif  # noqa: PLC0415 - the other forms start without it
+
+    return sarif(findings)
+
+
 FORMATS: dict[str, Callable[[Sequence[Diagnostic]], str]] = {
     "full": render.full,
     "concise": concise,
     "json": as_json,
     "github": github,
+    "sarif": as_sarif,
 }

@@ -12,7 +12,9 @@ import click
 
 from robocomp_dsl.diagnostics import Diagnostic, Severity
 
-FORMATS = ("full", "concise", "json", "github")
+FORMATS = ("full", "concise", "json", "github", "sarif")
+WHOLE = ("json", "sarif")
+"""Forms that are one document, also when there is nothing in it."""
 
 folders = click.option(
     "-I",
@@ -42,8 +44,8 @@ def colours_on(stream: TextIO) -> bool:
 
 
 def show(findings: Sequence[Diagnostic], form: str, stream: TextIO) -> None:
-    """Print findings in one of `FORMATS`; the list of `json` is printed even when it is empty."""
-    if not findings and form != "json":
+    """Print findings in one of `FORMATS`; a `WHOLE` one is printed even when it is empty."""
+    if not findings and form not in WHOLE:
         return
     from robocomp_dsl.cli import formats, render  # noqa: PLC0415 - most runs find nothing
 

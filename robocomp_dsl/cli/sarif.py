@@ -1,0 +1,112 @@
+"""Findings as a log of SARIF 2.1.0 (OASIS standard), which code scanners and editors read.
+
+In: diagnostics. Out: the JSON text. Columns count characters, as everywhere here.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from robocomp_dsl import __version__
+from robocomp_dsl.diagnostics import Code, Diagnostic, Fix
+from robocomp_dsl.source import Span
+
+VERSION = "2.1.0"
+SCHEMA = (
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+)
+
+Record = dict[str, Any]
+
+
+def sarif(findings: Sequence[Diagnostic]) -> str:
+    """A log with one run; its rules are the codes that were found, sorted."""
+    codes = {one.code.id: one.code for one in findings}
+    rules = sorted(codes)
+    run = {
+        "tool": {
+            "driver": {
+                "name": "rcgen",
+                "version": __version__,
+                "rules": [_rule(codes[rule]) for rule in rules],
+            }
+        },
+        "columnKind": "unicodeCodePoints",
+        "results": [_result(one, rules.index(one.code.id)) for one in findings],
+    }
+    return json.dumps({"$schema": SCHEMA, "version": VERSION, "runs": [run]}, indent=1) + "\n"
+
+
+def _rule(code: Code) -> Record:
+    return {
+        "id": code.id,
+        "shortDescription": {"text": code.title},
+        "help": {"text": code.explanation},
+        "defaultConfiguration": {"level": str(code.severity)},
+    }
+
+
+def _result(one: Diagnostic, rule: int) -> Record:
+    said = "\n".join(part for part in (one.message, one.label, one.help) if part)
+    result: Record = {
+        "ruleId": one.code.id,
+        "ruleIndex": rule,
+        "level": str(one.severity),
+        "message": {"text": said},
+        "locations": [_location(one.span)],
+    }
+    if one.notes:
+        result["relatedLocations"] = [
+            _location(note.span) | {"id": number, "message": {"text": note.message}}
+            for number, note in enumerate(one.notes)
+        ]
+    if one.fix:
+        result["fixes"] = [_fix(one.fix)]
+    return result
+
+
+def _location(span: Span) -> Record:
+    artifact = {"uri": _uri(span.source.path)}
+    return {"physicalLocation": {"artifactLocation": artifact, "region": _region(span)}}
+
+
+def _region(span: Span) -> Record:
+    (line, column), (end_line, end_column) = span.begin, span.finish
+    return {
+        "startLine": line,
+        "startColumn": column,
+        "endLine": end_line,
+        "endColumn": end_column,
+    }
+
+
+def _fix(fix: Fix) -> Record:
+    paths = dict.fromkeys(edit.span.source.path for edit in fix.edits)
+    return {
+        "description": {"text": fix.title},
+        "artifactChanges": [
+            {
+                "artifactLocation": {"uri": _uri(path)},
+                "replacements": list(_replacements(fix, path)),
+            }
+            for path in paths
+        ],
+    }
+
+
+def _replacements(fix: Fix, path: Path) -> Iterable[Record]:
+    for edit in fix.edits:
+        if edit.span.source.path == path:
+            yield {
+                "deletedRegion": _region(edit.span),
+                "insertedContent": {"text": edit.text},
+            }
+
+
+def _uri(path: Path) -> str:
+    """A path as given, so that a relative one stays relative to the working folder (RFC 3986)."""
+    return path.as_uri() if path.is_absolute() else quote(path.as_posix())
