@@ -40,7 +40,7 @@ Wrong:
 
     module RoboCompLaser
     {
-        sequence<float> Scan$;
+        sequence<float> Scan; $
     };
 
 Right:

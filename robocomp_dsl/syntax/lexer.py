@@ -42,13 +42,15 @@ class Lexer:
     def __init__(self, source: Source, tables: Tables, findings: Findings) -> None:
         self.docs: dict[int, str] = {}
         self._text = source.text
+        # Blanks that no token follows would be tried again from each of them.
+        self._end = len(source.text.rstrip())
         self._tables = tables
         self._findings = findings
 
     def tokens(self) -> Iterator[Token]:
         """The tokens in order, then endless `$END`."""
         at = 0
-        while at < len(self._text) and not self._findings.full:
+        while at < self._end and not self._findings.full:
             at = yield from self._stretch(at)
         size = len(self._text)
         while True:
@@ -59,7 +61,7 @@ class Lexer:
         keyword, sign = self._tables.keywords.get, self._tables.signs.get
         any_case = self._tables.any_case
         doc: list[str] = []
-        for match in self._tables.scanner.finditer(self._text, at):
+        for match in self._tables.scanner.finditer(self._text, at, self._end):
             kind = match.lastgroup or ""
             text, end = match[kind], match.end()
             start = end - len(text)
@@ -81,7 +83,7 @@ class Lexer:
             yield Token(kind, text, start, end)
             if kind == "STRAY":
                 return end
-        return len(self._text)
+        return self._end
 
     def _misspelt(self, kind: str, start: int, end: int) -> tuple[str, str, int]:
         from robocomp_dsl.syntax import misspelt  # noqa: PLC0415 - most files need none of it
