@@ -33,7 +33,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def elsewhere(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fresh venv with the wheel in it; dependencies are borrowed, so that no network is needed."""
+    """A fresh venv with the wheel in it; its dependencies are borrowed: no network is needed."""
     folder = tmp_path_factory.mktemp("venv")
     venv.create(folder, with_pip=False)
     (site,) = folder.glob("lib/python*/site-packages")
