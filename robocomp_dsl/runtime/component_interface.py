@@ -185,6 +185,7 @@ class OperationStatistics(rt.Struct):
 
     drops: Messages that were lost before they were handled.
     malformed: Messages that could not be read.
+    missed: Publications that came later than the deadline of their connection allows.
     p50 [ms]
     p90 [ms]
     p99 [ms]
@@ -199,6 +200,7 @@ class OperationStatistics(rt.Struct):
         "failures",
         "longest",
         "malformed",
+        "missed",
         "operation",
         "p50",
         "p90",
@@ -214,6 +216,7 @@ class OperationStatistics(rt.Struct):
         ("bytesOut", rt.LONG),
         ("drops", rt.LONG),
         ("malformed", rt.LONG),
+        ("missed", rt.LONG),
         ("p50", rt.DOUBLE),
         ("p90", rt.DOUBLE),
         ("p99", rt.DOUBLE),
@@ -230,6 +233,7 @@ class OperationStatistics(rt.Struct):
         bytesOut: int = 0,
         drops: int = 0,
         malformed: int = 0,
+        missed: int = 0,
         p50: float = 0.0,
         p90: float = 0.0,
         p99: float = 0.0,
@@ -243,6 +247,7 @@ class OperationStatistics(rt.Struct):
         self.bytesOut = bytesOut
         self.drops = drops
         self.malformed = malformed
+        self.missed = missed
         self.p50 = p50
         self.p90 = p90
         self.p99 = p99

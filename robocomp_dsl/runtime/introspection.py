@@ -153,6 +153,7 @@ def _operation(one: OperationCounts) -> OperationStatistics:
         bytesOut=one.bytes_out,
         drops=one.drops,
         malformed=one.malformed,
+        missed=one.missed,
         p50=p50,
         p90=p90,
         p99=p99,

@@ -114,7 +114,7 @@ def _scanner() -> str:
     terminals = Lark(used, parser="lalr", import_paths=[str(GRAMMARS)]).terminals
     ranked = sorted(terminals, key=lambda terminal: -terminal.priority)
     groups = _FIRST | {t.name: t.pattern.to_regexp() for t in ranked} | _MISSPELT | _LAST
-    return r"\s*+(?:" + "|".join(f"(?P<{name}>{regexp})" for name, regexp in groups.items()) + ")"
+    return r"\s*(?:" + "|".join(f"(?P<{name}>{regexp})" for name, regexp in groups.items()) + ")"
 
 
 def _rule(rule: Rule) -> list[Any]:

@@ -243,6 +243,24 @@ def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> No
     assert heard[0] == 0
     assert heard[-2:] == [49, 50]
     assert len(heard) <= 4
+    # What was lost is known at the latest when the publisher tells its number again.
+    for n in range(51, 71):
+        news.said("p", n)
+        wait_for(lambda n=n: heard[-1] == n)
+    assert 45 <= node.count("said", "News").drops <= 50
+
+
+def test_publications_behind_their_deadline_are_counted(network: Network) -> None:
+    heard: list[int] = []
+    node = network.node("s")
+    node.hear(lambda _who, n: heard.append(n), qos=Qos(deadline=1e-6))
+    strict = node.count("said", "News")
+    news = network.node("p").news()
+    assert news.wait_for_server(DEADLINE)
+    for n in range(3):
+        news.said("p", n)
+        wait_for(lambda n=n: heard and heard[-1] == n)
+    assert strict.missed == 2
 
 
 def test_the_proxy_follows_a_server_that_comes_back(network: Network) -> None:

@@ -6,12 +6,15 @@ In: endpoints and candidates. Out: one peer, or the failure that says why there 
 from __future__ import annotations
 
 import logging
+import time
 import traceback
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.base import Bound, Endpoint
+from robocomp_dsl.runtime.statistics import OperationCounts
 
 GRACE_S = 1.0
 """So long after the start of a component its calls wait for a server that is not there yet."""
@@ -40,6 +43,21 @@ def pick(at: Endpoint, candidates: Sequence[str]) -> str:
         f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
         f" say which: --connect {at.port}={first}"
     )
+
+
+def watched(handler: Bound, deadline: float, counts: OperationCounts) -> Bound:
+    """`handler`, with the publications counted that come more than `deadline` s after the last."""
+    last = 0.0
+
+    def watch(*arguments: Any) -> Any:
+        nonlocal last
+        now = time.monotonic()
+        if last and now - last > deadline:
+            counts.missed += 1
+        last = now
+        return handler(*arguments)
+
+    return watch
 
 
 def log_failure(what: str, error: Exception) -> None:

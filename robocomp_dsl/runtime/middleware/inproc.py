@@ -27,7 +27,7 @@ from robocomp_dsl.runtime.errors import (
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.interface import Interface, Operation, Pattern
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host
-from robocomp_dsl.runtime.middleware.calling import GRACE_S, log_failure, pick, reaches
+from robocomp_dsl.runtime.middleware.calling import GRACE_S, log_failure, pick, reaches, watched
 from robocomp_dsl.runtime.receiver import Closed, Receiver
 from robocomp_dsl.runtime.statistics import OperationCounts
 
@@ -128,6 +128,11 @@ class Inproc:
 
     def subscribe(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
         """See `base.Middleware`."""
+        if at.qos.deadline:
+            handlers = {
+                name: watched(one, at.qos.deadline, self._host.statistics.of(at.port, name))
+                for name, one in handlers.items()
+            }
         self._add(self._domain.subscribers, at, handlers, execution)
 
     def _add(

@@ -32,7 +32,6 @@ class Zenoh:
         self._opened = opened
         self._session = opened.session
         self._directory = Directory(self._session, host.domain)
-        self._stop = zenoh.CancellationToken()
         self._ports: list[Port] = []
         self._tokens: list[zenoh.LivelinessToken] = []
         self._state: zenoh.LivelinessToken | None = None
@@ -46,7 +45,7 @@ class Zenoh:
 
     def proxy(self, at: Endpoint) -> ServiceLink:
         """See `base.Middleware`."""
-        return ServiceLink(self._session, self._directory, self._host, at, self._stop)
+        return ServiceLink(self._session, self._directory, self._host, at)
 
     def advertise(self, at: Endpoint) -> TopicLink:
         """See `base.Middleware`."""
@@ -80,7 +79,6 @@ class Zenoh:
     def interrupt(self) -> None:
         """See `base.Middleware`."""
         self._directory.interrupt()
-        self._stop.cancel()
 
     def close(self) -> None:
         """See `base.Middleware`."""

@@ -53,14 +53,12 @@ class ServiceLink:
         directory: Directory,
         host: Host,
         at: Endpoint,
-        stop: zenoh.CancellationToken,
     ) -> None:
         self._timeout = 10.0
         self._session = session
         self._directory = directory
         self._host = host
         self._at = at
-        self._stop = stop
         self._hash = at.interface.hash
         self._opened = time.monotonic()
         self._server: Present | None = None
@@ -86,15 +84,16 @@ class ServiceLink:
 
     def _query(self, operation: Operation) -> Bound:
         counts = self._host.statistics.of(self._at.port, operation.name)
-        pause, resume, stop = self._host.execution.pause, self._host.execution.resume, self._stop
+        pause, resume = self._host.execution.pause, self._host.execution.resume
         holders = self._host.execution.holders
         encode, decode = operation.encode_request, operation.decode_reply
         directory = self._directory
         version = -1
         ask: Any = None
+        end: Any = None
 
         def query(*arguments: Any) -> Any:
-            nonlocal version, ask
+            nonlocal version, ask, end
             data = encode(arguments)
             counts.calls += 1
             counts.bytes_out += len(data)
@@ -104,9 +103,10 @@ class ServiceLink:
                 if version != directory.version:
                     seen = directory.version
                     ask = self._querier(operation).get
+                    end = self._end()
                     version = seen  # only now: when there was no server, the next call looks again
                 try:
-                    reply = ask(payload=data, cancellation_token=stop).recv()
+                    reply = ask(payload=data, cancellation_token=end).recv()
                 except zenoh.ZError:
                     reply = self._again(operation, data)
             except BaseException:
@@ -132,12 +132,16 @@ class ServiceLink:
         if operation.idempotent and not self._directory.over:
             self._find(self._timeout)
             try:
-                return (
-                    self._querier(operation).get(payload=data, cancellation_token=self._stop).recv()
-                )
+                ask = self._querier(operation).get
+                return ask(payload=data, cancellation_token=self._end()).recv()
             except zenoh.ZError:
                 pass
         raise self._gone(operation)
+
+    def _end(self) -> zenoh.CancellationToken:
+        """What ends a call when its server goes, or this component."""
+        assert self._server is not None  # noqa: S101 - `_querier` has found it
+        return self._directory.end_of(self._server)
 
     def _failure(self, operation: Operation, reply: zenoh.Reply) -> Exception:
         """What an answer without a result says."""

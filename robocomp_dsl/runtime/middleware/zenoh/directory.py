@@ -18,6 +18,7 @@ class Directory:
 
     def __init__(self, session: zenoh.Session, domain: str) -> None:
         self._present: dict[str, Present] = {}
+        self._ends: dict[Present, zenoh.CancellationToken] = {}
         self._changed = threading.Condition()
         self.version = 0
         self.over = False
@@ -27,15 +28,24 @@ class Directory:
 
     def _hear(self, sample: zenoh.Sample) -> None:
         key = str(sample.key_expr)
+        ended = None
         with self._changed:
             if sample.kind == zenoh.SampleKind.DELETE:
-                self._present.pop(key, None)
+                gone = self._present.pop(key, None)
+                ended = self._ends.pop(gone, None) if gone else None
             else:
                 found = parse_present(key)
                 if found:
                     self._present[key] = found
             self.version += 1
             self._changed.notify_all()
+        if ended:
+            ended.cancel()
+
+    def end_of(self, one: Present) -> zenoh.CancellationToken:
+        """What ends calls of this port when it goes: zenoh alone would wait for their timeout."""
+        with self._changed:
+            return self._ends.setdefault(one, zenoh.CancellationToken())
 
     def find(self, role: str, interface: str) -> list[Present]:
         """The ports of a role with an interface."""
@@ -62,4 +72,7 @@ class Directory:
         """Let all who wait go on."""
         with self._changed:
             self.over = True
+            ends = list(self._ends.values())
             self._changed.notify_all()
+        for one in ends:
+            one.cancel()

@@ -21,7 +21,7 @@ from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.interface import Operation, Pattern
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host
-from robocomp_dsl.runtime.middleware.calling import log, log_failure
+from robocomp_dsl.runtime.middleware.calling import log, log_failure, watched
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import failure_bytes
 from robocomp_dsl.runtime.receiver import Receiver
@@ -154,6 +154,8 @@ class Port:
     def _hear(self, operation: Operation, handler: Bound) -> Hear:
         """What hears the samples of one operation."""
         counts = self._host.statistics.of(self.at.port, operation.name)
+        if self.at.qos.deadline:
+            handler = watched(handler, self.at.qos.deadline, counts)
         decode = operation.decode_request
         acquire, release = self._execution.acquire, self._execution.release
         holders = self._execution.holders
