@@ -40,6 +40,9 @@ PROBE = rt.Interface(
 NEWS = rt.Interface(
     "Test::News", (rt.Operation("said", rt.Pattern.PUBLISH, (("who", rt.STRING), ("n", rt.INT))),)
 )
+OTHER_NEWS = rt.Interface(
+    "Test::News", (rt.Operation("said", rt.Pattern.PUBLISH, (("who", rt.STRING),)),)
+)
 OTHER_PROBE = rt.Interface("Test::Probe", PROBE.operations[:1])
 
 

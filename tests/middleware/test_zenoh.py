@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 import zenoh
 from network import DEADLINE, Network, wait_for
-from probe_types import PROBE
+from probe_types import OTHER_NEWS, PROBE
 
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
@@ -199,6 +199,17 @@ def test_all_who_start_at_once_find_each_other(network: Network) -> None:
     finally:
         for one in opened:
             one.close()
+
+
+def test_both_sides_of_a_topic_are_told_that_their_interfaces_differ(
+    network: Network, caplog: pytest.LogCaptureFixture
+) -> None:
+    subscriber, publisher = network.node("listener"), network.node("speaker")
+    subscriber.hear(lambda *_: None)
+    publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
+    wait_for(lambda: "listener and speaker do not hear each other" in caplog.text)
+    wait_for(lambda: "speaker and listener do not hear each other" in caplog.text)
+    assert "different versions of Test::News" in caplog.text
 
 
 def test_a_taken_port_is_told_in_words() -> None:

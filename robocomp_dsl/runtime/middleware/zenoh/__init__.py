@@ -50,6 +50,7 @@ class Zenoh:
     def advertise(self, at: Endpoint) -> TopicLink:
         """See `base.Middleware`."""
         self._declare("publisher", at)
+        self._directory.expect("subscriber", at)
         return TopicLink(self._session, self._directory, self._host, at)
 
     def subscribe(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
@@ -58,6 +59,7 @@ class Zenoh:
         port.subscribe(self._session)
         self._ports.append(port)
         self._declare("subscriber", at)
+        self._directory.expect("publisher", at)
 
     def _declare(self, role: str, at: Endpoint) -> None:
         """Tell that a port is there; after it was made, so that who sees it can use it."""

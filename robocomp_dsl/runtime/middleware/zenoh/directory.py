@@ -10,6 +10,8 @@ from collections.abc import Callable
 
 import zenoh
 
+from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.calling import log
 from robocomp_dsl.runtime.middleware.zenoh.keys import Present, parse_present, root
 
 
@@ -19,6 +21,7 @@ class Directory:
     def __init__(self, session: zenoh.Session, domain: str) -> None:
         self._present: dict[str, Present] = {}
         self._ends: dict[Present, zenoh.CancellationToken] = {}
+        self._expected: dict[tuple[str, str], Endpoint] = {}
         self._changed = threading.Condition()
         self.version = 0
         self.over = False
@@ -37,10 +40,32 @@ class Directory:
                 found = parse_present(key)
                 if found:
                     self._present[key] = found
+                    self._compare(found)
             self.version += 1
             self._changed.notify_all()
         if ended:
             ended.cancel()
+
+    def expect(self, role: str, at: Endpoint) -> None:
+        """Tell when a port of the other side of a topic has the interface in another shape.
+
+        Nothing of it would arrive, and nobody would know why.
+        """
+        with self._changed:
+            self._expected[role, at.interface.name] = at
+            for one in self._matching(role, at.interface.name):
+                self._compare(one)
+
+    def _compare(self, one: Present) -> None:
+        at = self._expected.get((one.role, one.interface))
+        if at and one.hash != at.interface.hash.hex():
+            log.warning(
+                "%s and %s do not hear each other: they were generated from different versions of"
+                " %s (InterfaceMismatch); generate both from the same IDSL file",
+                at.component,
+                one.component,
+                one.interface,
+            )
 
     def end_of(self, one: Present) -> zenoh.CancellationToken:
         """What ends calls of this port when it goes: zenoh alone would wait for their timeout."""
