@@ -86,11 +86,15 @@ class Server:
         task = asyncio.current_task()
         assert task is not None  # noqa: S101 - this is one
         self._talks.add(task)
-        with contextlib.suppress(OSError, ValueError, asyncio.LimitOverrunError):
-            request = json.loads(await reader.readline())
-            await self._answer(request, reader, writer)
-        writer.close()
-        self._talks.discard(task)
+        try:
+            with contextlib.suppress(OSError, ValueError, asyncio.LimitOverrunError):
+                request = json.loads(await reader.readline())
+                # Whatever else JSON can hold is no request, and gets no answer.
+                if isinstance(request, dict):
+                    await self._answer(request, reader, writer)
+        finally:
+            writer.close()
+            self._talks.discard(task)
 
     async def _answer(
         self, request: dict[str, Any], reader: asyncio.StreamReader, writer: asyncio.StreamWriter
