@@ -17,6 +17,7 @@ from robocomp_dsl.editor import (
     complete_idsl,
     complete_paths,
     complete_pdsl,
+    complete_smdsl,
 )
 from robocomp_dsl.editor.asked import place
 from robocomp_dsl.editor.cursor import Cursor, cursor_at
@@ -28,7 +29,16 @@ from robocomp_dsl.editor.session import Session
 TRIGGERS = ['"', ":", ".", "[", "<", "/"]
 
 _LEGACY = frozenset(
-    ("EXTENDS", "NO_GUI", "USEQT", "QTVERSION", "WORKER", "ROBOCOMPCLASSES", "ROBOCOMPMODULES")
+    (
+        "EXTENDS",
+        "NO_GUI",
+        "USEQT",
+        "QTVERSION",
+        "WORKER",
+        "ROBOCOMPCLASSES",
+        "ROBOCOMPMODULES",
+        "OLD_TRANSITIONS",
+    )
 )
 """Keywords that only serve to understand old files and mistakes."""
 _PORTS = frozenset(("IMPLEMENTS", "REQUIRES", "SUBSCRIBES", "PUBLISHES"))
@@ -49,6 +59,7 @@ _NAMES: dict[str, Callable[[Session, Cursor], Iterator[Offer]]] = {
     "cdsl": complete_cdsl.names,
     "ddsl": complete_ddsl.names,
     "pdsl": complete_pdsl.names,
+    "smdsl": complete_smdsl.names,
 }
 
 
@@ -83,6 +94,8 @@ def _keywords(cursor: Cursor) -> Iterator[Offer]:
     hidden = _LEGACY | _NOT_IN.get(cursor.inside, frozenset())
     if cursor.tables.language == "idsl" and not cursor.block and not cursor.statement:
         hidden |= cursor.tables.words - {"IMPORT", "MODULE"}
+    if cursor.last == "COMMA":  # one too many is forgiven, not asked for
+        hidden |= {"ON", "AFTER"}
     for kind in sorted((cursor.accepted & cursor.tables.words) - hidden):
         yield Offer(cursor.tables.texts[kind], lsp.CompletionItemKind.Keyword)
 

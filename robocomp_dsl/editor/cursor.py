@@ -33,8 +33,9 @@ _ENDS = frozenset(("_SEMI", "LBRACE", "RBRACE"))
 class Cursor:
     """`start` is where the word begins that is being typed.
 
-    `statement` are the tokens since the last `;` or brace, `block` those of the statement that
-    opened the innermost block. `quoted` and `bracketed` say that a text or a `[` is still open.
+    `statement` are the tokens since the last `;` or brace, `blocks` those of the statements that
+    opened the blocks around it, outermost first. `quoted` and `bracketed` say that a text or a `[`
+    is still open.
     """
 
     path: Path
@@ -42,11 +43,16 @@ class Cursor:
     offset: int
     start: int
     statement: list[Token]
-    block: list[Token]
+    blocks: list[list[Token]]
     accepted: frozenset[str]
     tables: Tables
     quoted: bool = False
     bracketed: bool = False
+
+    @property
+    def block(self) -> list[Token]:
+        """The statement that opened the innermost block, or nothing."""
+        return self.blocks[-1] if self.blocks else []
 
     @property
     def last(self) -> str:
@@ -79,9 +85,9 @@ def cursor_at(path: Path, source: Source, offset: int) -> Cursor | None:
     else:
         cut = start = word.start() if word else offset
     tables = load(path.suffix[1:].lower())
-    statement, block, accepted = _read(Source(path, before[:cut]), tables)
+    statement, blocks, accepted = _read(Source(path, before[:cut]), tables)
     return Cursor(
-        path, source, offset, start, statement, block, accepted, tables, quoted, bool(bracket)
+        path, source, offset, start, statement, blocks, accepted, tables, quoted, bool(bracket)
     )
 
 
@@ -92,8 +98,8 @@ class _Silent(Builder):
         return lambda *_: []
 
 
-def _read(source: Source, tables: Tables) -> tuple[list[Token], list[Token], frozenset[str]]:
-    """The current statement, what opened its block, and the terminals that fit next."""
+def _read(source: Source, tables: Tables) -> tuple[list[Token], list[list[Token]], frozenset[str]]:
+    """The current statement, what opened its blocks, and the terminals that fit next."""
     findings = Findings(source, Report())
     machine = Machine(tables, _Silent(findings), findings)
     statement: list[Token] = []
@@ -123,7 +129,7 @@ def _read(source: Source, tables: Tables) -> tuple[list[Token], list[Token], fro
     # Keywords that would be read as names are none to offer.
     strict = replace(tables, words=frozenset())
     situation = Situation(strict, source, states, token, (token,), ())
-    return statement, blocks[-1] if blocks else [], frozenset(situation.accepted())
+    return statement, blocks, frozenset(situation.accepted())
 
 
 def _counted(token: Token, statement: list[Token], blocks: list[list[Token]]) -> list[Token]:

@@ -12,7 +12,7 @@ from lsprotocol import types as lsp
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_innermodel, ast_pdsl
+from robocomp_dsl.syntax import ast_cdsl, ast_ddsl, ast_idsl, ast_innermodel, ast_pdsl, ast_smdsl
 from robocomp_dsl.syntax.ast_base import Name, Node
 
 KINDS: dict[type, lsp.SymbolKind] = {
@@ -37,6 +37,8 @@ KINDS: dict[type, lsp.SymbolKind] = {
     ast_ddsl.Instance: lsp.SymbolKind.Object,
     ast_ddsl.Connection: lsp.SymbolKind.Event,
     ast_innermodel.Element: lsp.SymbolKind.Object,
+    ast_smdsl.Machine: lsp.SymbolKind.Class,
+    ast_smdsl.Substates: lsp.SymbolKind.Namespace,
 }
 
 
@@ -70,7 +72,22 @@ def _outline(node: Node) -> Iterator[lsp.DocumentSymbol]:
             kind=kind,
             range=range_of(one.span.to(span)),
             selection_range=range_of(span),
-            children=list(_outline(one)) or None,
+            children=[*_outline(one), *_states(one)] or None,
+        )
+
+
+def _states(node: Node) -> Iterator[lsp.DocumentSymbol]:
+    """The states of a block, in order of writing."""
+    if not isinstance(node, ast_smdsl.Block):
+        return
+    parts = {id(node.initial): "initial", id(node.end): "end"}
+    for one in sorted(node.all_states, key=lambda name: name.span.start):
+        yield lsp.DocumentSymbol(
+            name=one.text,
+            detail=parts.get(id(one), ""),
+            kind=lsp.SymbolKind.EnumMember,
+            range=range_of(one.span),
+            selection_range=range_of(one.span),
         )
 
 
@@ -103,4 +120,6 @@ def _detail(node: Node) -> str:
             pass
         case ast_innermodel.Element():
             said = node.tag
+        case ast_smdsl.Substates(parallel=True):
+            return "parallel"
     return said.text if said else ""

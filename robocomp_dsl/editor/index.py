@@ -76,6 +76,7 @@ def readers() -> Mapping[str, Reader]:
         names_ddsl,
         names_idsl,
         names_pdsl,
+        names_smdsl,
     )
 
     return {
@@ -83,6 +84,7 @@ def readers() -> Mapping[str, Reader]:
         ".cdsl": names_cdsl.read,
         ".pdsl": names_pdsl.read,
         ".ddsl": names_ddsl.read,
+        ".smdsl": names_smdsl.read,
     }
 
 

@@ -79,10 +79,12 @@ def _refuse_taken(session: Session, symbol: Symbol, name: str) -> None:
     """Refuse the name of a neighbour: of what is declared in the same block of the same file."""
     index = session.index(symbol.span.source.path)
     for one in index.declared():
-        same_place = (one.container, one.kind == "port") == (
-            symbol.container,
-            symbol.kind == "port",
-        )
-        if one.name == name and same_place and one.key != symbol.key:
+        if one.name == name and _scope(one) == _scope(symbol) and one.key != symbol.key:
             where = f"{identity(one.span.source.path)}:{one.span.begin[0]}"
             raise JsonRpcInvalidParams(f"`{name}` is the name of another {one.kind}, at {where}")
+
+
+def _scope(symbol: Symbol) -> tuple[str, str]:
+    """Where no two names may be alike; ports and events are apart from what is around them."""
+    apart = symbol.kind in ("port", "event")
+    return symbol.container, symbol.kind if apart else ""

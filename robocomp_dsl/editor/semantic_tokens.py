@@ -30,6 +30,9 @@ TYPES = {
     "group": "namespace",
     "instance": "variable",
     "host": "variable",
+    "statemachine": "class",
+    "state": "enumMember",
+    "event": "event",
 }
 """Kinds of symbols to the names that editors have colours for."""
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from robocomp_dsl.editor import shapes_smdsl
+from robocomp_dsl.editor.shapes_block import block
 from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Deployment, Host, Instance
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
-
-MOST_LINES = 30
 
 
 def shape(thing: object) -> str:
@@ -61,7 +61,7 @@ def parameter(one: Parameter) -> str:
     """A parameter as it would be written."""
     if one.kind is Kind.GROUP:
         count = "" if one.single else f"[{_range(one)}]"
-        return _block(f"{one.name}{count}", [parameter(member) for member in one.members])
+        return block(f"{one.name}{count}", [parameter(member) for member in one.members])
     kind = f"{{{', '.join(one.choices)}}}" if one.kind is Kind.CHOICE else one.kind.value
     default = "" if one.default is None else _literal(one)
     unit = f"[{one.unit}]" if one.unit else ""
@@ -70,16 +70,16 @@ def parameter(one: Parameter) -> str:
 
 
 def _struct(one: types.Struct) -> str:
-    return _block(f"struct {one.qualified}", _fields(one.fields))
+    return block(f"struct {one.qualified}", _fields(one.fields))
 
 
 def _exception(one: types.ExceptionType) -> str:
-    return _block(f"exception {one.qualified}", _fields(one.fields))
+    return block(f"exception {one.qualified}", _fields(one.fields))
 
 
 def _enum(one: types.Enum) -> str:
     values = [f"{value.name} = {value.value}," for value in one.enumerators]
-    return _block(f"enum {one.qualified}", values)
+    return block(f"enum {one.qualified}", values)
 
 
 def _sequence(one: types.Sequence) -> str:
@@ -92,11 +92,11 @@ def _dictionary(one: types.Dictionary) -> str:
 
 
 def _interface(one: Interface) -> str:
-    return _block(f"interface {one.qualified}", [operation(o) for o in one.operations])
+    return block(f"interface {one.qualified}", [operation(o) for o in one.operations])
 
 
 def _module(one: Module) -> str:
-    return _block(f"module {one.name}", [declared.name for declared in one.declarations])
+    return block(f"module {one.name}", [declared.name for declared in one.declarations])
 
 
 def _value(one: types.Enumerator) -> str:
@@ -108,13 +108,13 @@ def _member(one: types.Field | Param) -> str:
 
 
 def _parameters(one: ParameterSet) -> str:
-    return _block(f"ComponentParams {one.name}", [parameter(p) for p in one.parameters])
+    return block(f"ComponentParams {one.name}", [parameter(p) for p in one.parameters])
 
 
 def _component(one: Component) -> str:
     lines = [_port(port) for port in one.ports]
     lines += [f"period {one.period};", f"middleware {one.middleware};"]
-    return _block(f"Component {one.name}", lines)
+    return block(f"Component {one.name}", lines)
 
 
 def _port(port: Port) -> str:
@@ -143,7 +143,7 @@ def _deployment(one: Deployment) -> str:
         for w in one.connections
     ]
     parts = [f"component {part.name} : {part.component.name};" for part in one.instances]
-    return _block(f"Deployment {one.name}", parts + wires)
+    return block(f"Deployment {one.name}", parts + wires)
 
 
 def _fields(fields: Sequence[types.Field]) -> list[str]:
@@ -178,13 +178,6 @@ def _range(one: Parameter) -> str:
     return f"{low}:{high}"
 
 
-def _block(head: str, lines: Sequence[str]) -> str:
-    inside = [f"    {line}" for text in lines for line in text.splitlines()]
-    if len(inside) > MOST_LINES:
-        inside = [*inside[:MOST_LINES], f"    // … {len(inside) - MOST_LINES} more lines"]
-    return "\n".join([head, "{", *inside, "};"])
-
-
 _SHAPES: dict[type, Callable[[Any], str]] = {
     types.Struct: _struct,
     types.ExceptionType: _exception,
@@ -204,4 +197,5 @@ _SHAPES: dict[type, Callable[[Any], str]] = {
     Instance: _instance,
     Host: _host,
     Deployment: _deployment,
+    **shapes_smdsl.SHAPES,
 }

@@ -23,6 +23,8 @@ KINDS = {
     "instance": lsp.SymbolKind.Object,
     "host": lsp.SymbolKind.Object,
     "group": lsp.SymbolKind.Namespace,
+    "statemachine": lsp.SymbolKind.Class,
+    "state": lsp.SymbolKind.EnumMember,
 }
 """Those worth finding from afar; fields and the like are found in the outline of their file."""
 
