@@ -7,6 +7,7 @@ columns count characters; they are computed only when somebody looks.
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +15,17 @@ from pathlib import Path
 
 MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are refused: no description of a component comes near it."""
+
+
+_DECLARED = re.compile(r"""\A(\s*<\?xml\b[^>]*?\sencoding\s*=\s*)(["'])([A-Za-z][\w.-]*)\2""")
+_LEGACY = {
+    "iso-8859-1": "iso-8859-1",
+    "latin-1": "iso-8859-1",
+    "latin1": "iso-8859-1",
+    "iso-8859-15": "iso-8859-15",
+    "windows-1252": "cp1252",
+    "cp1252": "cp1252",
+}
 
 
 class UnreadableSource(Exception):
@@ -29,7 +41,7 @@ class Source:
 
     @classmethod
     def read(cls, path: Path) -> Source:
-        """The file at `path`, decoded as UTF-8 (a BOM is dropped).
+        """The file at `path`, decoded by `decode`.
 
         Raises `UnreadableSource` when it is missing, a folder, too large or not a text.
         """
@@ -106,14 +118,31 @@ class Span:
 
 
 def decode(data: bytes) -> str:
-    """`data` as text. Raises `UnreadableSource` for what no editor would show as one."""
+    """`data` as text: UTF-8, or what an XML declaration says; a BOM is dropped.
+
+    Raises `UnreadableSource` for what no editor would show as a text.
+    """
     if len(data) > MAX_BYTES:
         raise UnreadableSource(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise UnreadableSource("the text is UTF-16; save it as UTF-8")
     if b"\0" in data:
         raise UnreadableSource("this is a binary file, not a text")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UnreadableSource(
-            f"the text is not UTF-8: byte 0x{data[error.start]:02x} at offset {error.start}"
-        ) from None
+        declared = _DECLARED.match(data[:200].decode("ascii", "replace"))
+        name = _LEGACY.get(declared[3].lower()) if declared else None
+        if name is None:
+            raise UnreadableSource(
+                f"the text is not UTF-8: byte 0x{data[error.start]:02x} at offset {error.start}"
+            ) from None
+        return data.decode(name, "replace")
+
+
+def declared_as_utf8(text: str) -> str:
+    """`text` with `UTF-8` in its XML declaration, if it has one that names another encoding."""
+    declared = _DECLARED.match(text)
+    if declared is None or declared[3].lower() not in _LEGACY:
+        return text
+    return text[: declared.start(3)] + "UTF-8" + text[declared.end(3) :]

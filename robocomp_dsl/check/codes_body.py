@@ -11,7 +11,8 @@ BODY_TAG = Code(
     """\
 Tags are `transform`, `translation`, `rotation`, `joint`, `prismaticjoint`, `motor`, `plane`,
 `mesh`, `differentialrobot`, `omnirobot`, `laser`, `rgbd`, `camera`, `imu`, `touchsensor`,
-`pointcloud`, `display`, `axes` and `include`, in any case, inside one outermost `innerModel`.
+`pointcloud`, `display`, `axes`, `skin` with `patch` and `taxel`, and `include`, in any case, inside
+one outermost `innerModel`.
 
 Wrong:
 
@@ -45,9 +46,11 @@ BODY_VALUE = Code(
     Severity.ERROR,
     "a value is not of the kind that its attribute takes",
     """\
-Numbers have a decimal point; ports, image sizes and numbers of measures are whole; `collide` is 0
-or 1; sizes and scales are one to three numbers with commas between them. RoboComp reads 0 where
-it cannot read a number; here the default is used.
+Numbers have a decimal point; lengths are mm, angles rad, masses kg, unless a unit stands behind the
+number (`mm`, `cm`, `m`; `rad`, `deg`; `kg`, `g`), which RoboComp itself does not read; ports, image
+sizes and numbers of measures are whole; `collide` is 0 or 1; sizes and scales are one to three
+numbers with commas between them. RoboComp reads 0 where it cannot read a number; here the default
+is used.
 
 Wrong:
 
@@ -108,8 +111,8 @@ BODY_NESTING = Code(
     Severity.ERROR,
     "an element stands where none can be",
     """\
-Only frames hold other nodes: transforms, joints, bases and touch sensors. Elements nest at most
-200 deep.
+Only frames hold other nodes: transforms, joints, bases and touch sensors; and a `skin` holds
+patches, a `patch` taxels. Elements nest at most 200 deep.
 
 Wrong:
 
@@ -128,7 +131,9 @@ BODY_RULE = Code(
     "the attributes of a node do not fit together",
     """\
 Limits have their smaller number first, no scale is 0, a motor stands in the joint that it drives,
-a mesh has a file. A negative size or scale is allowed; it mirrors.
+a mesh has a file. A negative size or scale is allowed; it mirrors. A patch of skin is laid out by
+`rings` round its cone, by a `file` of positions, or by its taxels: each has `x` and `theta` on the
+cone, or a point and a normal.
 
 Wrong:
 

@@ -6,53 +6,74 @@ The one table that reading, did-you-mean and completion share. Defaults are thos
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.model import body
 
 NUMBER = "a number"
+LENGTH = "a length: a number of mm, or with its unit (`0.5 m`)"
+ANGLE = "an angle: a number of rad, or with its unit (`90 deg`)"
+MASS = "a mass: a number of kg, or with its unit (`300 g`)"
 LIMIT = "a number or `inf`"
+ANGLE_LIMIT = "an angle (rad, or `90 deg`) or `inf`"
+LENGTH_LIMIT = "a length (mm, or `0.5 m`) or `inf`"
 WHOLE = "a whole number"
 TEXT = "a text"
 FLAG = "0 or 1"
 EXTENT = "one to three numbers with commas between them"
+LENGTHS = "lengths with commas between them"
 SCALE = "one to three numbers with commas between them, such as a scale has"
 
 Kind: TypeAlias = str | tuple[str, ...]
 """One of the above, or the words to choose from."""
 
 
+_METRIC = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
+_ANGULAR = {"rad": 1.0, "deg": 0.017453292519943295}
+UNITS: Mapping[Kind, Mapping[str, float]] = {
+    LENGTH: _METRIC,
+    LENGTH_LIMIT: _METRIC,
+    LENGTHS: _METRIC,
+    ANGLE: _ANGULAR,
+    ANGLE_LIMIT: _ANGULAR,
+    MASS: {"kg": 1.0, "g": 0.001},
+}
+"""What may stand behind a number of a kind, and what it is worth in the unit of the model."""
+
+
 @dataclass(frozen=True, slots=True)
 class Tag:
-    """`made` is the class of the model; `holds` whether other nodes may stand inside."""
+    """`made` is the class of the model.
+
+    `holds`: which tags may stand inside (True: all that need no special place); `inside`: the tags
+    that it stands in, empty for every frame.
+    """
 
     made: type[body.Node]
     attributes: Mapping[str, Kind]
-    holds: bool = False
-    fixed: Mapping[str, object] = field(default_factory=dict)
+    holds: bool | tuple[str, ...] = False
+    inside: tuple[str, ...] = ()
 
 
-def _numbers(*names: str) -> dict[str, Kind]:
-    return dict.fromkeys(names, NUMBER)
-
-
-def _limits(*names: str) -> dict[str, Kind]:
-    return dict.fromkeys(names, LIMIT)
+def _each(kind: Kind, *names: str) -> dict[str, Kind]:
+    return dict.fromkeys(names, kind)
 
 
 AXIS: Kind = ("x", "y", "z")
 _ID: dict[str, Kind] = {"id": TEXT}
-_MOVED = _numbers("tx", "ty", "tz")
-_TURNED = _numbers("rx", "ry", "rz")
-_PHYSICS: dict[str, Kind] = {"engine": ("static", "bullet"), "mass": NUMBER}
+_MOVED = _each(LENGTH, "tx", "ty", "tz")
+_TURNED = _each(ANGLE, "rx", "ry", "rz")
+_PHYSICS: dict[str, Kind] = {"engine": ("static", "bullet"), "mass": MASS}
 _PORT: dict[str, Kind] = {"port": WHOLE}
-_JOINT: dict[str, Kind] = {**_limits("min", "max"), "home": NUMBER, "axis": AXIS, **_PORT}
+_JOINT = _each(ANGLE_LIMIT, "min", "max") | {"home": ANGLE, "axis": AXIS} | _PORT
+_SLIDE = _each(LENGTH_LIMIT, "min", "max") | {"axis": AXIS} | _PORT
 _BASE = _ID | _MOVED | _TURNED | _PORT | {"noise": NUMBER, "collide": FLAG}
 _PLANE = (
     _ID
     | {"texture": TEXT, "repeat": WHOLE, "size": EXTENT, "collide": FLAG}
-    | _numbers("nx", "ny", "nz", "px", "py", "pz")
+    | _each(NUMBER, "nx", "ny", "nz")
+    | _each(LENGTH, "px", "py", "pz")
 )
 _CAMERA = _ID | {"width": WHOLE, "height": WHOLE, "focal": NUMBER}
 
@@ -65,19 +86,36 @@ TAGS: Mapping[str, Tag] = {
     "rotation": Tag(body.Transform, _ID | _TURNED | _PHYSICS, holds=True),
     "joint": Tag(
         body.Joint,
-        _ID | _MOVED | _TURNED | _JOINT | _numbers("lx", "ly", "lz", "hx", "hy", "hz"),
+        _ID | _MOVED | _TURNED | _JOINT | _each(LENGTH, "lx", "ly", "lz", "hx", "hy", "hz"),
         holds=True,
     ),
     "prismaticjoint": Tag(
-        body.PrismaticJoint, _ID | _JOINT | _numbers("position", "offset"), holds=True
+        body.PrismaticJoint, _ID | _SLIDE | _each(LENGTH, "position", "offset", "home"), holds=True
     ),
-    "motor": Tag(body.Motor, _ID | _limits("force", "velocity") | _numbers("gear")),
+    "motor": Tag(body.Motor, _ID | _each(LIMIT, "force", "velocity") | _each(NUMBER, "gear")),
     "differentialrobot": Tag(body.Base, _BASE, holds=True),
     "omnirobot": Tag(body.Base, _BASE, holds=True),
     "touchsensor": Tag(
         body.TouchSensor,
-        _ID | {"type": TEXT} | _numbers("nx", "ny", "nz") | _limits("min", "max") | _PORT,
+        _ID | {"type": TEXT} | _each(NUMBER, "nx", "ny", "nz") | _each(LIMIT, "min", "max") | _PORT,
         holds=True,
+    ),
+    "skin": Tag(body.Skin, _ID | {"rate": NUMBER} | _PORT, holds=("patch",)),
+    "patch": Tag(
+        body.Patch,
+        _ID
+        | _MOVED
+        | _TURNED
+        | _each(LENGTH, "x0", "x1", "r0", "r1")
+        | {"rings": LENGTHS, "count": WHOLE, "file": TEXT, "firstid": WHOLE}
+        | {"gain": NUMBER, "floor": NUMBER, "saturation": LIMIT},
+        holds=("taxel",),
+        inside=("skin",),
+    ),
+    "taxel": Tag(
+        body.Taxel,
+        _ID | _each(LENGTH, "x", "y", "z") | _each(NUMBER, "nx", "ny", "nz") | {"theta": ANGLE},
+        inside=("patch",),
     ),
     "plane": Tag(body.Plane, _PLANE),
     "display": Tag(body.Plane, _PLANE | _PORT),
@@ -93,7 +131,7 @@ TAGS: Mapping[str, Tag] = {
     "laser": Tag(
         body.Laser,
         _ID
-        | {"min": WHOLE, "max": WHOLE, "angle": NUMBER, "measures": WHOLE, "ifconfig": TEXT}
+        | {"min": WHOLE, "max": WHOLE, "angle": ANGLE, "measures": WHOLE, "ifconfig": TEXT}
         | _PORT,
     ),
     "imu": Tag(body.Imu, _ID | _PORT),
@@ -101,8 +139,7 @@ TAGS: Mapping[str, Tag] = {
     "axes": Tag(
         body.Axes,
         _ID
-        | _numbers(
-            "length", "width", "lengthx", "widthx", "lengthy", "widthy", "lengthz", "widthz"
-        ),
+        | _each(LENGTH, "length", "width", "lengthx", "widthx", "lengthy", "widthy")
+        | _each(LENGTH, "lengthz", "widthz"),
     ),
 }

@@ -11,13 +11,18 @@ import re
 from collections.abc import Mapping
 
 from robocomp_dsl.check import codes_body as codes
+from robocomp_dsl.check.imports import replace
 from robocomp_dsl.check.innermodel_tags import (
+    ANGLE_LIMIT,
     EXTENT,
     FLAG,
+    LENGTH_LIMIT,
+    LENGTHS,
     LIMIT,
-    NUMBER,
     SCALE,
     TEXT,
+    UNITS,
+    WHOLE,
     Kind,
     Tag,
 )
@@ -25,7 +30,10 @@ from robocomp_dsl.diagnostics import Report, did_you_mean, nearest
 from robocomp_dsl.syntax.ast_innermodel import Attribute, Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?inf", re.IGNORECASE)
+_OF_XML = re.compile(r"xmlns$|xmlns:|xml:|xsi:")
+_UNIT = re.compile(r"(.*?[\d.])\s*([A-Za-z]+)")
 _LARGEST_WHOLE = 2**31 - 1
+_ENDLESS = (LIMIT, ANGLE_LIMIT, LENGTH_LIMIT)
 
 
 class _Unfit(Exception):
@@ -37,6 +45,8 @@ def read_values(element: Element, tag: Tag, report: Report) -> dict[str, object]
     values: dict[str, object] = {}
     for one in element.attributes:
         kind = tag.attributes.get(one.name.text)
+        if kind is None and _OF_XML.match(one.name.text):
+            continue
         if kind is None:
             _unknown(one, element, tag.attributes, report)
             continue
@@ -56,13 +66,20 @@ def _value(text: str, kind: Kind) -> object:
         return text
     if kind in (EXTENT, SCALE):
         return _triple([_number(part.strip()) for part in text.split(",")], kind)
-    return _one_number(_number(text), kind)
+    if kind == LENGTHS:
+        return tuple(_one_number(part.strip(), kind) for part in text.split(","))
+    return _one_number(text, kind)
 
 
-def _one_number(number: float, kind: Kind) -> float:
-    if kind != LIMIT and math.isinf(number):
+def _one_number(text: str, kind: Kind) -> float:
+    units = UNITS.get(kind, {})
+    found = _UNIT.fullmatch(text)
+    if found and found[2] in units:
+        return _one_number(found[1], kind) * units[found[2]]
+    number = _number(text)
+    if math.isinf(number) and kind not in _ENDLESS:
         raise _Unfit
-    if kind in (NUMBER, LIMIT):
+    if kind not in (WHOLE, FLAG):
         return number
     if not number.is_integer() or abs(number) > _LARGEST_WHOLE:
         raise _Unfit
@@ -101,6 +118,7 @@ def _unknown(one: Attribute, element: Element, known: Mapping[str, Kind], report
         f"`{tag}` has no attribute `{name:.60}`",
         label=label or "it is not used",
         help=spelt or ("" if label else f"it has {', '.join(f'`{n}`' for n in known)}"),
+        fix=replace(one.name.span, meant) if meant and not element.get(meant) else None,
     )
 
 

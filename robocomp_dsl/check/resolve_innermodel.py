@@ -27,6 +27,8 @@ MAX_NODES = 100_000
 """With all that is included; a file of a few lines could include others without end."""
 
 ROOT_ID = "root"
+_NAMELESS = ("axes", "taxel")
+"""Tags of nodes that nobody refers to."""
 _INCLUDE = Tag(Node, {"path": TEXT})
 
 
@@ -81,12 +83,13 @@ class _Resolver:
                 said = f"there are more than {MAX_NODES} nodes; the rest is left out"
                 self.report.add(codes.BODY_TOO_LARGE, self.whole, said)
                 break
-            if name == INCLUDE:
-                made.extend(self._include(child, depth))
-            elif name in TAGS:
-                made.append(self._node(child, TAGS[name], name, depth))
-            else:
+            if name != INCLUDE and name not in TAGS:
                 self._unknown(child, name)
+            elif self._stands(child, element):
+                if name == INCLUDE:
+                    made.extend(self._include(child, depth))
+                else:
+                    made.append(self._node(child, TAGS[name], name, depth))
         return tuple(made)
 
     def _node(self, element: Element, tag: Tag, name: str, depth: int) -> Node:
@@ -103,7 +106,7 @@ class _Resolver:
         attribute = element.get("id")
         span = attribute.value.span if attribute else element.tag.span
         if not written:
-            if name != "axes":  # nobody refers to them
+            if name not in _NAMELESS:
                 said = f"`<{element.tag.text}>` has no `id`"
                 self.report.add(codes.BODY_ID_MISSING, span, said, label="nothing can refer to it")
             return self._numbered(name, span, 1)
@@ -130,6 +133,19 @@ class _Resolver:
 
     # -- what is not as it should be ----------------------------------------------------------
 
+    def _stands(self, element: Element, around: Element) -> bool:
+        """Whether an element of a known tag may stand in `around`; reported if not."""
+        outer, name = around.tag.text.lower(), element.tag.text.lower()
+        holds = TAGS[outer].holds if outer in TAGS else True
+        inside = TAGS[name].inside if name in TAGS else ()
+        if not inside if holds is True else outer in inside:
+            return True
+        said = f"`<{element.tag.text}>` does not stand in `<{around.tag.text}>`"
+        homes = inside or (name for name, one in TAGS.items() if one.holds is True)
+        listed = ", ".join(f"`{one}`" for one in homes)
+        self.report.add(codes.BODY_NESTING, element.tag.span, said, help=f"it stands in {listed}")
+        return False
+
     def _unknown(self, element: Element, name: str) -> None:
         span, written = element.tag.span, element.tag.text
         if name == ROOT:
@@ -152,7 +168,7 @@ class _Resolver:
             said = f"elements are nested more than {MAX_DEPTH} deep; the rest is left out"
         else:
             said = f"`<{element.tag.text}>` holds no other elements"
-        holders = ", ".join(f"`{name}`" for name, one in TAGS.items() if one.holds)
+        holders = ", ".join(f"`{name}`" for name, one in TAGS.items() if one.holds is True)
         self.report.add(
             codes.BODY_NESTING, child.tag.span, said, help=f"those that do are {holders}"
         )

@@ -16,8 +16,11 @@ from robocomp_dsl.model.body import (
     Mesh,
     Motor,
     Node,
+    Patch,
     Plane,
     PrismaticJoint,
+    Skin,
+    Taxel,
     Transform,
 )
 from robocomp_dsl.source import Span
@@ -36,6 +39,19 @@ def _place(node: Node) -> Span:
 
 
 def _complaints(node: Node, parent: Node | None) -> list[str]:
+    match node:
+        case Skin():
+            return _skin(node)
+        case Patch():
+            return _patch(node)
+        case Taxel() if isinstance(parent, Patch):
+            return _taxel(node, parent)
+        case _:
+            return _old_complaints(node, parent)
+
+
+def _old_complaints(node: Node, parent: Node | None) -> list[str]:
+    """What RoboComp's own tags and motors may not say."""
     said: list[str] = []
     match node:
         case Joint() | PrismaticJoint() if node.min > node.max:
@@ -60,6 +76,46 @@ def _mesh(node: Mesh) -> list[str]:
     if 0 in node.scale or not all(map(math.isfinite, node.scale)):
         said.append(f"`scale` must be made of finite numbers and no 0, not {_shown(node.scale)}")
     return said
+
+
+def _skin(node: Skin) -> list[str]:
+    said = [] if node.children else [f"the skin `{node.id}` has no `<patch>`"]
+    if node.rate <= 0:
+        said.append(f"`rate` is {node.rate:g} Hz")
+    return said
+
+
+def _patch(node: Patch) -> list[str]:
+    said = []
+    forms = {"`rings`": node.rings, "a `file`": node.file, "`<taxel>` elements": node.children}
+    given = [name for name, one in forms.items() if one]
+    if len(given) != 1:
+        found = "none of them" if not given else " and ".join(given)
+        said.append(f"a patch is laid out by one of {', '.join(forms)}; this one has {found}")
+    if node.cone and not node.x0 < node.x1:
+        said.append(f"a cone goes from `x0` up to `x1`, not from {node.x0:g} to {node.x1:g}")
+    if node.cone and min(node.r0, node.r1) <= 0:
+        said.append("a cone needs the radii `r0` and `r1`, above 0")
+    if node.rings and not node.cone:
+        said.append("`rings` go round a cone: give `x0`, `x1`, `r0` and `r1`")
+    if node.rings and node.count < 1:
+        said.append("`rings` need the `count` of modules in each")
+    if node.firstid < 0:
+        said.append(f"taxels are numbered from 0, not {node.firstid}")
+    return said
+
+
+def _taxel(node: Taxel, patch: Patch) -> list[str]:
+    point = any((node.y, node.z, node.nx, node.ny, node.nz))
+    if node.theta is not None:
+        if point:
+            return [
+                "a taxel is given by `x` and `theta`, or by a point and its normal, not by both"
+            ]
+        return [] if patch.cone else ["`theta` needs the cone of the patch: `x0`, `x1`, `r0`, `r1`"]
+    if not any((node.nx, node.ny, node.nz)):
+        return ["a taxel needs `theta`, or its normal `nx`, `ny`, `nz`"]
+    return []
 
 
 def _shown(numbers: tuple[float, ...]) -> str:

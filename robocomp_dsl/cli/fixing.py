@@ -16,7 +16,7 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.write import write
-from robocomp_dsl.source import Source, UnreadableSource
+from robocomp_dsl.source import Source, UnreadableSource, declared_as_utf8
 
 BOM = "\N{ZERO WIDTH NO-BREAK SPACE}"
 
@@ -44,7 +44,7 @@ def fix(path: Path, judge: Judge, workspace: Workspace, *, diff: bool) -> None:
     mark = BOM if path.read_bytes().startswith(BOM.encode()) else ""
     # The name behind a link is what is rewritten, so that the link stays one.
     real = path.resolve()
-    write(real.parent, [OutputFile(real.name, mark + fixed.text)])
+    write(real.parent, [OutputFile(real.name, mark + declared_as_utf8(fixed.text))])
     print(_told(path, fixed), file=sys.stderr)
 
 

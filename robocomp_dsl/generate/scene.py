@@ -46,6 +46,7 @@ def _lower(node: body.Node, parent: body.Node, made: Data) -> None:
 
 
 _SERVED = (
+    body.Skin,
     body.Joint,
     body.PrismaticJoint,
     body.Base,

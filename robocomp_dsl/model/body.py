@@ -114,6 +114,66 @@ class TouchSensor(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Skin(Node):
+    """Tactile skin on the frame it stands in; `children` are its patches, `rate` is in Hz."""
+
+    rate: float = 50.0
+    port: int = 0
+    children: tuple[Node, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Patch(Node):
+    """Taxels numbered from `firstid`, in a frame of their own: T(t…) · Rx · Ry · Rz, as ever.
+
+    Their surface is a truncated cone about x, from `x0` with radius `r0` to `x1` with `r1`
+    (Ma and Dahl 2016, equations 3 and 4), or what the taxels themselves say. They are laid out as
+    `count` triangle modules round the cone at each x in `rings`, by a `file` of positions, or one
+    by one as `children`. A sensor gives `gain` per newton from `floor` on, up to `saturation`.
+    """
+
+    tx: float = 0.0
+    ty: float = 0.0
+    tz: float = 0.0
+    rx: float = 0.0
+    ry: float = 0.0
+    rz: float = 0.0
+    x0: float = 0.0
+    x1: float = 0.0
+    r0: float = 0.0
+    r1: float = 0.0
+    rings: tuple[float, ...] = ()
+    count: int = 0
+    file: str = ""
+    firstid: int = 0
+    gain: float = 1.0
+    floor: float = 0.0
+    saturation: float = math.inf
+    children: tuple[Node, ...] = ()
+
+    @property
+    def cone(self) -> bool:
+        """Whether a cone is given."""
+        return any((self.x0, self.x1, self.r0, self.r1))
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Taxel(Node):
+    """One sensing point: `x` and `theta` on the cone of its patch, or a point and its normal.
+
+    `theta` (rad, 0 at +z, towards +y) is None for a point.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    nx: float = 0.0
+    ny: float = 0.0
+    nz: float = 0.0
+    theta: float | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Plane(Node):
     """A box around (px, py, pz): `size` is width, height and thickness, the last along the normal.
 
@@ -217,7 +277,7 @@ class Body:
 
 def is_frame(node: Node) -> bool:
     """Whether other nodes can stand in `node`."""
-    return hasattr(node, "children")
+    return isinstance(node, Transform | PrismaticJoint | TouchSensor)
 
 
 def children(node: Node) -> tuple[Node, ...]:

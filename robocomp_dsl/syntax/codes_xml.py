@@ -97,3 +97,21 @@ InnerModel has no document type, and no entities but `&amp;`, `&lt;`, `&gt;`, `&
 What is declared in a `<!DOCTYPE …>` is read over.
 """,
 )
+
+XML_REPEATED = Code(
+    "RC186",
+    Severity.WARNING,
+    "an attribute is given twice, with the same value",
+    """\
+XML allows each attribute once in a tag, and RoboComp does not read a file where one is repeated.
+What is meant is clear here: the second one is removed by `rcgen check --fix`.
+
+Wrong:
+
+    <transform id="arm" tx="100" tx="100"/>
+
+Right:
+
+    <transform id="arm" tx="100"/>
+""",
+)

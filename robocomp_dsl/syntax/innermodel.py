@@ -14,7 +14,7 @@ from functools import cache
 
 from lark import Lark, Token, Tree
 
-from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import codes_xml as codes
@@ -123,6 +123,8 @@ class _Builder:
                 codes.XML_TAG, start, end, f"the closing tag `</{name}` must end here with `>`"
             )
         depth = self._depth(name)
+        if depth is None and self.path and nearest(name, [self.path[-1].tag.text]):
+            depth = len(self.path) - 1
         if depth is None:
             said = f"`</{name}>` closes nothing"
             self.findings.add(codes.XML_NESTING, start, end, said, label="no such tag is open here")

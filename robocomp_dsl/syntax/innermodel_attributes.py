@@ -63,7 +63,7 @@ def _keep(made: Attribute, kept: dict[str, Attribute], findings: Findings) -> No
     span = made.span
     same = first.value.value == made.value.value
     findings.add(
-        codes.XML_DUPLICATE,
+        codes.XML_REPEATED if same else codes.XML_DUPLICATE,
         span.start,
         span.end,
         f"the attribute `{made.name.text}` is given twice",

@@ -1,0 +1,99 @@
+"""XML as people have it: declarations, encodings, comments, texts of every kind."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from robocomp_dsl.check import check_innermodel
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.check import command
+from robocomp_dsl.diagnostics import Report, Severity
+
+TREE = '<innerModel><transform id="a"><imu id="b"/></transform></innerModel>'
+
+
+def nodes(path: Path) -> tuple[list[str], list[str]]:
+    report = Report()
+    found = check_innermodel(path, Workspace(environ={}), report)
+    return [n.id for n, _ in found.nodes()] if found else [], [
+        f"{d.code.id} {d.span.begin[0]}:{d.span.begin[1]}" for d in report
+    ]
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        TREE,
+        f'<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n{TREE}',
+        f"<!-- before -->\n{TREE}\n<!-- behind -->\n<?end?>\n",
+        TREE.replace("><", ">\r\n<!-- a <b> & 'c' -->\r\n<"),
+        TREE.replace('id="a"', "id='a'\n\ttx = '1'"),
+        TREE.upper().replace("ID=", "id=").replace('"A"', '"a"').replace('"B"', '"b"'),
+        TREE.replace("<innerModel>", '<innerModel xmlns:xsi="http://w" xsi:schemaLocation="x">'),
+        TREE.replace('"a"', '"&#97;"').replace('"b"', '"&#x62;"'),
+        b"\xef\xbb\xbf" + TREE.encode(),
+        TREE.encode() + b"\n\n",
+        f'<?xml version="1.0" encoding="ISO-8859-1"?><!-- \xf1 -->{TREE}'.encode("latin-1"),
+        f"<?xml version='1.0' encoding='latin1'?><!-- \xf1 -->{TREE}".encode("latin-1"),
+        f'<?xml version="1.0" encoding="windows-1252"?><!-- \u20ac -->{TREE}'.encode("cp1252"),
+        f'<?xml version="1.0" encoding="ISO-8859-1"?><!-- \xf1 -->{TREE}'.encode(),
+    ],
+)
+def test_it_is_read_without_a_word(tmp_path: Path, data: str | bytes) -> None:
+    path = tmp_path / "w.xml"
+    path.write_bytes(data.encode() if isinstance(data, str) else data)
+    assert nodes(path) == (["root", "a", "b"], [])
+
+
+@pytest.mark.parametrize(
+    ("data", "findings"),
+    [
+        (f"<!DOCTYPE innerModel SYSTEM 'im.dtd'>{TREE}", ["RC185 1:1"]),
+        (TREE.replace("<imu", "<![CDATA[ a < b ]]><imu"), ["RC184 1:31"]),
+        (TREE.replace("<imu", "left <imu"), ["RC184 1:31"]),
+        (TREE.replace('id="b"', 'id="b" port="1" port="2"'), ["RC181 1:52"]),
+        (TREE.replace('id="b"', 'id="b" ;'), ["RC180 1:43"]),
+        (TREE.replace("</transform>", "</transfrom>"), ["RC182 1:46"]),
+        (TREE.replace("</transform>", ""), ["RC182 1:14"]),
+        (TREE.replace("<imu", "</joint><imu"), ["RC182 1:31"]),
+        (TREE.encode("utf-16"), ["RC001 1:1"]),
+        (f"<!-- \xf1 -->{TREE}".encode("latin-1"), ["RC001 1:1"]),
+    ],
+)
+def test_what_is_told(tmp_path: Path, data: str | bytes, findings: list[str]) -> None:
+    path = tmp_path / "w.xml"
+    path.write_bytes(data.encode() if isinstance(data, str) else data)
+    found, told = nodes(path)
+    assert told == findings
+    assert found == ([] if "RC001 1:1" in told else ["root", "a", "b"])
+
+
+def test_all_but_the_mistake_stands(tmp_path: Path) -> None:
+    path = tmp_path / "w.xml"
+    wrong = '<joint id="j7" tx="1" tx="2" %><imu id="i"/> stray </joint>'
+    right = "".join(f'<plane id="p{i}" size="1"/>' for i in range(50))
+    path.write_text(
+        f'<innerModel><transform id="t">{right}{wrong}{right.replace(chr(34) + "p", chr(34) + "q")}'
+    )
+    found, told = nodes(path)
+    assert len(found) == 1 + 1 + 50 + 2 + 50
+    assert {one.split()[0] for one in told} >= {"RC180", "RC181", "RC182", "RC184"}
+
+
+def test_a_fixed_file_says_its_encoding(tmp_path: Path) -> None:
+    path = tmp_path / "w.xml"
+    head = '<?xml version="1.0" encoding="ISO-8859-1"?><!-- \xf1 -->'
+    path.write_bytes((head + TREE.replace('id="a"', 'id="a" id="a"')).encode("latin-1"))
+    done = CliRunner().invoke(command, ["--fix", str(path)])
+    assert done.exit_code == 0
+    assert path.read_text(encoding="utf-8").startswith(head.replace("ISO-8859-1", "UTF-8"))
+    assert nodes(path) == (["root", "a", "b"], [])
+
+
+def test_text_is_a_warning_only(tmp_path: Path) -> None:
+    path = tmp_path / "w.xml"
+    path.write_text(TREE.replace("<imu", "left <imu"))
+    report = Report()
+    check_innermodel(path, Workspace(environ={}), report)
+    assert [d.severity for d in report] == [Severity.WARNING]
