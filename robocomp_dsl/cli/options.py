@@ -53,7 +53,11 @@ def show(findings: Sequence[Diagnostic], form: str, stream: TextIO) -> None:
         text = render.full(findings, colours=colours_on(stream))
     else:
         text = formats.FORMATS[form](findings)
-    # What the encoding of the stream lacks must not end the program.
+    write_text(text, stream)
+
+
+def write_text(text: str, stream: TextIO) -> None:
+    """Write `text`; what the encoding of the stream lacks must not end the program."""
     encoding = stream.encoding or "utf-8"
     stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
 

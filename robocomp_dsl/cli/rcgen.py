@@ -12,6 +12,7 @@ from robocomp_dsl.cli.program import LazyGroup, run
 
 TABLE = {
     "component": ("component", "Generate a component from its CDSL file."),
+    "interface": ("interface", "Write an interface as Slice, as ROS 2 messages or as JSON Schema."),
     "check": ("check", "Check descriptions; the exit code is 1 if there are errors."),
     "new": ("new", "Begin a new component: a commented CDSL and PDSL file."),
     "lsp": ("lsp", "Serve an editor: findings as you type, completion, navigation."),

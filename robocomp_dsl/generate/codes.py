@@ -29,17 +29,83 @@ The line can stay; until then, keep the state in an attribute and look at it in 
 MISSING_METHOD = Code(
     "RC611",
     Severity.WARNING,
-    "an operation has no method in the user's class",
-    """The component implements or subscribes to an interface, and `specificworker.py` has no method
-for one of its operations. Until there is one, a caller gets `RemoteError`, and a message of a topic
-is dropped with a line in the log.
-
-The method is called `<port>_<operation>` and takes the inputs of the operation in order:
+    "an operation had no method in the user's class",
+    """The component implements or subscribes to an interface, and `specificworker.py` had no method
+for one of its operations. rcgen puts a stub behind the last statement of the class, and the imports
+it needs behind yours; nothing else of the file is touched. Put your code into the stub:
 
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
         return 0, DatasayResp()
 
-`generated/genericworker.py` has its signature. rcgen never changes a file that is yours.""",
+Until you do, a caller gets `RemoteError`, and a message of a topic is dropped.""",
+)
+
+STALE_METHOD = Code(
+    "RC614",
+    Severity.WARNING,
+    "a method belongs to an operation that is gone",
+    """An operation was removed from its interface, or the port from the component; the method that
+served it is still in `specificworker.py`. Nothing calls it. If the operation was renamed, a stub
+with the new name is at the end of the class: move your code there. rcgen never deletes code of
+yours; when you have deleted the method, this is not said any more.""",
+)
+
+CHANGED_SIGNATURE = Code(
+    "RC615",
+    Severity.WARNING,
+    "the signature of a method has changed",
+    """The operation has other inputs or results than the method was written for. Both signatures
+are shown, the one in your file and the one there should be:
+
+    old: def Speech_say(self, text: str) -> int
+    new: def Speech_say(self, text: str, loud: bool) -> int
+
+Change the method; rcgen leaves it as it is. Parameters that you named or annotated in a way of your
+own are not reported, as long as the call works.""",
+)
+
+UNKNOWN_PARAMETER = Code(
+    "RC616",
+    Severity.WARNING,
+    "the code uses a parameter that there is not",
+    """`self.params.<name>` names no parameter of the PDSL file: it was renamed or removed there, or
+it is misspelt. The line raises `AttributeError` when it runs.""",
+)
+
+UNKNOWN_OPERATION = Code(
+    "RC617",
+    Severity.WARNING,
+    "the code calls an operation that there is not",
+    """`self.<port>_proxy.<operation>` names no operation of the interface: it was renamed or
+removed in the IDSL file, or it is misspelt. The line raises `AttributeError` when it runs.""",
+)
+
+MERGED = Code(
+    "RC618",
+    Severity.NOTE,
+    "a file of yours was merged with its new output",
+    """`README.md` and `etc/config.yaml` are written once and then yours. What the descriptions say
+of them has changed, you have changed them too, and the changes are in different places: both are in
+the file now. `.rcgen/pristine` holds the output without your changes; keep `.rcgen` under version
+control, for it is what the next merge starts from.""",
+)
+
+NOT_MERGED = Code(
+    "RC619",
+    Severity.WARNING,
+    "a file of yours could not be merged with its new output",
+    """You and rcgen changed the same lines of a file that is yours. It stays as it is. The folder
+`.rcgen/conflicts` holds what a merge gives, with your lines, those before, and the new ones between
+conflict markers: take what you need from there.""",
+)
+
+BROKEN_RECORD = Code(
+    "RC620",
+    Severity.WARNING,
+    "the record of the last generation cannot be read",
+    """`.rcgen/methods.json` holds the methods and signatures of the last generation; with it rcgen
+knows which methods of yours are stale and whose signatures have changed. It is damaged, for example
+by conflict markers of a merge. It is written anew from the descriptions as they are now.""",
 )
 
 NO_WORKER = Code(
@@ -63,4 +129,45 @@ UNREADABLE_WORKER = Code(
     "the user's file could not be examined",
     """`specificworker.py` has a syntax error or is not a text, so it is not known which operations
 it implements. rcgen left it as it is. The component does not start before it is mended.""",
+)
+
+
+RENAMED_IN_EXPORT = Code(
+    "RC621",
+    Severity.WARNING,
+    "a name is spelled differently in the exported files",
+    """The format that the interface is exported to does not allow this name, or takes it for the
+same as another one: Slice and ROS 2 do not tell `Pose` from `pose`, and Slice keeps names that
+begin with `Ice` or end in `Prx`, `Ptr`, `Helper` or `Holder` for itself.
+
+Fields and parameters have no names on the wire, so a new one only matters to who writes code with
+it. Ice sends the names of modules, interfaces, operations and exceptions: who was generated from
+the exported file does not understand who uses the old name. Choose a name in the IDSL file that
+all formats can keep:
+
+    struct IceCream { int scoops; };      wrong for Slice
+    struct Gelato { int scoops; };        right""",
+)
+
+RESHAPED_IN_EXPORT = Code(
+    "RC622",
+    Severity.WARNING,
+    "a type has another shape in the exported files",
+    """The format that the interface is exported to has no such type. Slice has no struct without
+fields; it gets one that means nothing. Bytes that were written with one shape cannot be read with
+the other.
+
+    struct Nothing { };                   wrong for Slice
+    struct Nothing { bool unused; };      right: the same everywhere""",
+)
+
+NOT_EXPORTABLE = Code(
+    "RC623",
+    Severity.ERROR,
+    "the format cannot express this",
+    """The format that the interface is exported to has no way to say this, and a guess would mean
+something else. Slice has no negative values in enumerations:
+
+    enum Level { Low = -1, High };        wrong for Slice
+    enum Level { Low, High };             right""",
 )

@@ -1,0 +1,44 @@
+"""`--to slice`: what ZeroC's own compiler says of it."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import exported
+import pytest
+
+from robocomp_dsl.generate.export import export
+from robocomp_dsl.resources import INTERFACES
+
+SLICE2PY = shutil.which("slice2py")
+compiled = pytest.mark.skipif(
+    SLICE2PY is None,
+    reason="needs slice2py: package zeroc-ice-compilers of Debian, or zeroc-ice of PyPI",
+)
+
+
+def slice2py(folder: Path) -> str:
+    """What the compiler says of all files of a folder; nothing if they are right."""
+    out = folder / "out"
+    out.mkdir(exist_ok=True)
+    files = sorted(map(str, folder.glob("*.ice")))
+    done = subprocess.run(
+        [str(SLICE2PY), "--output-dir", str(out), *files],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = done.stderr + done.stdout
+    return said or ("failed in silence" if done.returncode else "")
+
+
+@compiled
+def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
+    for name in exported.SHIPPED:
+        made = export(exported.modules(INTERFACES / name), "slice")
+        assert not made.findings
+        exported.put(made.files, tmp_path)
+    assert {p.stem for p in tmp_path.glob("*.ice")} >= {Path(n).stem for n in exported.SHIPPED}
+    assert slice2py(tmp_path) == ""
