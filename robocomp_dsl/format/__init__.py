@@ -1,0 +1,84 @@
+"""Formatting: the same text as the house writes it.
+
+In: a source and what the parser found in it. Out: the new text. Only what stands between tokens and
+comments changes, so a text says the same before and after; that is checked each time.
+
+    pieces    tokens and comments, in order: what stays
+    scan      text to pieces: the languages with braces     xml_scan   InnerModel
+    items     pieces to statements and blocks
+    style     the look of each language, as a table
+    layout    statements to lines                           xml        tags to lines
+    lines     lines to text: comments behind lines, indentation of comments
+
+Legacy forms are formatted and not changed: `rcgen check --fix` changes them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+
+from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
+from robocomp_dsl.format import items, pieces
+from robocomp_dsl.format.layout import lay_out
+from robocomp_dsl.format.lines import text_of
+from robocomp_dsl.format.pieces import Change, Piece
+from robocomp_dsl.format.scan import scan
+from robocomp_dsl.format.style import STYLES
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax import LANGUAGES, codes, parse_innermodel
+
+PARSERS: dict[str, Callable[[Source, Report], object]] = {**LANGUAGES, ".xml": parse_innermodel}
+"""File suffix (lower case) to parser, for every language that can be formatted."""
+
+
+class MeaningWouldChange(Exception):
+    """The new text would say something else: a mistake of ours that must not reach a file."""
+
+
+def formatted(source: Source, findings: Collection[Diagnostic]) -> str | None:
+    """The text of `source` as the house writes it, or None if it has errors of form.
+
+    `findings` are those of the parser. Raises `KeyError` for a suffix that is none of `PARSERS`,
+    and `MeaningWouldChange`.
+    """
+    suffix = source.path.suffix.lower()
+    parser = PARSERS[suffix]
+    if any(one.severity is Severity.ERROR for one in findings):
+        return None
+    missing = {f.span.end for f in findings if f.code is codes.LEGACY_SEMICOLON}
+    old = _scan(source.text, suffix, missing)
+    new = _formatted(old, suffix, source.text)
+    if not pieces.same(_written(old), _scan(new, suffix)):
+        raise MeaningWouldChange
+    # Where nothing was found, nothing was guessed either, and the tokens alone give the tree.
+    if findings and not _same_tree(source, new, parser):
+        raise MeaningWouldChange
+    return new
+
+
+def changes(source: Source, new: str) -> list[Change]:
+    """The small changes that make `new`, which is `formatted`, of `source`; each of them will do."""
+    suffix = source.path.suffix.lower()
+    old = _scan(source.text, suffix)
+    return list(pieces.changes(source.text, new, old, _scan(new, suffix)))
+
+
+def _scan(text: str, suffix: str, missing: Collection[int] = ()) -> list[Piece]:
+    return scan(text, suffix[1:], missing)
+
+
+def _formatted(old: Sequence[Piece], suffix: str, text: str) -> str:
+    style = STYLES[suffix[1:]]
+    statements = items.read(old, inline_braces=style.inline_braces)
+    new = text_of(lay_out(statements, style))
+    crlf = text.count("\r\n") * 2 > text.count("\n")
+    return new.replace("\n", "\r\n") if crlf else new
+
+
+def _written(old: Sequence[Piece]) -> list[Piece]:
+    return [one for one in old if one.text]
+
+
+def _same_tree(source: Source, new: str, parser: Callable[[Source, Report], object]) -> bool:
+    other = Source(source.path, new)
+    return repr(parser(source, Report())) == repr(parser(other, Report()))  # without spans

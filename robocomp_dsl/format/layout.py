@@ -1,0 +1,185 @@
+"""Where everything goes: statements to lines.
+
+In: the statements of a text and the `Style` of its language. Out: lines. A block that its user
+wrote on one line stays there if it fits; a line break behind a comma is the user's; all others are
+made here, so is every blank.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+
+from robocomp_dsl.format.items import Block, Part, Statement, ends_line
+from robocomp_dsl.format.lines import Line, reindented
+from robocomp_dsl.format.pieces import Piece
+from robocomp_dsl.format.style import INDENT, WIDTH, Style
+
+
+def lay_out(items: Iterable[Statement], style: Style) -> list[Line]:
+    """The lines of a whole text."""
+    lines: list[Line] = []
+    _place(items, 0, style, lines)
+    return lines
+
+
+def _place(items: Iterable[Statement], depth: int, style: Style, lines: list[Line]) -> None:
+    for number, one in enumerate(items):
+        first = one.parts[0]
+        if number and isinstance(first, Piece) and first.breaks > 1:
+            lines.append(Line())
+        _Rows(one, depth, style, lines).place()
+
+
+class _Rows:
+    """Places one statement. A row is what goes on one line unless that gets too long.
+
+    `row` are its parts: between them, and nowhere else, it may be broken, first of all in front of
+    those in `heads`. A statement that is `broken` anyway is broken there as well.
+    """
+
+    def __init__(self, item: Statement, depth: int, style: Style, lines: list[Line]) -> None:
+        self.parts: Sequence[Part] = item.parts
+        self.listed = item.listed
+        self.depth = depth
+        self.style = style
+        self.lines = lines
+        self.indent = INDENT * depth
+        self.further = self.indent if item.listed else self.indent + INDENT
+        self.broken = _broken(item.parts)
+        self.row: list[str] = []
+        self.heads: set[int] = set()
+        self.begun = False  # a row has ended already
+        self.left: Piece | None = None
+        self.tokens = 0
+
+    def place(self) -> None:
+        """All of the statement."""
+        at = 0
+        while at < len(self.parts):
+            part = self.parts[at]
+            if isinstance(part, Block):
+                self._block(part)
+            elif part.comment:
+                at += self._comments(at)
+                continue
+            else:
+                self._token(part)
+            at += 1
+        self._end_row()
+
+    def _token(self, one: Piece) -> None:
+        behind_comma = self.left is not None and self.left.text == ","
+        if behind_comma and one.breaks:
+            self._end_row()
+            self._blank(one)
+        head = one.text in self.style.breaks
+        if head:
+            self.heads.add(len(self.row))
+        self._append(one, may_break=behind_comma or head)
+        self.tokens += 1
+
+    def _append(self, one: Piece, *, may_break: bool = False) -> None:
+        gap = self.style.separator(self.left, one, self.tokens) if self.left else ""
+        if self.row and not (may_break and gap):
+            self.row[-1] += gap + one.text
+        else:
+            self.row.append(one.text)
+        self.left = one
+
+    def _comments(self, at: int) -> int:
+        """Place the comments that stand together from part `at` on; returns how many."""
+        group = _together(self.parts, at)
+        behind = at + len(group)
+        following = self.parts[behind] if behind < len(self.parts) else None
+        if group[0].breaks and at:
+            self._end_row()
+            self._blank(group[0])
+        if not isinstance(following, Block | None) and not ends_line(group[-1], following):
+            for one in group:
+                self._append(one)
+        elif self.row:
+            self._end_row(" ".join(one.text for one in group))
+        else:
+            first = reindented(group[0], self.indent)
+            self.row = [" ".join((first, *(one.text for one in group[1:])))]
+            self._end_row()
+        return len(group)
+
+    def _block(self, block: Block) -> None:
+        flat = None if self.begun else flat_block(block, self.style)
+        whole = " ".join((*self.row, flat or ""))
+        if flat and len(self.indent) + len(whole) < WIDTH:  # and there is room for the `;`
+            self.row = [whole]
+        else:
+            self._end_row()
+            self.indent = INDENT * self.depth
+            note = " ".join(one.text for one in block.opening)
+            self.lines.append(Line(self.indent + "{", note))
+            _place(block.items, self.depth + 1, self.style, self.lines)
+            self.row = [block.close.text]
+        self.left = block.close
+        self.tokens += 1
+
+    def _end_row(self, note: str = "") -> None:
+        if not self.row:
+            return
+        self.broken = self.broken or len(self.indent) + len(" ".join(self.row)) > WIDTH
+        code = self.indent + self.row[0]
+        for number, part in enumerate(self.row[1:], 1):
+            new = self.broken and number in self.heads
+            if new or len(code) + 1 + len(part) > WIDTH:
+                self.lines.append(Line(code))
+                code = self.further + part
+            else:
+                code += " " + part
+        self.lines.append(Line(code, note))
+        self.row = []
+        self.heads.clear()
+        self.begun = True
+        self.indent = self.further
+
+    def _blank(self, one: Piece) -> None:
+        """Between the items of a list an empty line stays, too."""
+        if self.listed and one.breaks > 1:
+            self.lines.append(Line())
+
+
+def _broken(parts: Sequence[Part]) -> bool:
+    """Whether the user broke a line behind a comma."""
+    words = [p for p in parts if isinstance(p, Piece) and not p.comment]
+    return any(a.text == "," and b.breaks for a, b in pairwise(words))
+
+
+def _together(parts: Sequence[Part], at: int) -> list[Piece]:
+    """The comment that is part `at`, and those that follow it on its line."""
+    group: list[Piece] = []
+    for part in parts[at:]:
+        if isinstance(part, Block) or not part.comment or (group and part.breaks):
+            break
+        group.append(part)
+    return group
+
+
+def flat_block(block: Block, style: Style) -> str | None:
+    """The block on one line, or None if its user did not write it so."""
+    if not block.items and not block.opening:
+        return "{}"
+    if not block.flat:
+        return None
+    return f"{{ {' '.join(_flat_statement(one, style) for one in block.items)} }}"
+
+
+def _flat_statement(item: Statement, style: Style) -> str:
+    made = ""
+    left: Piece | None = None
+    tokens = 0
+    for part in item.parts:
+        if isinstance(part, Block):
+            made += f"{' ' if made else ''}{flat_block(part, style)}"
+            left = part.close
+        else:
+            made += (style.separator(left, part, tokens) if left else "") + part.text
+            left = part
+        tokens += not (isinstance(part, Piece) and part.comment)
+    return made
