@@ -15,6 +15,7 @@ from robocomp_dsl.editor import (
     complete_cdsl,
     complete_ddsl,
     complete_idsl,
+    complete_innermodel,
     complete_paths,
     complete_pdsl,
     complete_smdsl,
@@ -25,6 +26,7 @@ from robocomp_dsl.editor.hover import markdown
 from robocomp_dsl.editor.offer import Offer, words
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
+from robocomp_dsl.editor.xml_cursor import XmlCursor, xml_cursor_at
 
 TRIGGERS = ['"', ":", ".", "[", "<", "/"]
 
@@ -66,15 +68,21 @@ _NAMES: dict[str, Callable[[Session, Cursor], Iterator[Offer]]] = {
 def completion(session: Session, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
     """What can be typed at the place."""
     path, offset = place(session, params)
-    if path.suffix[1:].lower() not in _NAMES:
-        return []
-    cursor = cursor_at(path, session.source(params.text_document.uri), offset)
+    source = session.source(params.text_document.uri)
+    cursor: Cursor | XmlCursor | None = None
+    found: Iterator[Offer] = iter(())
+    if path.suffix.lower() == ".xml":
+        if cursor := xml_cursor_at(path, source, offset):
+            found = complete_innermodel.offers(session, cursor)
+    elif path.suffix[1:].lower() in _NAMES and (cursor := cursor_at(path, source, offset)):
+        found = _offers(session, cursor)
     if cursor is None:
         return []
+    place_of_word = range_of(source.span(cursor.start, offset))
     offers: dict[str, Offer] = {}
-    for one in _offers(session, cursor):
+    for one in found:
         offers.setdefault(one.label, one)
-    return [_item(cursor, one, number) for number, one in enumerate(offers.values())]
+    return [_item(place_of_word, one, number) for number, one in enumerate(offers.values())]
 
 
 def _offers(session: Session, cursor: Cursor) -> Iterator[Offer]:
@@ -100,15 +108,20 @@ def _keywords(cursor: Cursor) -> Iterator[Offer]:
         yield Offer(cursor.tables.texts[kind], lsp.CompletionItemKind.Keyword)
 
 
-def _item(cursor: Cursor, offer: Offer, number: int) -> lsp.CompletionItem:
-    place = range_of(cursor.source.span(cursor.start, cursor.offset))
+def _item(place_of_word: lsp.Range, offer: Offer, number: int) -> lsp.CompletionItem:
     also = offer.also.edits if offer.also else ()
     return lsp.CompletionItem(
         offer.label,
         kind=offer.kind,
         detail=offer.detail or None,
-        documentation=markdown(offer.symbol) if offer.symbol else None,
+        documentation=_about(offer),
         sort_text=f"{number:05}",
-        text_edit=lsp.TextEdit(place, offer.label),
+        text_edit=lsp.TextEdit(place_of_word, offer.label),
         additional_text_edits=[lsp.TextEdit(range_of(one.span), one.text) for one in also] or None,
     )
+
+
+def _about(offer: Offer) -> lsp.MarkupContent | None:
+    if offer.symbol:
+        return markdown(offer.symbol)
+    return lsp.MarkupContent(lsp.MarkupKind.Markdown, offer.about) if offer.about else None

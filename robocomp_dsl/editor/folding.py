@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from lsprotocol import types as lsp
 
+from robocomp_dsl.editor.names_innermodel import elements
 from robocomp_dsl.editor.positions import position_at
 from robocomp_dsl.editor.session import Session
 from robocomp_dsl.source import Source, Span
@@ -48,11 +49,7 @@ def _parts(source: Source) -> Iterator[tuple[Span, lsp.FoldingRangeKind | None]]
 
 
 def _elements(root: Element) -> Iterator[Span]:
-    todo = [root]
-    while todo:
-        one = todo.pop()
-        yield one.span
-        todo.extend(one.children)
+    return (one.span for one in elements(root))
 
 
 def _range(span: Span, kind: lsp.FoldingRangeKind | None) -> lsp.FoldingRange | None:

@@ -4,20 +4,27 @@ from __future__ import annotations
 
 from lsprotocol import types as lsp
 
-from robocomp_dsl.editor.asked import mentions_at
+from robocomp_dsl.editor.asked import mentions_at, place
+from robocomp_dsl.editor.hover_innermodel import words_at
 from robocomp_dsl.editor.index import Symbol
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
 from robocomp_dsl.editor.shapes import doc_of, shape
+from robocomp_dsl.syntax.ast_innermodel import File as XmlFile
 
 
 def hover(session: Session, params: lsp.HoverParams) -> lsp.Hover | None:
     """What is at the place; None where there is no name, or one that is not understood."""
     found = mentions_at(session, params)
-    if not found:
+    if found:
+        one = found[0]
+        return lsp.Hover(markdown(one.nearer or one.symbol), range_of(one.span))
+    path, offset = place(session, params)
+    tree = session.parsed(path).tree
+    said = words_at(tree, offset) if isinstance(tree, XmlFile) else None
+    if said is None:
         return None
-    one = found[0]
-    return lsp.Hover(markdown(one.nearer or one.symbol), range_of(one.span))
+    return lsp.Hover(lsp.MarkupContent(lsp.MarkupKind.Markdown, said[1]), range_of(said[0]))
 
 
 def markdown(symbol: Symbol) -> lsp.MarkupContent:

@@ -75,6 +75,7 @@ def readers() -> Mapping[str, Reader]:
         names_cdsl,
         names_ddsl,
         names_idsl,
+        names_innermodel,
         names_pdsl,
         names_smdsl,
     )
@@ -85,6 +86,7 @@ def readers() -> Mapping[str, Reader]:
         ".pdsl": names_pdsl.read,
         ".ddsl": names_ddsl.read,
         ".smdsl": names_smdsl.read,
+        ".xml": names_innermodel.read,
     }
 
 

@@ -11,6 +11,10 @@ from pathlib import Path
 from lsprotocol import types as lsp
 
 from robocomp_dsl.check.imports import locate
+from robocomp_dsl.check.search import base_name
+from robocomp_dsl.editor.complete_innermodel import FILES
+from robocomp_dsl.editor.innermodel_words import attributes_of
+from robocomp_dsl.editor.names_innermodel import elements, inside_quotes
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
 from robocomp_dsl.source import Span
@@ -35,11 +39,29 @@ def links_of(session: Session, path: Path) -> Iterator[tuple[Span, Path]]:
         for one in tree.imports:
             found = locate(one, path, session.workspace.search)
             if found:
-                yield _between_quotes(one.path), found
+                yield inside_quotes(one.path), found
     for written in _beside(tree):
         target = path.parent / written.value
         if session.files.exists(target):
-            yield _between_quotes(written), target
+            yield inside_quotes(written), target
+    if isinstance(tree, ast_innermodel.File):
+        yield from _in_body(session, tree, path)
+
+
+def _in_body(
+    session: Session, tree: ast_innermodel.File, path: Path
+) -> Iterator[tuple[Span, Path]]:
+    """Included files, meshes and images: as written, or by their last part beside the file."""
+    for element in elements(tree.root):
+        for name in FILES:
+            said = element.get(name) if name in attributes_of(element.tag.text) else None
+            if said is None:
+                continue
+            written = said.value.value
+            for target in (path.parent / written, path.parent / base_name(written)):
+                if written and session.files.exists(target):
+                    yield inside_quotes(said.value), target
+                    break
 
 
 def _beside(tree: object) -> Iterator[Text]:
@@ -53,19 +75,3 @@ def _beside(tree: object) -> Iterator[Text]:
         case ast_ddsl.File(deployment=ast_ddsl.Deployment() as deployment):
             yield from (one.path for one in tree.imports)
             yield from (one.config for one in deployment.instances if one.config)
-        case ast_innermodel.File(root=ast_innermodel.Element() as root):
-            yield from _included(root)
-
-
-def _included(element: ast_innermodel.Element) -> Iterator[Text]:
-    path = element.get("path") if element.tag.text.lower() == "include" else None
-    if path:
-        yield path.value
-    for one in element.children:
-        yield from _included(one)
-
-
-def _between_quotes(written: Text) -> Span:
-    span = written.span
-    quoted = len(span.text) >= 2 and span.text[0] in "\"'"
-    return span.source.span(span.start + 1, span.end - 1) if quoted else span

@@ -12,13 +12,17 @@ from robocomp_dsl.editor.index import Symbol
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """`also` is an edit that goes with it, such as the import of what is offered."""
+    """`about` are words of Markdown on it where it is no `symbol`.
+
+    `also` is an edit that goes with it, such as the import of what is offered.
+    """
 
     label: str
     kind: lsp.CompletionItemKind
     detail: str = ""
     symbol: Symbol | None = None
     also: Fix | None = None
+    about: str = ""
 
 
 def words(*labels: str) -> list[Offer]:

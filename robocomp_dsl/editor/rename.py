@@ -7,12 +7,16 @@ that came with the tool, or where the new name would be another one's.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from pathlib import Path
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 
 from robocomp_dsl.check.files import identity
+from robocomp_dsl.check.resolve_innermodel import ROOT_ID
 from robocomp_dsl.editor.asked import everywhere, mentions_at
+from robocomp_dsl.editor.bodies import related_files
 from robocomp_dsl.editor.index import Mention, Symbol
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
@@ -20,6 +24,7 @@ from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.syntax.tables import load
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_ID = re.compile(r"""[^\s"'<>&\x00-\x1f](?:[^"'<>&\x00-\x1f]*[^\s"'<>&\x00-\x1f])?""")
 
 
 def prepare(
@@ -40,7 +45,10 @@ def rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | No
         return None
     symbol, name = one.symbol, params.new_name
     _refuse_shipped(symbol)
-    _refuse_name(name, symbol)
+    if symbol.kind == "node":
+        _refuse_id(name)
+    else:
+        _refuse_name(name, symbol)
     mentions = list(everywhere(session, symbol.key))
     _refuse_taken(session, symbol, name)
     changes: dict[str, dict[int, lsp.TextEdit]] = {}
@@ -75,10 +83,23 @@ def _refuse_name(name: str, symbol: Symbol) -> None:
         raise JsonRpcInvalidParams(f"`{name}` is a keyword here")
 
 
+def _refuse_id(name: str) -> None:
+    if name == ROOT_ID:
+        raise JsonRpcInvalidParams(f"`{name}` is the frame that all nodes stand in")
+    if not _ID.fullmatch(name):
+        raise JsonRpcInvalidParams(
+            f"`{name}` is no id: no quotes, `<`, `&` or control characters, no blanks around it"
+        )
+
+
 def _refuse_taken(session: Session, symbol: Symbol, name: str) -> None:
-    """Refuse the name of a neighbour: of what is declared in the same block of the same file."""
-    index = session.index(symbol.span.source.path)
-    for one in index.declared():
+    """Refuse the name of a neighbour: of what is declared in the same block of the same file.
+
+    Ids are unique in a body with all that it includes.
+    """
+    path = symbol.span.source.path
+    declared = _ids(session, path) if symbol.kind == "node" else session.index(path).declared()
+    for one in declared:
         if one.name == name and _scope(one) == _scope(symbol) and one.key != symbol.key:
             where = f"{identity(one.span.source.path)}:{one.span.begin[0]}"
             raise JsonRpcInvalidParams(f"`{name}` is the name of another {one.kind}, at {where}")
@@ -87,4 +108,13 @@ def _refuse_taken(session: Session, symbol: Symbol, name: str) -> None:
 def _scope(symbol: Symbol) -> tuple[str, str]:
     """Where no two names may be alike; ports and events are apart from what is around them."""
     apart = symbol.kind in ("port", "event")
+    if symbol.kind == "node":
+        return "", "node"
     return symbol.container, symbol.kind if apart else ""
+
+
+def _ids(session: Session, path: Path) -> Iterator[Symbol]:
+    for file in related_files(session, path):
+        for one in session.index_or_nothing(file):
+            if one.declares:
+                yield one.symbol

@@ -33,6 +33,7 @@ TYPES = {
     "statemachine": "class",
     "state": "enumMember",
     "event": "event",
+    "node": "variable",
 }
 """Kinds of symbols to the names that editors have colours for."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from robocomp_dsl.editor import shapes_smdsl
+from robocomp_dsl.editor import shapes_innermodel, shapes_smdsl
 from robocomp_dsl.editor.shapes_block import block
 from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Component, Port
@@ -198,4 +198,5 @@ _SHAPES: dict[type, Callable[[Any], str]] = {
     Host: _host,
     Deployment: _deployment,
     **shapes_smdsl.SHAPES,
+    **shapes_innermodel.SHAPES,
 }

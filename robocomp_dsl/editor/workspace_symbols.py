@@ -24,6 +24,7 @@ KINDS = {
     "host": lsp.SymbolKind.Object,
     "group": lsp.SymbolKind.Namespace,
     "statemachine": lsp.SymbolKind.Class,
+    "node": lsp.SymbolKind.Object,
     "state": lsp.SymbolKind.EnumMember,
 }
 """Those worth finding from afar; fields and the like are found in the outline of their file."""
