@@ -1,0 +1,8 @@
+-- Names the types of RoboComp's files. (`vim.filetype.add` would do, but not in Neovim 0.7.)
+
+vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
+  pattern = { '*.idsl', '*.cdsl', '*.pdsl', '*.ddsl', '*.smdsl' },
+  callback = function(event)
+    vim.bo[event.buf].filetype = vim.fn.fnamemodify(event.match, ':e')
+  end,
+})

@@ -1,0 +1,88 @@
+"""A real Neovim with the configuration that we ship: the one of Debian, and a recent one."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lsprotocol import types as lsp
+from real_editor import EDITORS, Project, missing, run
+from samples import FILES, MISTAKES, Mistake
+
+from robocomp_dsl.editor.server import FEATURES
+
+pytestmark = pytest.mark.editors
+
+DRIVE = Path(__file__).with_name("drive.lua")
+NEWER = (0, 11)
+"""The first version with `vim.lsp.config`."""
+
+
+def neovims() -> dict[tuple[int, int], str]:
+    """The programs called `nvim` on the PATH and beside this Python, by version."""
+    folders = [str(Path(sys.executable).parent), *os.get_exec_path()]
+    found: dict[tuple[int, int], str] = {}
+    for folder in folders:
+        program = Path(folder) / "nvim"
+        if not os.access(program, os.X_OK):
+            continue
+        told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+        version = re.match(r"NVIM v(\d+)\.(\d+)", told.stdout)
+        if version:
+            found.setdefault((int(version[1]), int(version[2])), str(program))
+    return found
+
+
+@pytest.fixture(scope="module", params=["before 0.11", "0.11 or later"])
+def seen(request: pytest.FixtureRequest, project: Project, home: Path) -> dict[str, Any]:
+    """What a user of this Neovim sees in the project."""
+    new = request.param == "0.11 or later"
+    fitting = [one for version, one in neovims().items() if (version >= NEWER) == new]
+    nvim = fitting[0] if fitting else missing(f"Neovim {request.param}")
+    result = project.folder / f"result-{new}.json"
+    config = f"set runtimepath^={EDITORS / 'neovim'} noswapfile"
+    command = [nvim, "--headless", "-n", "-i", "NONE", "-u", "NORC", "--cmd", config]
+    out = run([*command, "-S", DRIVE], project.folder, home, {"RESULT": str(result)})
+    assert result.exists(), out
+    made: dict[str, Any] = json.loads(result.read_text())
+    assert "failure" not in made, f"{made['failure']}\n{out}"
+    assert (tuple(made["version"]) >= NEWER) == new
+    return made
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda one: one.file)
+def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
+    ((line, column, message),) = seen["findings"][mistake.file]
+    assert (line, column) == (mistake.line, mistake.column)
+    assert mistake.message in message
+
+
+def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:
+    assert "interface Scans::Laser" in seen["hover"]
+    assert "A planar laser." in seen["hover"]
+
+
+def test_completion_offers_interfaces(seen: dict[str, Any]) -> None:
+    assert "Laser" in seen["completion"]
+
+
+def test_definition_jumps_to_the_interface(seen: dict[str, Any]) -> None:
+    assert seen["definition"] == ["Laser.idsl", 6, 14]
+
+
+def test_rename_goes_through_all_open_files(seen: dict[str, Any]) -> None:
+    assert "    interface Lidar" in seen["renamed"]["Laser.idsl"]
+    assert "    Communications { requires Lidar; };" in seen["renamed"]["reader.cdsl"]
+
+
+@pytest.mark.skipif(
+    lsp.TEXT_DOCUMENT_FORMATTING not in FEATURES, reason="the server does not format"
+)
+def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
+    assert "\n".join(seen["formatted"]) + "\n" == FILES["reader.cdsl"]
