@@ -1,8 +1,9 @@
 """Templates filled in. In: a template's name and its context. Out: the text of a file.
 
-A name that the context lacks is a mistake of ours and raises; nothing is escaped here, because the
-context holds finished source texts (see `literals.py`). Compiled templates are kept in the user's
-cache folder, as compiled modules are by Python, because compiling takes longer than all the rest.
+A name that the context lacks is a mistake of ours and raises. HTML and SVG are escaped; in other
+texts nothing is, because the context holds finished source texts (see `literals.py`). Compiled
+templates are kept in the user's cache folder, as compiled modules are by Python, because compiling
+takes longer than all the rest.
 """
 
 from __future__ import annotations
@@ -14,10 +15,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined
+from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined, select_autoescape
 from jinja2.bccache import Bucket
 
 from robocomp_dsl.resources import TEMPLATES
+
+MARKED_UP = ("html.jinja", "svg.jinja")
+"""Templates whose context is escaped."""
 
 
 def cache_folder() -> Path:
@@ -57,7 +61,8 @@ class _Kept(BytecodeCache):
 
 @cache
 def _environment() -> Environment:
-    return Environment(  # noqa: S701 - it writes Python and YAML, not HTML
+    return Environment(
+        autoescape=select_autoescape(MARKED_UP, default_for_string=False),
         loader=FileSystemLoader(TEMPLATES),
         bytecode_cache=_Kept(),
         undefined=StrictUndefined,

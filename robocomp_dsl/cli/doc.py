@@ -1,0 +1,106 @@
+"""`rcgen doc`: writes documentation.
+
+In: files and folders of descriptions. Out: pages; findings on standard error.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.check import described
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.diagnostics import Report
+
+if TYPE_CHECKING:
+    from robocomp_dsl.generate.output import OutputFile
+
+FORMATS = {"html": ("html",), "markdown": ("markdown",), "both": ("html", "markdown")}
+
+
+@click.command()
+@click.argument(
+    "files",
+    nargs=-1,
+    required=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="FILE…",
+)
+@click.option(
+    "-o",
+    "output",
+    type=click.Path(readable=False, path_type=Path),
+    default=Path("build/doc"),
+    show_default=True,
+    metavar="DIR",
+    help="Where to.",
+)
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(tuple(FORMATS)),
+    default="html",
+    show_default=True,
+    help="What to write.",
+)
+@click.option("--title", metavar="WORDS", help="Title of the first page.")
+@click.option("-q", "quiet", is_flag=True, help="Say nothing but findings.")
+@options.folders
+def command(
+    files: tuple[Path, ...],
+    output: Path,
+    form: str,
+    title: str | None,
+    quiet: bool,
+    folders: tuple[Path, ...],
+) -> None:
+    """Write linked documentation of interfaces, components and deployments.
+
+    What the files import is in it. All pages are written, or none if a file has errors; a file that
+    `rcgen doc` has not written itself is never touched.
+    """
+    from robocomp_dsl.cli.doc_subject import read_subject  # noqa: PLC0415 - help needs no checks
+    from robocomp_dsl.generate.doc import documentation  # noqa: PLC0415
+    from robocomp_dsl.generate.write import CannotWrite  # noqa: PLC0415
+
+    report = Report()
+    paths = list(dict.fromkeys(p for given in files for p in described(given)))
+    subject = read_subject(paths, title or _title(files), Workspace(folders), report)
+    options.show(report.sorted(), "full", sys.stderr)
+    if report.failed:
+        sys.exit(FINDINGS)
+    try:
+        said = _write(output, documentation(subject, FORMATS[form]))
+    except CannotWrite as error:
+        options.complain(str(error))
+        sys.exit(FINDINGS)
+    if not quiet:
+        print(said)
+
+
+def _title(files: Sequence[Path]) -> str:
+    """The name of the only file or folder, or of the one around them."""
+    if len(files) == 1:
+        return files[0].stem or files[0].resolve().name or "Robot"
+    return Path.cwd().name or "Robot"
+
+
+def _write(output: Path, files: Sequence[OutputFile]) -> str:
+    """Write the pages; what to say then. Raises `CannotWrite`."""
+    from robocomp_dsl.generate.doc import MARK  # noqa: PLC0415
+    from robocomp_dsl.generate.write import CannotWrite, compare, write  # noqa: PLC0415
+
+    for one in compare(output, files):
+        if one.old is not None and MARK.encode() not in one.old:
+            where = f"`{output / one.file.path}` is not a page of an earlier run"
+            raise CannotWrite(f"{where}; move it, or choose another folder with -o")
+    changes = write(output, files)
+    written = sum(one.pending for one in changes)
+    first = next(one.path for one in files if one.path.startswith("index."))
+    return f"{output / first}: {written} of {len(changes)} files written"

@@ -1,0 +1,141 @@
+"""The pages of interfaces and of their modules. In: model and site. Out: pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_dsl.generate.doc.site import Names, Site, type_anchor
+from robocomp_dsl.generate.doc.types_shown import type_blocks, types_behind
+from robocomp_dsl.generate.doc.words import (
+    Badge,
+    Block,
+    Code,
+    Facts,
+    Heading,
+    Page,
+    Row,
+    Signature,
+    Words,
+    code,
+    joined,
+    prose,
+    sentence,
+    table,
+    text,
+)
+from robocomp_dsl.model.component import Role
+from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
+
+LONGEST_SIGNATURE = 84
+"""Characters of an operation on one line."""
+
+ROLES = {
+    Role.IMPLEMENTS: "implements it",
+    Role.REQUIRES: "requires it",
+    Role.PUBLISHES: "publishes it",
+    Role.SUBSCRIBES: "subscribes to it",
+}
+
+
+def interface_page(interface: Interface, module: Module, site: Site) -> Page:
+    """Operations, the types that they speak of, and the components that speak them."""
+    path = site.target(interface).page
+    return Page(path, interface.name, "Interface", tuple(_interface(interface, module, site)))
+
+
+def module_page(module: Module, site: Site) -> Page:
+    """Interfaces, types and exceptions of one module."""
+    return Page(site.page(module), module.name, "Module", tuple(_module(module, site)))
+
+
+def _interface(interface: Interface, module: Module, site: Site) -> Iterator[Block]:
+    used = types_behind(interface)
+    names = Names()
+    anchors = {id(one): names.claim(type_anchor(one)) for one in used}
+    here = site.showing(anchors)
+    yield Facts((("Module", site.link(module)), ("File", code(module.path.name))))
+    yield from prose(interface.doc or module.doc)
+    if interface.operations:
+        yield Heading(2, text("Operations"), "operations")
+    for operation in interface.operations:
+        yield from _operation(operation, names.claim(f"operation.{operation.name}"), here)
+    if used:
+        yield Heading(2, text("Types"), "types")
+    for one in used:
+        yield from type_blocks(one, anchors[id(one)], here)
+    yield Heading(2, text("Who uses it"), "users")
+    yield from _users(interface, site)
+
+
+def _users(interface: Interface, site: Site) -> Iterator[Block]:
+    rows = [
+        Row((site.link(one), text(ROLES[port.role]), code(port.name), sentence(one.doc)))
+        for one, port in site.users(interface)
+    ]
+    head = ("component", "how", "port", "what it is")
+    yield from table(f"Components that use {interface.name}", head, rows)
+    if not rows:
+        yield from prose("No component that is documented here.")
+
+
+def _operation(one: Operation, anchor: str, site: Site) -> Iterator[Block]:
+    yield Heading(3, (Code(one.name), *patterns(one), *_idempotent(one)), anchor)
+    yield Signature(tuple(_signature(one, site)))
+    yield from prose(one.doc)
+    units = [(p, way) for ps, way in ((one.inputs, "in"), (one.outputs, "out")) for p in ps]
+    rows = [
+        Row((code(p.name), text(way), site.type(p.type), code(p.unit)))
+        for p, way in units
+        if p.unit
+    ]
+    yield from table(f"Units of {one.name}", ("parameter", "", "type", "unit"), rows)
+
+
+def _signature(one: Operation, site: Site) -> Iterator[Words]:
+    """On one line where it is short, else with a line for each parameter."""
+    result = site.type(one.result) if one.result else code("void")
+    params = [(*site.type(p.type), Code(f" {p.name}")) for p in one.inputs]
+    params += [(Code("out "), *site.type(p.type), Code(f" {p.name}")) for p in one.outputs]
+    throws = joined(map(site.declared, one.throws), Code(", "))
+    tail = (Code(" throws "), *throws, Code(";")) if throws else (Code(";"),)
+    head = (*result, Code(f" {one.name}("))
+    whole = (*head, *joined(params, Code(", ")), Code(")"), *tail)
+    if sum(len(part.text) for part in whole) <= LONGEST_SIGNATURE:
+        yield whole
+        return
+    yield head
+    for i, words in enumerate(params, 1):
+        yield (Code("    "), *words, *((Code(","),) if i < len(params) else ()))
+    yield (Code(")"), *tail)
+
+
+def _idempotent(one: Operation) -> Words:
+    return (Badge("idempotent", "plain"),) if one.idempotent else ()
+
+
+def patterns(one: Operation) -> Words:
+    """Its pattern, or both that an unmarked operation may have."""
+    if one.pattern is Pattern.UNMARKED:
+        return (badge(one.as_service()), badge(one.as_topic()))
+    return (badge(one.pattern),)
+
+
+def badge(pattern: Pattern) -> Badge:
+    """The mark of a pattern."""
+    return Badge(pattern.value, pattern.value)
+
+
+def _module(module: Module, site: Site) -> Iterator[Block]:
+    imports = joined(map(site.link, module.imports))
+    yield Facts((("File", code(module.path.name)), *((("Imports", imports),) if imports else ())))
+    yield from prose(module.doc)
+    rows = [Row((site.declared(one), sentence(one.doc))) for one in module.interfaces]
+    if rows:
+        yield Heading(2, text("Interfaces"), "interfaces")
+        yield from table(f"Interfaces of {module.name}", ("interface", "what it is"), rows)
+    types = [one for one in module.declarations if not isinstance(one, Interface)]
+    if types:
+        yield Heading(2, text("Types"), "types")
+    here = site.showing({id(one): type_anchor(one) for one in types})
+    for one in types:
+        yield from type_blocks(one, type_anchor(one), here)

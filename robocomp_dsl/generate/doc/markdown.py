@@ -1,0 +1,84 @@
+"""Pages as Markdown (GitHub's). In: pages as data. Out: texts.
+
+Every sign that Markdown or HTML knows is written so that it stands for itself.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from robocomp_dsl.generate.doc.html import address
+from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Words
+from robocomp_dsl.generate.templates import render
+
+_SIGNS = re.compile(r"([\\`*_\[\]{}<>#|~&!$^=:@])")
+_BEGINS = re.compile(r"^(\s*)(?:([-+])|(\d+)([.)]))")
+"""What would begin a list at the beginning of a line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Markdown:
+    """Writes the parts of one page."""
+
+    page: str
+
+    def address(self, target: Target) -> str:
+        """Where a link leads to, seen from this page."""
+        return address(self.page, target, ".md")
+
+    def words(self, words: Words) -> str:
+        """A line of words."""
+        return "".join(map(self._word, words))
+
+    def cell(self, words: Words) -> str:
+        """Words for a cell of a table."""
+        return self.words(words)
+
+    def line(self, words: Words) -> str:
+        """Words at the beginning of a line."""
+        return begin(self.words(words))
+
+    def signature(self, lines: tuple[Words, ...]) -> str:
+        """Lines of code with links in them, which a fenced block cannot have."""
+        return "\\\n".join(self.words(words) for words in lines)
+
+    def _word(self, one: object) -> str:
+        match one:
+            case Badge(text, _):
+                return f" *{plain(text)}*"
+            case Code(text, None):
+                return code(text)
+            case Code(text, Target() as target):
+                return f"[{code(text)}]({self.address(target)})"
+        return plain(getattr(one, "text", ""))
+
+
+def plain(text: str) -> str:
+    """Words that stand for themselves."""
+    return _SIGNS.sub(r"\\\1", text)
+
+
+def begin(text: str) -> str:
+    """A line that does not begin a list or a heading."""
+    return _BEGINS.sub(lambda m: f"{m[1]}\\{m[2]}" if m[2] else f"{m[1]}{m[3]}\\{m[4]}", text)
+
+
+def code(text: str) -> str:
+    """Code as an element of HTML: ticks cannot hold `|`, blanks at the ends, or nothing."""
+    signs = {"&": "&amp;", "<": "&lt;", ">": "&gt;", " ": "&nbsp;" if not text.strip() else " "}
+    inner = "".join(signs.get(c) or (f"&#{ord(c)};" if _SIGNS.match(c) else c) for c in text)
+    return f"<code>{inner}</code>"
+
+
+def markdown_page(page: Page, title: str) -> str:
+    """The whole text of a page; `title` is that of the first one."""
+    made = Markdown(page.path)
+    return render(
+        "doc/page.md.jinja",
+        page=page,
+        md=made,
+        plain=plain,
+        title=title,
+        index=made.address(Target("index")),
+    )

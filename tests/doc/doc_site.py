@@ -1,0 +1,128 @@
+"""Documentation made in the tests, and a strict reader of its pages."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from html.parser import HTMLParser
+from pathlib import Path, PurePosixPath
+from posixpath import normpath
+from urllib.parse import unquote
+
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli import render
+from robocomp_dsl.cli.doc_subject import read_subject
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.doc import Subject, documentation
+
+ROOT = Path(__file__).parents[2]
+DEMO = ROOT / "components" / "wander" / "wander.ddsl"
+VOID = {"meta", "link", "br", "hr", "img", "input"}
+
+
+def subject(*paths: Path, title: str = "Robot") -> Subject:
+    """What is in files without errors."""
+    report = Report()
+    found = read_subject(paths, title, Workspace(environ={}), report)
+    assert not report.failed, render.full(report)
+    return found
+
+
+def pages(*paths: Path, title: str = "Robot") -> dict[str, str]:
+    """The text of each file that documents them, by its path."""
+    return {one.path: one.text for one in documentation(subject(*paths, title=title))}
+
+
+@dataclass
+class Seen:
+    """What a page says: its words, places, links, and the mistakes in it."""
+
+    words: list[str] = field(default_factory=list)
+    ids: list[str] = field(default_factory=list)
+    links: list[str] = field(default_factory=list)
+    tags: list[str] = field(default_factory=list)
+    mistakes: list[str] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        """All words, blanks as they come."""
+        return " ".join("".join(self.words).split())
+
+
+class _Reader(HTMLParser):
+    """Reads HTML and the SVG in it, and tolerates nothing."""
+
+    def __init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.seen = Seen()
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        if len(given) != len(attrs):
+            self.seen.mistakes.append(f"<{tag}> has an attribute twice")
+        self.seen.tags.append(tag)
+        self.seen.ids += [v for k, v in attrs if k == "id" and v]
+        self.seen.links += [v for k, v in attrs if k in ("href", "src") and v]
+        self.seen.mistakes += [f"<{tag} {k}>" for k, _ in attrs if k.startswith("on")]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.seen.mistakes.append(f"<{tag}/>")
+
+    def handle_endtag(self, tag: str) -> None:
+        if not self.open or self.open.pop() != tag:
+            self.seen.mistakes.append(f"</{tag}> at {self.getpos()}")
+        if tag in ("td", "th", "dt"):
+            self.seen.words.append(" ")
+
+    def handle_data(self, data: str) -> None:
+        self.seen.words.append(data)
+
+
+def read(html: str) -> Seen:
+    """A page, read; that it is whole and that no place is there twice is checked."""
+    reader = _Reader()
+    reader.feed(html)
+    reader.close()
+    assert reader.open == [], reader.open
+    assert reader.seen.mistakes == []
+    ids = reader.seen.ids
+    assert len(ids) == len(set(ids)), sorted(one for one in ids if ids.count(one) > 1)
+    return reader.seen
+
+
+MARKDOWN_LINK = re.compile(r"(?<!\\)\]\(([^()\s]+)\)")
+MARKDOWN_PLACE = re.compile(r'<a id="([^"]+)"></a>')
+
+
+def check_links(files: dict[str, str]) -> int:
+    """Every link leads to a place that is there; how many there are."""
+    places, links = {}, []
+    for path, text in files.items():
+        if path.endswith(".html"):
+            seen = read(text)
+            places[path] = set(seen.ids)
+            links += [(path, link) for link in seen.links]
+        elif path.endswith(".md"):
+            places[path] = set(MARKDOWN_PLACE.findall(text))
+            links += [(path, link) for link in MARKDOWN_LINK.findall(text)]
+        else:
+            places[path] = set()
+    lost = [(path, link) for path, link in links if not _leads(path, link, places)]
+    assert lost == []
+    return len(links)
+
+
+def _leads(path: str, link: str, places: dict[str, set[str]]) -> bool:
+    way, _, anchor = unquote(link).partition("#")
+    folder = str(PurePosixPath(path).parent)
+    target = normpath(f"{folder}/{way}") if way else path
+    return target in places and (not anchor or anchor in places[target])
+
+
+def headings(seen: Iterable[str]) -> list[int]:
+    """The levels of the headings of a page, in order."""
+    return [int(tag[1]) for tag in seen if re.fullmatch("h[1-6]", tag)]

@@ -1,0 +1,92 @@
+"""Every page is valid, every link leads somewhere, and what was described is told."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+from doc_site import DEMO, ROOT, check_links, headings, pages, read
+
+INTERFACES = sorted((ROOT / "interfaces").glob("*.idsl"))
+
+
+@pytest.fixture(scope="module")
+def demo() -> dict[str, str]:
+    """The pages of the demo."""
+    return pages(DEMO)
+
+
+@pytest.fixture(scope="module")
+def library() -> dict[str, str]:
+    """The pages of all shipped interfaces."""
+    return pages(*INTERFACES)
+
+
+def test_all_links_lead_somewhere(demo: dict[str, str], library: dict[str, str]) -> None:
+    assert check_links(demo) > 300
+    assert check_links(library) > 3000
+
+
+def test_pages_of_the_demo(demo: dict[str, str]) -> None:
+    names = {path for path in demo if path.endswith(".html")}
+    assert names == {
+        "index.html",
+        "components/mobile_base.html",
+        "components/path_logger.html",
+        "components/wander.html",
+        "deployments/wander.html",
+        "interfaces/RoboCompDifferentialRobot.DifferentialRobot.html",
+        "interfaces/RoboCompDifferentialRobotPub.DifferentialRobotPub.html",
+        "interfaces/RoboCompGenericBase.GenericBase.html",
+        "interfaces/RoboCompLaser.Laser.html",
+        "interfaces/RoboCompPathLog.PathLog.html",
+        "modules/RoboCompDifferentialRobot.html",
+        "modules/RoboCompDifferentialRobotPub.html",
+        "modules/RoboCompGenericBase.html",
+        "modules/RoboCompLaser.html",
+        "modules/RoboCompPathLog.html",
+    }
+    assert {path.removesuffix(".html") + ".md" for path in names} <= set(demo)
+
+
+TOLD = [
+    ("interfaces/RoboCompLaser.Laser", "TLaserData getLaserAndBStateData(out TBaseState bState);"),
+    ("interfaces/RoboCompLaser.Laser", "The latest scan, and the state of the base"),
+    ("interfaces/RoboCompLaser.Laser", "angle float rad"),
+    ("interfaces/RoboCompLaser.Laser", "mobile_base implements it"),
+    ("interfaces/RoboCompLaser.Laser", "wander requires it"),
+    ("components/wander", "threshold float 620 1 … 10000 mm live Something nearer"),
+    ("components/wander", "side one of freer, random freer live"),
+    ("components/mobile_base", "laser.degrees float 240 1 … 360 deg Width of the scan"),
+    ("components/mobile_base", "Computes every 10 ms"),
+    ("components/path_logger", "Computes only on events"),
+    ("deployments/wander", "wander.Laser mobile_base.Laser Laser query"),
+    ("deployments/wander", 'file = "../../build/wander/path.csv"'),
+    ("deployments/wander", "ready within 30 s"),
+]
+
+
+@pytest.mark.parametrize(("page", "said"), TOLD)
+def test_what_is_told(demo: dict[str, str], page: str, said: str) -> None:
+    assert said in read(demo[f"{page}.html"]).text
+
+
+def test_headings_go_down_in_steps_of_one(demo: dict[str, str]) -> None:
+    for path, text in demo.items():
+        if path.endswith(".html"):
+            main = read(text[text.index("<main") : text.index("</main>") + len("</main>")])
+            levels = headings(main.tags)
+            assert levels[0] == 1
+            assert levels.count(1) == 1
+            assert all(b <= a + 1 for a, b in pairwise(levels)), path
+
+
+def test_nothing_comes_from_elsewhere(demo: dict[str, str]) -> None:
+    for path, text in demo.items():
+        assert "://" not in text.replace("http://www.w3.org/2000/svg", ""), path
+        assert "<script" not in text
+        assert "@import" not in text
+
+
+def test_same_bytes_twice(demo: dict[str, str]) -> None:
+    assert pages(DEMO) == demo
