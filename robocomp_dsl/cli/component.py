@@ -14,12 +14,11 @@ from robocomp_dsl.check import check_cdsl
 from robocomp_dsl.check.workspace import MIDDLEWARES, Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import FINDINGS
-from robocomp_dsl.diagnostics import Diagnostic, Report, did_you_mean
+from robocomp_dsl.diagnostics import Report, did_you_mean
 from robocomp_dsl.generate import LANGUAGES, codes, plan
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.write import Action, CannotWrite, Change, compare, write
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.source import Source, UnreadableSource
 
 
 class Known(click.ParamType[str]):
@@ -88,7 +87,7 @@ def command(
     files = plan(component, **chosen) if component else []
     folder = output or file.parent
     if component:
-        report.extend(_user_code(folder, component))
+        files = _upkeep(folder, component, files, report)
     options.show(report.sorted(), form, sys.stderr)
     if component is None:
         sys.exit(FINDINGS)
@@ -127,20 +126,13 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
     return None
 
 
-def _user_code(folder: Path, component: Component) -> list[Diagnostic]:
-    """What the user's class lacks, where there is one already."""
-    path = folder / "specificworker.py"
-    try:
-        if not path.is_file():
-            return []
-    except OSError:  # a folder that cannot be entered: the writer says why
-        return []
-    from robocomp_dsl.generate.user_code import judge_user_code, unreadable  # noqa: PLC0415
+def _upkeep(
+    folder: Path, component: Component, files: list[OutputFile], report: Report
+) -> list[OutputFile]:
+    """The files as they are to be written over what the user made of them."""
+    from robocomp_dsl.generate.upkeep import keep_up  # noqa: PLC0415 - only with a component
 
-    try:
-        return judge_user_code(Source.read(path), component)
-    except UnreadableSource as error:
-        return unreadable(path, error)
+    return keep_up(folder, component, files, report)
 
 
 def _act(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> int:
@@ -151,13 +143,14 @@ def _act(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> int:
             print(_told(folder, changes))
         return 0
     changes = compare(folder, files)
-    pending = [one for one in changes if one.pending]
+    pending = [one for one in changes if one.pending and not one.file.own]
     if mode == "diff":
         sys.stdout.write("".join(_diff(folder, one) for one in pending))
         return 0
     if mode == "dry_run":
         for one in changes:
-            print(f"{one.action:<10} {folder / one.file.path}")
+            if not one.file.own:
+                print(f"{one.action:<10} {folder / one.file.path}")
         return 0
     for one in pending:
         state = "is missing" if one.old is None else "is not what would be generated"
@@ -167,6 +160,7 @@ def _act(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> int:
 
 def _told(folder: Path, changes: list[Change]) -> str:
     """One line: how many files were written, and which of the user's are new."""
+    changes = [one for one in changes if not one.file.own]
     written = sum(one.pending for one in changes)
     if not written:
         return f"{folder}: nothing to do, all {len(changes)} files are up to date"

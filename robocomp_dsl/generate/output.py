@@ -4,19 +4,30 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+RECORD = ".rcgen/"
+"""The folder in which rcgen remembers what it generated."""
+
 
 @dataclass(frozen=True, slots=True)
 class OutputFile:
     """One file. `path` is relative to the output folder, with `/`.
 
-    A file with `keep` is written once and then belongs to the user.
+    A file with `keep` is written once and then belongs to the user. One that was made from a file
+    of the user has the bytes of that in `seen`: it is only written over those.
     """
 
     path: str
     text: str
     keep: bool = False
+    encoding: str = "utf-8"
+    seen: bytes | None = None
+
+    @property
+    def own(self) -> bool:
+        """Whether it is rcgen's record of what it did, which nobody needs to look at."""
+        return self.path.startswith(RECORD)
 
     @property
     def data(self) -> bytes:
         """Its bytes on the disk."""
-        return self.text.encode()
+        return self.text.encode(self.encoding, "surrogateescape")

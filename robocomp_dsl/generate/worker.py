@@ -122,11 +122,12 @@ def _port(port: Port, called: Called) -> Item:
 
 
 def _served(port: Port, called: Called) -> ServedCode:
-    handlers = tuple(_handler(port, o, called) for o in port.interface.operations)
+    handlers = tuple(handler_code(port, o, called) for o in port.interface.operations)
     return ServedCode(f"{port.role} {port.interface.qualified}", handlers)
 
 
-def _handler(port: Port, one: Operation, called: Called) -> HandlerCode:
+def handler_code(port: Port, one: Operation, called: Called) -> HandlerCode:
+    """One method, as both classes and a stub print it."""
     name = called.handlers[port, one]
     arguments = called.types.arguments(one)
     returns = called.types.returns(one)

@@ -15,7 +15,7 @@ from robocomp_dsl.model.interface import Operation
 from robocomp_dsl.model.types import Declaration, Type
 
 
-def _mentioned(one: Operation, types: PythonTypes) -> Iterator[str]:
+def mentioned(one: Operation, types: PythonTypes) -> Iterator[str]:
     """The types that the signature of a handler names."""
     kinds: list[Type] = [p.type for p in one.inputs]
     kinds += [type_ for _, type_ in types.results(one)]
@@ -23,7 +23,7 @@ def _mentioned(one: Operation, types: PythonTypes) -> Iterator[str]:
 
 
 def _signature_types(called: Called) -> set[str]:
-    return {name for _, o in called.handlers for name in _mentioned(o, called.types)}
+    return {name for _, o in called.handlers for name in mentioned(o, called.types)}
 
 
 def generic_imports(component: Component, called: Called) -> Iterator[str]:

@@ -98,6 +98,8 @@ def _compared(folder: Path, file: OutputFile) -> Change:
         old = path.read_bytes()
     except FileNotFoundError:
         return Change(file, Action.CREATE, None)
+    if file.seen is not None and old not in (file.seen, file.data):
+        raise CannotWrite(f"`{path}` was saved by somebody else meanwhile; run rcgen again")
     return Change(file, Action.SAME if old == file.data else Action.UPDATE, old)
 
 

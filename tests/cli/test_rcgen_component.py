@@ -26,6 +26,11 @@ ALL = {
     "main.py",
     "specificworker.py",
 }
+RECORD = {
+    ".rcgen/methods.json",
+    ".rcgen/pristine/README.md",
+    ".rcgen/pristine/etc/config.yaml",
+}
 
 
 @pytest.fixture
@@ -44,12 +49,12 @@ def test_beside_the_file(rcgen: Rcgen, talker: Path) -> None:
     assert (run.code, run.err) == (0, "")
     expected = "9 of 9 files written; yours to edit: specificworker.py, etc/config.yaml, README.md"
     assert run.out == f".: {expected}\n"
-    assert set(tree(talker)) == ALL | {"talker.cdsl", "Talk.idsl"}
+    assert set(tree(talker)) == ALL | RECORD | {"talker.cdsl", "Talk.idsl"}
 
 
 def test_into_a_folder(rcgen: Rcgen, talker: Path) -> None:
     assert rcgen("component", "talker.cdsl", "-o", "out/deep").code == 0
-    assert set(tree(talker / "out" / "deep")) == ALL
+    assert set(tree(talker / "out" / "deep")) == ALL | RECORD
 
 
 def test_again_touches_nothing(rcgen: Rcgen, talker: Path) -> None:
@@ -100,13 +105,17 @@ def test_what_the_users_class_lacks(rcgen: Rcgen, talker: Path) -> None:
     rcgen("component", "talker.cdsl")
     more = IDSL.replace("int say", "void shout(); int say")
     (talker / "Talk.idsl").write_text(more)
-    mine = (talker / "specificworker.py").read_bytes()
+    mine = (talker / "specificworker.py").read_text()
+    assert rcgen("component", "talker.cdsl", "--check").code == 1
     run = rcgen("component", "talker.cdsl")
     assert run.code == 0
-    assert "warning[RC611]: `SpecificWorker` has no method `Talk_shout`\n" in run.err
-    assert "--> specificworker.py:8:7" in run.err
+    assert "warning[RC611]: `SpecificWorker` had no method for `shout`; this stub" in run.err
+    assert "--> specificworker.py:24:9" in run.err
     assert "--> Talk.idsl:1:34" in run.err
-    assert (talker / "specificworker.py").read_bytes() == mine
+    now = (talker / "specificworker.py").read_text()
+    assert now.startswith(mine)
+    assert now[len(mine) :].startswith("\n    def Talk_shout(self) -> None:\n")
+    assert rcgen("component", "talker.cdsl").err == ""
 
 
 def test_an_error_writes_nothing(rcgen: Rcgen, talker: Path) -> None:
@@ -192,11 +201,11 @@ def test_broken_user_code_is_left_alone(rcgen: Rcgen, talker: Path) -> None:
 
 
 WORKERS = {
-    "def": ("def Talk_say(self): ...", True),
-    "async": ("async def Talk_say(self): ...", True),
+    "def": ("def Talk_say(self, text): ...", True),
+    "async": ("async def Talk_say(self, text): ...", True),
     "assigned": ("Talk_say = None", True),
     "nothing": ("pass", False),
-    "a near name": ("def Talk_sya(self): ...", False),
+    "a near name": ("def Talk_sya(self, text): ...", False),
 }
 
 
@@ -208,13 +217,13 @@ def test_how_a_class_can_have_a_method(rcgen: Rcgen, talker: Path, case: str) ->
     run = rcgen("component", "talker.cdsl")
     assert ("RC611" not in run.err) is complete
     if "near" in case:
-        assert "did you mean `Talk_sya`?" in run.err
+        assert "is `Talk_sya` meant for it?" in run.err
 
 
 def test_methods_of_other_bases(rcgen: Rcgen, talker: Path) -> None:
     file = talker / "specificworker.py"
     file.write_text(
-        "class Mixin:\n    def Talk_say(self): ...\n"
+        "class Mixin:\n    def Talk_say(self, text): ...\n"
         "class SpecificWorker(Mixin, GenericWorker):\n    pass\n"
     )
     assert rcgen("component", "talker.cdsl").err == ""

@@ -1,0 +1,162 @@
+"""The user's class compared with the component: missing, stale and changed methods.
+
+In: the user's module, the methods there should be, the signatures it was written for. Out: the
+methods without a `def`, and findings about the others.
+
+A parameter that the user names or annotates in their own way is theirs: a signature is only called
+changed where the user's has what was generated before and is not generated now, or where a call
+would fail.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping, Sequence
+
+from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.generate import codes
+from robocomp_dsl.generate.upkeep.methods import Method, Signature
+from robocomp_dsl.generate.upkeep.user_module import BASE, CLASS, Function, UserModule
+
+_PLAIN = {"override", "typing.override"}
+"""Decorators that leave a signature as it is."""
+
+
+def judge(
+    user: UserModule,
+    methods: Mapping[str, Method],
+    known: Mapping[str, Signature],
+    report: Report,
+) -> Iterator[Method]:
+    """The methods that the class lacks; the findings about those it has go to `report`."""
+    has = user.members
+    if has is None:
+        return
+    for name, method in methods.items():
+        if name not in has:
+            yield method
+        elif (function := has[name]) is not None:
+            _judge_signature(user, function, method, known.get(name), report)
+    for name in known.keys() - methods.keys() & has.keys():
+        if (function := has[name]) is not None:
+            _report_stale(user, function, methods, report)
+
+
+def report_missing(user: UserModule, missing: Sequence[Method], report: Report) -> None:
+    """Say which methods there are none of, where no stubs can be added."""
+    where = user.span_of(user.worker) if user.worker else user.source.whole
+    for one in missing:
+        guess = near(user, one)
+        report.add(
+            codes.MISSING_METHOD,
+            where,
+            f"`{CLASS}` has no method `{one.name}`, and the file is a link, so none is added",
+            label=f"did you mean `{guess}`?" if guess else "",
+            notes=[_origin(one)],
+            help=f"`{BASE}` in generated/genericworker.py has its signature",
+        )
+
+
+def near(user: UserModule, one: Method) -> str | None:
+    """A method of the user's that is most likely meant to be `one`."""
+    prefix = f"{one.port.name}_"
+    return nearest(one.name, (n for n in user.members or () if n.startswith(prefix)))
+
+
+def follows(function: Function, old: Signature, new: Signature) -> bool:
+    """Whether a `def` has nothing left of `old` that is not in `new`."""
+    return _callable_with(function, len(new.arguments)) and not _leftovers(function, old, new)
+
+
+def _judge_signature(
+    user: UserModule, function: Function, method: Method, old: Signature | None, report: Report
+) -> None:
+    new = method.signature
+    if any(ast.unparse(d) not in _PLAIN for d in function.decorator_list):
+        return  # it may have any signature behind them
+    if follows(function, old or new, new):
+        return
+    mine = f"def {function.name}{_shown(function)}"
+    report.add(
+        codes.CHANGED_SIGNATURE,
+        user.span_of(function),
+        f"`{function.name}` is called in another way now",
+        label=", ".join(_differences(function, old or new, new)),
+        notes=[_origin(method)],
+        help=f"old: {mine}\n      new: def {function.name}{_with_self(new)}",
+    )
+
+
+def _report_stale(
+    user: UserModule, function: Function, methods: Mapping[str, Method], report: Report
+) -> None:
+    unused = (n for n in methods if n not in (user.members or {}))
+    guess = nearest(function.name, unused)
+    renamed = f"was it renamed to `{guess}`? " if guess else ""
+    report.add(
+        codes.STALE_METHOD,
+        user.span_of(function),
+        f"nobody calls `{function.name}` any more: the component has no such operation now",
+        help=f"{renamed}move what you need of it elsewhere and delete it; rcgen never does",
+    )
+
+
+def _origin(method: Method) -> Note:
+    qualified = method.port.interface.qualified
+    return Note(method.operation.span, f"`{qualified}` has this operation")
+
+
+def _callable_with(function: Function, given: int) -> bool:
+    """Whether it can be called with `self` and `given` positional arguments."""
+    a = function.args
+    positional = len(a.posonlyargs) + len(a.args)
+    needed = positional - len(a.defaults)
+    forced = any(default is None for default in a.kw_defaults)
+    enough = a.vararg is not None or positional >= given + 1
+    return enough and needed <= given + 1 and not forced
+
+
+def _leftovers(function: Function, old: Signature, new: Signature) -> list[str]:
+    """What of `old` the `def` still has although `new` has something else there."""
+    a = function.args
+    mine = [*a.posonlyargs, *a.args][1:]
+    found = []
+    for one, was, now in zip(mine, old.arguments, new.arguments, strict=False):
+        if one.arg == was[0] != now[0]:
+            found.append(f"`{was[0]}` is `{now[0]}`")
+        if _annotation(one.annotation) == was[1] != now[1]:
+            found.append(f"`{now[0]}` is of type {now[1]}")
+    if _annotation(function.returns) == old.returns != new.returns:
+        found.append(f"it returns {new.returns}")
+    return found
+
+
+def _differences(function: Function, old: Signature, new: Signature) -> list[str]:
+    if not _callable_with(function, len(new.arguments)):
+        count = len(new.arguments)
+        return [f"it gets {count} argument{'s' if count != 1 else ''}"]
+    return _leftovers(function, old, new)
+
+
+def _annotation(node: ast.expr | None) -> str:
+    """As it would be generated: without quotes and module names."""
+    if node is None:
+        return ""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value.strip()
+    return ast.unparse(_Bare().visit(ast.parse(ast.unparse(node), mode="eval")).body)
+
+
+class _Bare(ast.NodeTransformer):
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        return ast.Name(node.attr, ast.Load())
+
+
+def _shown(function: Function) -> str:
+    returns = f" -> {ast.unparse(function.returns)}" if function.returns else ""
+    return f"({ast.unparse(function.args)}){returns}"
+
+
+def _with_self(signature: Signature) -> str:
+    text = str(signature)
+    return f"(self, {text[1:]}" if signature.arguments else f"(self{text[1:]}"

@@ -1,0 +1,64 @@
+"""What was generated before: `.rcgen/methods.json`, the methods with the signatures they had.
+
+In: the folder. Out: the signatures that the user's methods were written for; the file to write.
+The record of a method stays while the user's class still has it, so that a stale one is known.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate import codes
+from robocomp_dsl.generate.output import RECORD, OutputFile
+from robocomp_dsl.generate.upkeep.judge import follows
+from robocomp_dsl.generate.upkeep.methods import Method, Signature
+from robocomp_dsl.generate.upkeep.user_module import UserModule
+from robocomp_dsl.source import Source, UnreadableSource
+
+FILE = f"{RECORD}methods.json"
+
+
+def read(folder: Path, report: Report) -> dict[str, Signature]:
+    """The recorded signatures by method; none where there is no record, or no readable one."""
+    path = folder / FILE
+    try:
+        source = Source.read(path)
+        return {name: _signature(value) for name, value in json.loads(source.text).items()}
+    except UnreadableSource:
+        return {}
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        report.add(
+            codes.BROKEN_RECORD,
+            source.whole,
+            f"`{FILE}` is not as rcgen wrote it; changed and stale methods are not known",
+            help="it is written anew; keep the folder `.rcgen` under version control",
+        )
+        return {}
+
+
+def written(
+    methods: Mapping[str, Method], known: Mapping[str, Signature], user: UserModule | None
+) -> OutputFile:
+    """The record for the next time."""
+    has = (user and user.members) or {}
+    kept = {name: one for name, one in known.items() if name in has}
+    for name, method in methods.items():
+        function = has.get(name)
+        old = known.get(name)
+        if function is None or old is None or follows(function, old, method.signature):
+            kept[name] = method.signature
+    rows = {
+        name: {"arguments": [list(a) for a in one.arguments], "returns": one.returns}
+        for name, one in sorted(kept.items())
+    }
+    return OutputFile(FILE, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
+
+
+def _signature(value: dict[str, object]) -> Signature:
+    arguments, returns = value["arguments"], value["returns"]
+    if not isinstance(arguments, list) or not isinstance(returns, str):
+        raise TypeError
+    return Signature(tuple((str(name), str(type_)) for name, type_ in arguments), returns)
