@@ -13,12 +13,9 @@ from pathlib import Path
 
 from robocomp_dsl.check.fixes import Fixed, fix_all
 from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.rewriting import difference, rewrite
 from robocomp_dsl.diagnostics import Diagnostic, Report
-from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.write import write
-from robocomp_dsl.source import Source, UnreadableSource, declared_as_utf8
-
-BOM = "\N{ZERO WIDTH NO-BREAK SPACE}"
+from robocomp_dsl.source import Source, UnreadableSource
 
 Judge = Callable[[Path, Workspace, Report], object]
 
@@ -39,12 +36,9 @@ def fix(path: Path, judge: Judge, workspace: Workspace, *, diff: bool) -> None:
     if fixed.text == before.text:
         return
     if diff:
-        sys.stdout.write(_difference(path, before.text, fixed.text))
+        sys.stdout.write(difference(path, before.text, fixed.text))
         return
-    mark = BOM if path.read_bytes().startswith(BOM.encode()) else ""
-    # The name behind a link is what is rewritten, so that the link stays one.
-    real = path.resolve()
-    write(real.parent, [OutputFile(real.name, mark + declared_as_utf8(fixed.text))])
+    rewrite(path, fixed.text)
     print(_told(path, fixed), file=sys.stderr)
 
 
@@ -64,13 +58,3 @@ def _told(path: Path, fixed: Fixed) -> str:
     counts = Counter(one.code.id for one in fixed.applied)
     codes = ", ".join(f"{n} x {code}" if n > 1 else code for code, n in sorted(counts.items()))
     return f"{shown_path(path)}: fixed {len(fixed.applied)} ({codes})"
-
-
-def _difference(path: Path, old: str, new: str) -> str:
-    from difflib import unified_diff  # noqa: PLC0415 - only here
-
-    a, b = (text.splitlines(keepends=True) for text in (old, new))
-    return "".join(
-        line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-        for line in unified_diff(a, b, str(path), str(path))
-    )

@@ -15,6 +15,7 @@ TABLE = {
     "interface": ("interface", "Write an interface as Slice, as ROS 2 messages or as JSON Schema."),
     "check": ("check", "Check descriptions; the exit code is 1 if there are errors."),
     "doc": ("doc", "Write linked documentation of interfaces, components and deployments."),
+    "fmt": ("fmt", "Format descriptions; nothing that they say changes."),
     "new": ("new", "Begin a new component: a commented CDSL and PDSL file."),
     "lsp": ("lsp", "Serve an editor: findings as you type, completion, navigation."),
     "explain": ("explain", "Say what a code such as RC204 means."),

@@ -20,10 +20,12 @@ from collections.abc import Callable, Collection, Sequence
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.format import items, pieces
 from robocomp_dsl.format.layout import lay_out
-from robocomp_dsl.format.lines import text_of
+from robocomp_dsl.format.lines import Line, text_of
 from robocomp_dsl.format.pieces import Change, Piece
 from robocomp_dsl.format.scan import scan
 from robocomp_dsl.format.style import STYLES
+from robocomp_dsl.format.xml import lay_out_xml
+from robocomp_dsl.format.xml_scan import scan_xml
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import LANGUAGES, codes, parse_innermodel
 
@@ -57,22 +59,27 @@ def formatted(source: Source, findings: Collection[Diagnostic]) -> str | None:
 
 
 def changes(source: Source, new: str) -> list[Change]:
-    """The small changes that make `new`, which is `formatted`, of `source`; each of them will do."""
+    """The small changes that make `new`, which is `formatted`, of `source`."""
     suffix = source.path.suffix.lower()
     old = _scan(source.text, suffix)
     return list(pieces.changes(source.text, new, old, _scan(new, suffix)))
 
 
 def _scan(text: str, suffix: str, missing: Collection[int] = ()) -> list[Piece]:
-    return scan(text, suffix[1:], missing)
+    return scan_xml(text) if suffix == ".xml" else scan(text, suffix[1:], missing)
 
 
 def _formatted(old: Sequence[Piece], suffix: str, text: str) -> str:
-    style = STYLES[suffix[1:]]
-    statements = items.read(old, inline_braces=style.inline_braces)
-    new = text_of(lay_out(statements, style))
+    new = text_of(_lines(old, suffix))
     crlf = text.count("\r\n") * 2 > text.count("\n")
     return new.replace("\n", "\r\n") if crlf else new
+
+
+def _lines(old: Sequence[Piece], suffix: str) -> list[Line]:
+    if suffix == ".xml":
+        return lay_out_xml(old)
+    style = STYLES[suffix[1:]]
+    return lay_out(items.read(old, inline_braces=style.inline_braces), style)
 
 
 def _written(old: Sequence[Piece]) -> list[Piece]:

@@ -27,12 +27,15 @@ class Line:
 def text_of(lines: Iterable[Line]) -> str:
     """The lines as one text; comments behind neighbouring lines begin in the same column."""
     made: list[str] = []
-    for noted, run in groupby(lines, key=lambda one: bool(one.note)):
-        made += _aligned(list(run)) if noted else (one.code for one in run)
+    for _, run in groupby(lines, key=lambda one: bool(one.note)):
+        made += _aligned(list(run))
     return "".join(f"{one}\n" for one in made)
 
 
 def _aligned(run: list[Line]) -> Iterator[str]:
+    if not run[0].note:
+        yield from (one.code for one in run)
+        return
     widths = [len(one.code.rpartition("\n")[2]) for one in run]
     column = max(widths)
     if any(column + _GAP + len(one.note.partition("\n")[0]) > WIDTH for one in run):

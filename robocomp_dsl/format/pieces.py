@@ -1,7 +1,7 @@
 """What a text is made of besides blanks: tokens and comments, in order.
 
-In: a text. Out: `Piece` values. Formatting changes what stands between them and nothing else, so the
-pieces before and after are the same; `same` is the proof, `changes` the difference.
+In: a text. Out: `Piece` values. Formatting changes what stands between them and nothing else, so
+the pieces before and after are the same; `same` is the proof, `changes` the difference.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ COMMENTS = frozenset(("LINE", "BLOCK"))
 
 @dataclass(slots=True)
 class Piece:
-    """A token or a comment at [start, end) of its text, with `\\n` for every line end in it.
+    """A token or a comment at [start, end) of its text, with a line feed for every line end in it.
 
     `kind` is `LINE` for a comment that reaches to the end of its line, `BLOCK` for any other one,
     else the name of the terminal. `breaks` counts the line ends in front of it, `margin` is what

@@ -1,7 +1,7 @@
 """The look of each language as data: what stands close together, and where a long line may end.
 
-In: the name of a language. Out: its `Style`. The signs that all languages share are in `_BEFORE` and
-`_AFTER`; a language adds its own.
+In: the name of a language. Out: its `Style`. The signs that all languages share are in `_BEFORE`
+and `_AFTER`; a language adds its own.
 """
 
 from __future__ import annotations
