@@ -9,7 +9,8 @@ about the file itself all, about the files that it mentions the errors.
     CDSL      parse_cdsl    resolve_cdsl              rules_cdsl               `check_cdsl`
     PDSL      parse_pdsl    resolve_pdsl              rules_pdsl               `check_pdsl`
     DDSL      parse_ddsl    resolve_ddsl              in its parts             `check_ddsl`
-    SMDSL     parse_smdsl   resolve_smdsl             rules_smdsl              `check_smdsl`
+    SMDSL     parse_smdsl   resolve_smdsl             rules_smdsl, rules_states `check_machine`
+    SCXML     parse_scxml   scxml_form, resolve_scxml rules_states             `check_machine`
     InnerModel              resolve_innermodel        rules_innermodel         `check_innermodel`
 
 The parts of a DDSL file: `components`, `instances`, `settings`, `order`, `wiring`, `implied_wires`.
@@ -36,7 +37,7 @@ from robocomp_dsl.syntax import (
     parse_ddsl,
     parse_innermodel,
     parse_pdsl,
-    parse_smdsl,
+    parse_scxml,
 )
 from robocomp_dsl.syntax import (
     codes as form,
@@ -119,17 +120,15 @@ def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment |
     return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
 
 
-def check_smdsl(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:
-    """The state machine of a file."""
-    from robocomp_dsl.check.resolve_smdsl import resolve_smdsl  # noqa: PLC0415
-    from robocomp_dsl.check.rules_smdsl import judge_smdsl  # noqa: PLC0415
+def check_machine(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:
+    """The state machine of an SMDSL or SCXML file."""
+    from robocomp_dsl.check.state_machines import MACHINES  # noqa: PLC0415
 
-    file = _parsed(path, parse_smdsl, workspace, report)
-    resolved = resolve_smdsl(file, report) if file else None
-    if resolved is None:
+    try:
+        return MACHINES[path.suffix.lower()](path, workspace, report)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
         return None
-    judge_smdsl(*resolved, report)
-    return resolved[0]
 
 
 def check_innermodel(path: Path, workspace: Workspace, report: Report) -> Body | None:
@@ -151,12 +150,17 @@ CHECKS: Mapping[str, Check] = {
     ".cdsl": check_cdsl,
     ".pdsl": check_pdsl,
     ".ddsl": check_ddsl,
-    ".smdsl": check_smdsl,
+    ".smdsl": check_machine,
+    ".scxml": check_machine,
     ".xml": check_innermodel,
 }
 """File suffix (lower case) to all passes of its language."""
 
-PARSERS: Mapping[str, Callable[[Source, Report], object]] = {**LANGUAGES, ".xml": parse_innermodel}
+PARSERS: Mapping[str, Callable[[Source, Report], object]] = {
+    **LANGUAGES,
+    ".scxml": parse_scxml,
+    ".xml": parse_innermodel,
+}
 
 
 def _parsed(

@@ -163,3 +163,39 @@ Right:
     transitions { waiting => playing; };
 """,
 )
+
+SCXML_TAG = Code(
+    "RC707",
+    Severity.ERROR,
+    "this is not SCXML, or not here",
+    """\
+An SCXML file is made of the elements and attributes of the W3C recommendation (State Chart XML,
+2015), each in its place. What is not known is left out, and what it would have meant is lost.
+
+Wrong:
+
+    <scxml version="1.0"> <stat id="waiting"/> </scxml>
+
+Right:
+
+    <scxml version="1.0"> <state id="waiting"/> </scxml>
+""",
+)
+
+SCXML_UNUSED = Code(
+    "RC708",
+    Severity.WARNING,
+    "a part of the SCXML file does nothing",
+    """\
+The element is understood, or an extension, but a component does nothing with it: it invokes no
+other machines, and nobody waits for the data of an end state.
+
+Wrong:
+
+    <state id="working"> <invoke type="scxml" src="other.scxml"/> </state>
+
+Right:
+
+    <state id="working"> <onentry> <send event="begin"/> </onentry> </state>
+""",
+)

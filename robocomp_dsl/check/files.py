@@ -49,8 +49,10 @@ class Files:
 
     def open_buffer(self, path: Path, text: str) -> Source:
         """Let `text` win over what is on the disk at `path`; again for every change of it."""
-        source = Source(path, text)
-        self._buffers[identity(path)] = source
+        key = identity(path)
+        earlier = self._buffers.get(key)
+        source = Source(path, text, earlier.memory if earlier else {})
+        self._buffers[key] = source
         return source
 
     def close_buffer(self, path: Path) -> None:

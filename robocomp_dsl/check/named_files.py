@@ -13,10 +13,11 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity, nearest
 from robocomp_dsl.model.component import StateMachineRef
 from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.source import UnreadableSource
 from robocomp_dsl.syntax import parse_pdsl
 from robocomp_dsl.syntax.ast_base import Text
-from robocomp_dsl.syntax.ast_cdsl import StateMachine
+from robocomp_dsl.syntax.ast_cdsl import StateMachine as Written
 
 
 def find_beside(
@@ -75,12 +76,13 @@ def errors_of(report: Report) -> list[Diagnostic]:
 
 
 def state_machine_of(
-    written: StateMachine | None, beside: Path, workspace: Workspace, report: Report
+    written: Written | None, beside: Path, workspace: Workspace, report: Report
 ) -> StateMachineRef | None:
-    """The place of a state machine, which need not exist yet."""
+    """The state machine of a component, which need not exist yet; its errors are reported."""
     if written is None:
         return None
     path = Path(written.path.value)
+    machine = None
     if not workspace.files.exists(beside.parent / path):
         report.add(
             codes.NO_STATE_MACHINE,
@@ -88,4 +90,24 @@ def state_machine_of(
             f"cannot find the state machine `{beside.parent / path}`",
             help=f"a path is relative to the folder of `{beside.name}`",
         )
-    return StateMachineRef(path, written.span)
+    else:
+        machine = _machine(written.path, beside, workspace, report)
+    return StateMachineRef(path, written.span, machine)
+
+
+def _machine(
+    written: Text, beside: Path, workspace: Workspace, report: Report
+) -> StateMachine | None:
+    from robocomp_dsl.check.state_machines import MACHINES  # noqa: PLC0415 - on first use
+
+    path = find_beside(written, tuple(MACHINES), beside, workspace, report)
+    if path is None:
+        return None
+    found = Report()
+    try:
+        made = MACHINES[path.suffix.lower()](path, workspace, found)
+    except UnreadableSource as error:
+        report.add(codes.UNREADABLE_IMPORT, written.span, f"cannot read `{path}`: {error}")
+        return None
+    report.extend(errors_of(found))
+    return made

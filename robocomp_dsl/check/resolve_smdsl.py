@@ -53,6 +53,7 @@ def resolve_smdsl(file: Parsed[ast.File], report: Report) -> tuple[StateMachine,
         _states("", blocks),
         transitions,
         machine.doc,
+        start=(machine.initial.text,) if machine.initial else (),
     )
     return made, blocks
 
@@ -111,9 +112,14 @@ def _states(block: str, blocks: Blocks) -> tuple[State, ...]:
                 parallel=isinstance(within, ast.Substates) and within.parallel,
                 inside=_states(name.text, blocks) if within else (),
                 doc=docs.get(name.text, ""),
+                start=_start(within),
             )
         )
     return tuple(made)
+
+
+def _start(block: ast.Block | None) -> tuple[str, ...]:
+    return (block.initial.text,) if block and block.initial else ()
 
 
 def _transitions(

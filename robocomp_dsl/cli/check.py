@@ -45,7 +45,7 @@ def command(
     quiet: bool,
     folders: tuple[Path, ...],
 ) -> None:
-    """Check descriptions: IDSL, CDSL, PDSL, DDSL, InnerModel; of a folder, all that are in it.
+    """Check IDSL, CDSL, PDSL, DDSL, SMDSL, SCXML and InnerModel; of a folder, all that are in it.
 
     The exit code is 0 if there are no errors (there may be warnings), 1 if there are.
     """

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from robocomp_dsl.check import check_smdsl
+from robocomp_dsl.check import check_machine
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.editor.index import Mention, Symbol
@@ -44,7 +44,7 @@ def read(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Mention]]
     tree = file.tree.machine
     if tree is None:
         return file.source, file.tree.complete, []
-    machine = check_smdsl(path, workspace, Report())
+    machine = check_machine(path, workspace, Report())
     place = Symbol(tree.name.text, "statemachine", tree.name.span, machine)
     names = _Names((tree, *file.tree.substates), machine)
     return file.source, file.tree.complete, [Mention(place.span, place, declares=True), *names]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
 from robocomp_dsl.model.parameter import ParameterSet
+from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.source import Span
 
 
@@ -47,10 +48,14 @@ class Port:
 
 @dataclass(frozen=True, slots=True)
 class StateMachineRef:
-    """`statemachine "path"`; the path as written, resolved beside the CDSL file."""
+    """`statemachine "path"`; the path as written, resolved beside the CDSL file.
+
+    `machine` is what the file describes; None where it is not there or not understood.
+    """
 
     path: Path
     span: Span
+    machine: StateMachine | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,4 +1,4 @@
-"""State machines of SMDSL, resolved."""
+"""State machines of SMDSL and SCXML, resolved. What SMDSL cannot say has its default there."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from robocomp_dsl.source import Span
 class State:
     """One state; `inside` are the states within it, all active at once where it is `parallel`.
 
-    Names are unique in a machine. `initial` and `final` tell its part among its siblings.
+    Names are unique in a machine. `initial` and `final` tell its part among its siblings; `start`
+    are the states that are entered with it, one of those inside unless SCXML says otherwise.
+    `history` ("shallow" or "deep") is no state, but a way to those that were active last; then
+    `start` is where it leads at first. `entry` and `exit` are executable content, as written.
     """
 
     name: str
@@ -22,11 +25,21 @@ class State:
     parallel: bool = False
     inside: tuple[State, ...] = ()
     doc: str = ""
+    start: tuple[str, ...] = ()
+    history: str = ""
+    entry: str = ""
+    exit: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transition:
-    """From one state to one other, by an event or by time (`after_s`), or by whichever is first."""
+    """From one state to one other, by an event or by time (`after_s`), or by whichever is first.
+
+    In SCXML `event` may list several, be a pattern, or be empty: then it is taken as soon as `cond`
+    holds. `target` may be empty, so that only `action` happens, and `others` are entered with it,
+    in other parallel states. `cond` and `action` are as written; `internal`: the source stays
+    active.
+    """
 
     source: str
     target: str
@@ -34,11 +47,24 @@ class Transition:
     span: Span
     after_s: float | None = None
     doc: str = ""
+    others: tuple[str, ...] = ()
+    cond: str = ""
+    action: str = ""
+    internal: bool = False
+
+    @property
+    def targets(self) -> tuple[str, ...]:
+        """All states that it enters."""
+        return (self.target, *self.others) if self.target else ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StateMachine:
-    """One SMDSL file."""
+    """One SMDSL or SCXML file.
+
+    `start` are the states entered first; `language` of `cond` and actions, and `data`, the data
+    model as written, are empty in SMDSL.
+    """
 
     name: str
     path: Path
@@ -46,3 +72,6 @@ class StateMachine:
     states: tuple[State, ...]
     transitions: tuple[Transition, ...]
     doc: str = ""
+    start: tuple[str, ...] = ()
+    language: str = ""
+    data: str = ""

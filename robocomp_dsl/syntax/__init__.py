@@ -70,6 +70,13 @@ def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
     return innermodel.parse(source, report)
 
 
+def parse_scxml(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of a state machine in SCXML."""
+    from robocomp_dsl.syntax import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse_machine(source, report)
+
+
 LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
     ".idsl": parse_idsl,
     ".cdsl": parse_cdsl,

@@ -1,4 +1,4 @@
-"""The tree of an InnerModel file: XML elements as written, tags and attributes not judged."""
+"""The tree of an InnerModel or SCXML file: XML elements as written, not judged."""
 
 from __future__ import annotations
 
@@ -13,11 +13,15 @@ class Attribute(Node):
 
 
 class Element(Node):
-    """`<tag …>…</tag>`; `span` covers all of it. No two attributes have the same name."""
+    """`<tag …>…</tag>`; `span` covers all of it. No two attributes have the same name.
+
+    `texts` is what stands between the tags, where the language has such texts (SCXML).
+    """
 
     tag: Name
     attributes: tuple[Attribute, ...] = ()
     children: tuple[Element, ...] = ()
+    texts: tuple[Text, ...] = ()
 
     def get(self, name: str) -> Attribute | None:
         """The attribute called `name`."""

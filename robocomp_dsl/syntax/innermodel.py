@@ -1,4 +1,4 @@
-"""InnerModel, from text to tree.
+"""InnerModel and SCXML, from text to tree.
 
 In: a source. Out: its elements, nested. Lark cuts the text into tags and pieces of tags; this
 module matches the tags, and reports everything that XML forbids where it stands. It takes no help
@@ -18,10 +18,10 @@ from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import codes_xml as codes
-from robocomp_dsl.syntax.ast_base import Name
+from robocomp_dsl.syntax.ast_base import Name, Text
 from robocomp_dsl.syntax.ast_innermodel import Attribute, Element, File
 from robocomp_dsl.syntax.findings import Findings
-from robocomp_dsl.syntax.innermodel_attributes import ends, read_attributes
+from robocomp_dsl.syntax.innermodel_attributes import decoded, ends, read_attributes
 
 _CLOSED = re.compile(r"</\s*([^\s<>]*)\s*([^<>]*)(>?)")
 
@@ -33,8 +33,17 @@ def _lark() -> Lark:
 
 
 def parse(source: Source, report: Report) -> File:
-    """The tree of `source`; what is wrong with its form goes into `report`."""
-    builder = _Builder(source, Findings(source, report))
+    """The tree of an InnerModel file; what is wrong with its form goes into `report`."""
+    return _parse(_Builder(source, Findings(source, report)))
+
+
+def parse_machine(source: Source, report: Report) -> File:
+    """The tree of an SCXML file, with its texts: in `<script>` and `<data>` they mean something."""
+    return _parse(_Builder(source, Findings(source, report), "scxml", keeps_text=True))
+
+
+def _parse(builder: _Builder) -> File:
+    source = builder.source
     for item in _lark().parse(source.text).children:
         if builder.findings.full:
             break
@@ -54,12 +63,15 @@ class _Open:
     attributes: tuple[Attribute, ...]
     told: bool = False  # that its end is missing
     children: list[Element] = field(default_factory=list)
+    texts: list[Text] = field(default_factory=list)
 
 
 @dataclass(slots=True)
 class _Builder:
     source: Source
     findings: Findings
+    outermost: str = "innerModel"
+    keeps_text: bool = False
     roots: list[Element] = field(default_factory=list)
     path: list[_Open] = field(default_factory=list)
 
@@ -72,7 +84,10 @@ class _Builder:
         if not self.roots:
             span = self.source.whole
             self.findings.add(
-                codes.XML_ROOT, span.start, span.end, "the file has no `<innerModel>` element"
+                codes.XML_ROOT,
+                span.start,
+                span.end,
+                f"the file has no `<{self.outermost}>` element",
             )
         for extra in self.roots[1:]:
             self.findings.add(
@@ -111,7 +126,8 @@ class _Builder:
     def _pop(self, end: int) -> None:
         one = self.path.pop()
         span = self.source.span(one.start, end)
-        made = Element(span, one.tag, one.attributes, tuple(one.children))
+        children, texts = tuple(one.children), tuple(one.texts)
+        made = Element(span, one.tag, one.attributes, children, texts)
         (self.path[-1].children if self.path else self.roots).append(made)
 
     def _close(self, token: Token) -> None:
@@ -183,7 +199,7 @@ class _Builder:
                 said = "the comment is not closed"
                 self.findings.add(codes.XML_TAG, start, start + 4, said, help="close it with `-->`")
             case "DOCTYPE":
-                said = "a document type is not read: InnerModel has none, and no entities"
+                said = "a document type is not read: there are no entities but those of XML"
                 self.findings.add(codes.XML_DOCTYPE, start, end, said)
             case _:
                 self._text(token, start)
@@ -191,7 +207,9 @@ class _Builder:
     def _text(self, token: Token, start: int) -> None:
         words = str(token).rstrip()
         end = start + len(words)
-        if self.path:
+        if self.path and self.keeps_text:
+            self.path[-1].texts.append(self._kept(token, words, start))
+        elif self.path:
             said = "text between the tags means nothing"
             self.findings.add(
                 codes.XML_TEXT, start, end, said, help="make it a comment: `<!-- … -->`"
@@ -199,3 +217,10 @@ class _Builder:
         else:
             said = "this stands outside of the document and is no tag"
             self.findings.add(codes.XML_ROOT, start, end, said)
+
+    def _kept(self, token: Token, words: str, start: int) -> Text:
+        """A text, or what stands in a CDATA section, as it is meant."""
+        span = self.source.span(start, start + len(words))
+        if token.type == "CDATA":
+            return Text(span, words[len("<![CDATA[") : -len("]]>")])
+        return Text(span, decoded(words, start, self.findings))

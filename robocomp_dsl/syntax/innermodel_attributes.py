@@ -80,7 +80,7 @@ def _attribute(token: Token, source: Source, findings: Findings) -> Attribute:
     written = str(token)[found.end() :] if found else ""
     at = end - len(written)
     if token.type == "ATTRIBUTE":
-        value = _decoded(written[1:-1], at + 1, findings)
+        value = decoded(written[1:-1], at + 1, findings)
     else:
         value = _misspelt(token, name, written, findings)
     return Attribute(
@@ -108,8 +108,8 @@ def _misspelt(token: Token, name: str, written: str, findings: Findings) -> str:
     return ""
 
 
-def _decoded(text: str, start: int, findings: Findings) -> str:
-    """A value with its entities replaced; `start` is where it stands."""
+def decoded(text: str, start: int, findings: Findings) -> str:
+    """A text with its entities replaced; `start` is where it stands."""
 
     def replaced(match: re.Match[str]) -> str:
         named, decimal, hexadecimal = match.groups()

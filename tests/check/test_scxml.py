@@ -1,0 +1,115 @@
+"""What an SCXML file becomes: the same machine that SMDSL describes, and more."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from robocomp_dsl.check import check_file
+from robocomp_dsl.check.rules_states import every_state
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.statemachine import StateMachine
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def read(path: Path) -> tuple[StateMachine, Report]:
+    report = Report()
+    found = check_file(path, Workspace(environ={}), report)
+    assert isinstance(found, StateMachine)
+    return found, report
+
+
+def test_the_model() -> None:
+    machine, report = read(CASES / "scxml" / "sem_clean.scxml")
+    assert list(report) == []
+    assert (machine.name, machine.language, machine.start) == ("game", "ecmascript", ("waiting",))
+    assert machine.data.startswith("<datamodel>")
+    assert machine.data.endswith("points = 1 &lt; 2;</script>")
+    states = {one.name: one for one in every_state(machine.states)}
+    assert [one.name for one in machine.states] == ["waiting", "playing", "paused", "over"]
+    assert [name for name, one in states.items() if one.initial] == ["waiting", "silent", "dark"]
+    assert [name for name, one in states.items() if one.parallel] == ["playing"]
+    assert [name for name, one in states.items() if one.final] == ["over"]
+    assert (states["last"].history, states["last"].start) == ("deep", ("silent",))
+    assert states["waiting"].exit == '<cancel sendid="tick"/>'
+    assert states["waiting"].entry.count("<") == 2
+    assert states["loud"].entry.startswith("<if cond")
+    ways = {(one.source, one.event): one for one in machine.transitions}
+    assert ways["waiting", "start go.*"].targets == ("playing",)
+    assert ways["paused", "begin"].targets == ("loud", "bright")
+    conditional, assigning = (w for w in machine.transitions if w.event == "tick")
+    assert conditional.cond == "points > 3"
+    assert (assigning.targets, assigning.action[:7]) == ((), "<assign")
+
+
+def test_both_languages_say_the_same(tmp_path: Path) -> None:
+    """Names, nesting, parts and ways of one machine written twice."""
+    (tmp_path / "m.smdsl").write_text(
+        "m { initial_state a; states b; end_state c;"
+        " transitions { a => b on go; b => c on stop; }; };"
+        " :b { initial_state x; states y; transitions { x => y on next; y => a on back; }; };"
+    )
+    (tmp_path / "m.scxml").write_text(
+        '<scxml name="m" initial="a"><state id="a"><transition event="go" target="b"/></state>'
+        '<state id="b" initial="x"><transition event="stop" target="c"/>'
+        '<state id="x"><transition event="next" target="y"/></state>'
+        '<state id="y"><transition event="back" target="a"/></state></state>'
+        '<final id="c"/></scxml>'
+    )
+    shapes = []
+    for path in (tmp_path / "m.smdsl", tmp_path / "m.scxml"):
+        machine, report = read(path)
+        assert list(report) == []
+        states = {
+            (s.name, s.initial, s.final, s.start, tuple(i.name for i in s.inside))
+            for s in every_state(machine.states)
+        }
+        ways = {(w.source, w.event, w.targets) for w in machine.transitions}
+        shapes.append((machine.name, machine.start, states, ways))
+    assert shapes[0] == shapes[1]
+
+
+def test_a_component_has_its_machine() -> None:
+    report = Report()
+    shipped = CASES / "interfaces"
+    path = CASES / "cdsl" / "sem_statemachine" / "main.cdsl"
+    found = check_file(path, Workspace(environ={}, shipped=shipped), report)
+    assert isinstance(found, Component)
+    assert found.statemachine is not None
+    assert found.statemachine.machine is not None
+    assert [one.name for one in found.statemachine.machine.states] == ["a", "unseen", "b"]
+
+
+def test_nesting_without_end_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "m.scxml"
+    path.write_text("<scxml>" + "<state>" * 5000 + "</state>" * 5000 + "</scxml>")
+    report = Report()
+    assert check_file(path, Workspace(environ={}), report) is None
+    assert [d.code.id for d in report] == ["RC707"]
+
+
+PIECES = [
+    "<scxml>", '<scxml initial="a">', "</scxml>", '<state id="a">', "<state>", "</state>",
+    '<state id="b" initial="a c">', "<parallel>", "</parallel>", '<final id="c"/>', "<initial>",
+    "</initial>", '<transition target="a"/>', '<transition event="e" target="b &amp; c">',
+    "</transition>", '<history id="h" type="deep">', "</history>", "<onentry>", "</onentry>",
+    "<script>x &lt; 1</script>", "<![CDATA[", "]]>", "<data/>", "text", "<q:w/>", "<", ">",
+]  # fmt: skip
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.lists(st.sampled_from(PIECES), max_size=30).map("".join))
+def test_anything_is_read(text: str) -> None:
+    path = Path("machine.scxml")
+    workspace = Workspace(environ={})
+    source = workspace.files.open_buffer(path, text)
+    report = Report()
+    check_file(path, workspace, report)
+    for one in report:
+        assert one.span.source is source
+        assert 0 <= one.span.start <= one.span.end <= len(text)
