@@ -7,6 +7,7 @@ lines) wait until the user pauses, so that no key waits for them.
 from __future__ import annotations
 
 import asyncio
+import logging
 from collections.abc import Callable
 from time import perf_counter
 
@@ -22,6 +23,8 @@ Publish = Callable[[lsp.PublishDiagnosticsParams], None]
 SLOW_S = 0.25
 """A check that took longer waits for a pause the next time: some ten thousand lines."""
 LONGEST_WAIT_S = 1.0
+
+_logger = logging.getLogger(__name__)
 
 
 class Checking:
@@ -78,9 +81,15 @@ class Checking:
         begin = perf_counter()
         try:
             checked = self._session.check(document.path)
+            found = diagnostics_of(self._session, checked)
         except UnreadableSource:
             return
-        found = diagnostics_of(self._session, checked)
+        except Exception as error:
+            # A file that cannot be checked keeps no other one from it.
+            what = f"{type(error).__name__}: {error}"
+            _logger.warning("internal error in the check of %s: %s", document.path.name, what)
+            _logger.debug("%s", what, exc_info=True)
+            return
         self._took[key] = perf_counter() - begin
         version = document.version
         self._publish(lsp.PublishDiagnosticsParams(document.uri, found, version))

@@ -43,7 +43,16 @@ def diagnostics_of(session: Session, checked: Checked) -> list[lsp.Diagnostic]:
     own.extend(
         _behind_import(session, found, checked.source, imports) for found in elsewhere.values()
     )
-    return own
+    return own if len(own) <= MOST else _cut(own)
+
+
+def _cut(found: list[lsp.Diagnostic]) -> list[lsp.Diagnostic]:
+    """The first ones, errors before the others, and a word on the rest."""
+    kept = sorted(found, key=lambda one: one.severity or 0)[:MOST]
+    said = f"{len(found) - MOST} more findings in this file are not shown"
+    start = lsp.Range(lsp.Position(0, 0), lsp.Position(0, 0))
+    kept.append(lsp.Diagnostic(start, said, lsp.DiagnosticSeverity.Information, source=SOURCE))
+    return kept
 
 
 def diagnostic(session: Session, finding: Diagnostic) -> lsp.Diagnostic:

@@ -1,17 +1,18 @@
-"""Places in texts as the protocol counts them: lines from 0, columns in UTF-16 code units.
+"""Places in texts as the protocol counts them: lines from 0, columns in code units.
 
 In: a `Source` and a place of one kind. Out: the same place of the other kind. Nothing else in the
-project knows of UTF-16; everywhere else a place is an offset in characters.
+project knows of code units; everywhere else a place is an offset in characters. A process serves
+one client, so what is agreed with it on the size of the units holds for all places.
 """
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from weakref import WeakKeyDictionary
 
-from lsprotocol.types import Position, Range
+from lsprotocol.types import Position, PositionEncodingKind, Range
 
 from robocomp_dsl.source import Source, Span
 
@@ -20,11 +21,24 @@ _LONE_RETURN = re.compile(r"\r(?!\n)")
 _ASTRAL = 0xFFFF
 """Characters above this take two UTF-16 code units."""
 
+_SIZES: dict[str, Callable[[str], int]] = {
+    PositionEncodingKind.Utf8: lambda text: len(text.encode("utf-8", "surrogatepass")),
+    PositionEncodingKind.Utf16: lambda text: len(text) + sum(ord(one) > _ASTRAL for one in text),
+    PositionEncodingKind.Utf32: len,
+}
+"""How many units a text takes, by what was agreed on."""
+
+_agreed: list[Callable[[str], int]] = [_SIZES[PositionEncodingKind.Utf16]]
 _starts: WeakKeyDictionary[Source, Sequence[int]] = WeakKeyDictionary()
 
 
 class WrongPosition(ValueError):
     """A client asked about a line that the text does not have."""
+
+
+def agree(encoding: str) -> None:
+    """Count columns in units of `encoding` from now on; of an unknown one in UTF-16."""
+    _agreed[:] = [_SIZES.get(encoding, _SIZES[PositionEncodingKind.Utf16])]
 
 
 def offset_at(source: Source, position: Position) -> int:
@@ -69,7 +83,7 @@ def span_of(source: Source, place: Range) -> Span:
 
 
 def length_of(span: Span) -> int:
-    """How many UTF-16 code units `span` covers."""
+    """How many code units `span` covers."""
     return _units(span.text)
 
 
@@ -98,11 +112,12 @@ def _line(source: Source, number: int) -> tuple[int, int]:
 
 
 def _characters(line: str, units: int) -> int:
-    """How many characters of `line` take `units` code units; half a pair counts as none."""
+    """How many characters of `line` take `units` code units; a part of one counts as none."""
     if line.isascii():
         return min(units, len(line))
+    size = _agreed[0]
     for number, character in enumerate(line):
-        units -= 2 if ord(character) > _ASTRAL else 1
+        units -= size(character)
         if units < 0:
             return number
     return len(line)
@@ -111,4 +126,4 @@ def _characters(line: str, units: int) -> int:
 def _units(text: str) -> int:
     if text.isascii():
         return len(text)
-    return len(text) + sum(ord(character) > _ASTRAL for character in text)
+    return _agreed[0](text)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from lsprotocol import types as lsp
+from pygls.capabilities import ServerCapabilitiesBuilder
 from pygls.exceptions import JsonRpcException, JsonRpcInternalError, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, lsp_method
@@ -39,7 +40,7 @@ from robocomp_dsl.editor import (
     workspace_symbols,
 )
 from robocomp_dsl.editor.checking import Checking
-from robocomp_dsl.editor.positions import WrongPosition
+from robocomp_dsl.editor.positions import WrongPosition, agree
 from robocomp_dsl.editor.session import Document, NoDescription, Session
 
 Feature = Callable[[Session, Any], Any]
@@ -122,6 +123,7 @@ class Server(LanguageServer):
         }
 
     def _initialize(self, params: lsp.InitializeParams) -> None:
+        agree(ServerCapabilitiesBuilder.choose_position_encoding(params.capabilities))
         uris = [folder.uri for folder in params.workspace_folders or ()]
         uris = uris or [params.root_uri or ""]
         self.session.folders = _folders(uris)

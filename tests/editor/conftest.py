@@ -18,17 +18,23 @@ async def start() -> AsyncIterator[Callable[..., Any]]:
     """Start a server for a folder, as the editor with the given capabilities would."""
     running: list[LanguageClient] = []
 
-    async def started(folder: Path, capabilities: str = "visual-studio-code") -> Editor:
+    async def started(
+        folder: Path,
+        capabilities: str = "visual-studio-code",
+        change: Callable[[lsp.ClientCapabilities], None] = lambda _: None,
+    ) -> Editor:
+        can = client_capabilities(capabilities)
+        change(can)
         client = make_test_lsp_client()
         await client.start_io(*SERVER)
         running.append(client)
         uri = from_fs_path(str(folder)) or ""
         params = lsp.InitializeParams(
-            capabilities=client_capabilities(capabilities),
+            capabilities=can,
             workspace_folders=[lsp.WorkspaceFolder(uri, "test")],
         )
         offered = (await client.initialize_session(params)).capabilities
-        editor = Editor(client, folder)
+        editor = Editor(client, folder, offered)
         if offered.semantic_tokens_provider:
             editor.legend = list(offered.semantic_tokens_provider.legend.token_types)
         return editor

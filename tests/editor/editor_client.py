@@ -19,9 +19,12 @@ DEADLINE_S = 30
 class Editor:
     """What a user sees and does. A place is written as `|` in a text."""
 
-    def __init__(self, client: LanguageClient, folder: Path) -> None:
+    def __init__(
+        self, client: LanguageClient, folder: Path, offered: lsp.ServerCapabilities
+    ) -> None:
         self.client = client
         self.folder = folder
+        self.offered = offered
         self.versions: dict[str, int] = {}
         self.legend: list[str] = []
 
@@ -68,7 +71,8 @@ class Editor:
         """Document and position of the `|` in a text that was opened without it."""
         before = marked[: marked.index("|")]
         line = before.count("\n")
-        units = len(before.rpartition("\n")[2].encode("utf-16-le")) // 2
+        assert before.rpartition("\n")[2].isascii()
+        units = len(before.rpartition("\n")[2])
         document = lsp.TextDocumentIdentifier(self.uri(name))
         return {"text_document": document, "position": lsp.Position(line, units)}
 

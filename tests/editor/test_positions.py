@@ -11,6 +11,7 @@ from lsprotocol.types import Position, Range
 
 from robocomp_dsl.editor.positions import (
     WrongPosition,
+    agree,
     edit_offset,
     length_of,
     offset_at,
@@ -74,3 +75,18 @@ def test_every_offset_comes_back(text: str, data: st.DataObject) -> None:
         offset,
         offset - 1 if text[offset - 1 : offset + 1] == "\r\n" else offset,
     )
+
+
+@pytest.mark.parametrize(
+    ("encoding", "column", "length"), [("utf-8", 6, 6), ("utf-16", 3, 3), ("utf-32", 2, 2)]
+)
+def test_units_are_those_that_were_agreed_on(encoding: str, column: int, length: int) -> None:
+    made = source("é🤖b")
+    agree(encoding)
+    try:
+        assert position_at(made, 2) == Position(0, column)
+        assert offset_at(made, Position(0, column)) == 2
+        assert offset_at(made, Position(0, column - 1)) == 1
+        assert length_of(made.span(0, 2)) == length
+    finally:
+        agree("utf-16")
