@@ -12,13 +12,17 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: demo test lint format bench golden clean
+.PHONY: demo test test-slow lint format bench golden clean
 
 demo: $(READY)
 	$(BIN)/python components/wander/demo.py
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal $(TESTS)
+
+# Many random rounds: minutes, not seconds.
+test-slow: $(READY)
+	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow $(TESTS)
 
 lint: $(READY)
 	$(BIN)/ruff check .
