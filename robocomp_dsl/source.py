@@ -2,16 +2,18 @@
 
 In: a path and its text. Out: `Source` (immutable text that can turn an offset into a line and a
 column) and `Span` (a range of characters in one source). Lines and columns count from 1 and
-columns count characters; they are computed only when somebody looks.
+columns count characters; they are computed only when somebody looks. A `Piece` lets the spans of
+an unchanged part of a text move along when the text around it changes in an editor.
 """
 
 from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are refused: no description of a component comes near it."""
@@ -34,10 +36,16 @@ class UnreadableSource(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """One text as the user wrote it; `path` is how the user named it."""
+    """One text as the user wrote it; `path` is how the user named it.
+
+    `memory` is for texts that are edited: all texts of one file share it, and a parser keeps there
+    what it can use again for the next one. None means that the text is read once.
+    """
 
     path: Path
     text: str
+    memory: dict[str, Any] | None = field(default=None, repr=False)
+    shift = 0
 
     @classmethod
     def read(cls, path: Path) -> Source:
@@ -56,6 +64,11 @@ class Source:
             reason = getattr(error, "strerror", None) or str(error)
             raise UnreadableSource(f"the file cannot be read: {reason}") from None
         return cls(path, decode(data))
+
+    @property
+    def source(self) -> Source:
+        """Itself: a text is a place that never moves."""
+        return self
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -89,13 +102,43 @@ class Source:
         return Span(self, 0, 0)
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
-    """The characters [start, end) of a source."""
+@dataclass(slots=True, eq=False)
+class Piece:
+    """A part of a text that stays the same while the text around it is edited.
+
+    `shift` is how far it has moved since it was read; the parser sets both when the text changes.
+    """
 
     source: Source
-    start: int
-    end: int
+    shift: int = 0
+
+
+class Span:
+    """The characters [start, end) of a source; they move with the piece they were read in."""
+
+    __slots__ = ("_end", "_place", "_start")
+    __match_args__ = ("source", "start", "end")
+
+    def __init__(self, place: Source | Piece, start: int, end: int) -> None:
+        """`start` and `end` count from where the text of `place` begins, without its shift."""
+        self._place = place
+        self._start = start
+        self._end = end
+
+    @property
+    def source(self) -> Source:
+        """The text."""
+        return self._place.source
+
+    @property
+    def start(self) -> int:
+        """Offset of the first character."""
+        return self._start + self._place.shift
+
+    @property
+    def end(self) -> int:
+        """Offset behind the last character."""
+        return self._end + self._place.shift
 
     @property
     def text(self) -> str:
@@ -114,7 +157,24 @@ class Span:
 
     def to(self, other: Span) -> Span:
         """From the start of this span to the end of `other`."""
-        return Span(self.source, self.start, max(self.end, other.end))
+        return self.part(self.start, max(self.end, other.end))
+
+    def part(self, start: int, end: int) -> Span:
+        """The characters [start, end) of the source; they move as this span does."""
+        shift = self._place.shift
+        return Span(self._place, start - shift, end - shift)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Span):
+            return NotImplemented
+        mine, theirs = (self.source, self.start, self.end), (other.source, other.start, other.end)
+        return mine == theirs
+
+    def __hash__(self) -> int:
+        return hash((self.source, self.start, self.end))
+
+    def __repr__(self) -> str:
+        return f"Span({self.source.path.name}, {self.start}, {self.end})"
 
 
 def decode(data: bytes) -> str:

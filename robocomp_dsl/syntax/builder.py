@@ -33,10 +33,12 @@ class Builder:
 
     Each gets the span of its rule and the children that the grammar keeps. `ITEMS` tells what the
     user would call the items of a block; `docs` holds the doc comments by the offset of what they
-    precede. `has_block` becomes true with the block that the file is about.
+    precede. `has_block` becomes true with the block that the file is about. `ITEMS_STAND_ALONE`
+    says that an item of a block is made of its own text alone, and read again when that changes.
     """
 
     ITEMS: ClassVar[Mapping[str, str]] = {}
+    ITEMS_STAND_ALONE: ClassVar = True
 
     def __init__(self, findings: Findings) -> None:
         self.findings = findings
@@ -49,17 +51,17 @@ class Builder:
         return known.get(terminal, self._name)
 
     def _name(self, token: Token) -> Name:
-        return Name(Span(self.findings.source, token.start, token.end), token.text)
+        return Name(Span(self.findings.place, token.start, token.end), token.text)
 
     def _text(self, token: Token) -> Text:
-        span = Span(self.findings.source, token.start, token.end)
+        span = Span(self.findings.place, token.start, token.end)
         return Text(span, _ESCAPE.sub(_unescape, token.text[1:-1]))
 
     def _number(self, token: Token) -> Number:
-        return Number(Span(self.findings.source, token.start, token.end), number(token.text))
+        return Number(Span(self.findings.place, token.start, token.end), number(token.text))
 
     def _unit(self, token: Token) -> Unit:
-        span = Span(self.findings.source, token.start, token.end)
+        span = Span(self.findings.place, token.start, token.end)
         return Unit(span, token.text[1:-1].strip())
 
     def import_file(self, span: Span, path: Text) -> Import:

@@ -6,10 +6,11 @@ errors and `LIMIT` warnings for a file, and a closing note where there were more
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from robocomp_dsl.diagnostics import Code, Edit, Fix, Note, Report, Severity
-from robocomp_dsl.source import Source, Span
+from robocomp_dsl.diagnostics import Code, Diagnostic, Edit, Fix, Note, Report, Severity
+from robocomp_dsl.source import Piece, Source, Span
 from robocomp_dsl.syntax import codes
 
 LIMIT = 100
@@ -20,6 +21,7 @@ class Findings:
     """What was found in `source`; `errors` and `warnings` are counts.
 
     `cut` says that the rest of the file is not read, so that what is missing at the end is no news.
+    `place` is what the spans of the tree are made in: `source`, or the piece of it that is read.
     """
 
     source: Source
@@ -27,7 +29,16 @@ class Findings:
     errors: int = 0
     warnings: int = 0
     cut: bool = False
+    place: Source | Piece = field(init=False)
     _noted: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.place = self.source
+
+    @property
+    def crowded(self) -> bool:
+        """Whether findings may have been left out, so that each depends on all the others."""
+        return self.errors >= LIMIT or self.warnings >= LIMIT
 
     @property
     def full(self) -> bool:
@@ -48,6 +59,8 @@ class Findings:
     ) -> None:
         """Add a finding about the characters [start, end)."""
         span = self.source.span(start, end)
+        # A finding stays with its text; what a note points at may move to the next one.
+        notes = tuple(Note(self.source.span(n.span.start, n.span.end), n.message) for n in notes)
         if code.severity is Severity.ERROR:
             self.errors += 1
             if self.errors > LIMIT:
@@ -59,6 +72,13 @@ class Findings:
                 self._close(span, "warnings; further ones in this file are not listed")
                 return
         self.report.add(code, span, message, label=label, notes=notes, help=help, fix=fix)
+
+    def again(self, found: Sequence[Diagnostic]) -> None:
+        """Add findings that were made before, in a text that is still the same."""
+        errors = sum(one.severity is Severity.ERROR for one in found)
+        self.errors += errors
+        self.warnings += len(found) - errors
+        self.report.extend(found)
 
     def fix(self, title: str, *edits: tuple[int, int, str]) -> Fix:
         """A fix that puts texts in the places [start, end)."""

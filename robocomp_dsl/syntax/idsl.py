@@ -77,7 +77,7 @@ class IdslBuilder(Operations):
 
     def _head(self, span: Span) -> Span:
         """The first line of it."""
-        return Span(span.source, span.start, span.start + len(span.text.partition("\n")[0]))
+        return span.part(span.start, span.start + len(span.text.partition("\n")[0]))
 
     def extends(self, span: Span, *_types: Any) -> None:
         """`extends Other`, which Slice has and IDSL has not."""

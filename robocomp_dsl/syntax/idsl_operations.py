@@ -33,7 +33,7 @@ class Template(Node):
     def container(self) -> Span:
         """The word in front of the `<`."""
         length = len(self.span.text.partition("<")[0].rstrip())
-        return Span(self.span.source, self.span.start, self.span.start + length)
+        return self.span.part(self.span.start, self.span.start + length)
 
 
 class Throws(Node):
@@ -56,7 +56,7 @@ class Operations(Builder):
     def inline_template(self, span: Span, template: Template) -> QualifiedName:
         """A template in the place of a type, which must have a name of its own."""
         written = re.sub(r"\s+", "", span.text)
-        inside = written[written.index("<") :]
+        inside = f"<{', '.join(one.text for one in template.types)}>"
         right = f"sequence{inside}" if template.is_sequence else f"dictionary{inside}"
         self.say(
             codes.TEMPLATE_TYPE,
@@ -139,7 +139,7 @@ class Operations(Builder):
 
     def _pattern(self, mark: Unit) -> Name:
         start = mark.span.start + mark.span.text.index(mark.text)
-        word = Name(Span(mark.span.source, start, start + len(mark.text)), mark.text)
+        word = Name(mark.span.part(start, start + len(mark.text)), mark.text)
         self.vocabulary(word, PATTERNS, "pattern")
         return word
 

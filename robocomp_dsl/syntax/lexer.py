@@ -47,9 +47,8 @@ class Lexer:
         self._tables = tables
         self._findings = findings
 
-    def tokens(self) -> Iterator[Token]:
-        """The tokens in order, then endless `$END`."""
-        at = 0
+    def tokens(self, at: int = 0) -> Iterator[Token]:
+        """The tokens from the offset `at` on, in order, then endless `$END`."""
         while at < self._end and not self._findings.full:
             at = yield from self._stretch(at)
         size = len(self._text)

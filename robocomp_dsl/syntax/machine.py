@@ -60,12 +60,12 @@ class Machine:
     """
 
     def __init__(self, tables: Tables, builder: Builder, findings: Findings) -> None:
-        lexer = Lexer(findings.source, tables, findings)
-        builder.docs = lexer.docs
+        self._lexer = Lexer(findings.source, tables, findings)
+        builder.docs = self._lexer.docs
         self.tables = tables
         self.builder = builder
         self.findings = findings
-        self.stream = Stream(lexer.tokens())
+        self.stream = Stream(self._lexer.tokens())
         self.stack: list[Entry] = [(0, None, 0, 0)]
         self.trail: deque[Token] = deque(maxlen=TRAIL)
         self.told_behind = -1
@@ -99,8 +99,20 @@ class Machine:
             else:
                 # The list of a repetition grows in place, or long files would take ages.
                 children = symbols[index][1]
-        span = Span(self.findings.source, start, end)
+        span = Span(self.findings.place, start, end)
         return plan.call(span, *children) if plan.call else children
+
+    def jump(self, before: Token, untold: int | None) -> None:
+        """Go on behind `before`, to which the innermost list of items has been filled up.
+
+        `untold` counts the errors that were not reported where `before` is the last good token.
+        """
+        state, items, start, _ = self.stack[-1]
+        self.stack[-1] = (state, items, start, before.end)
+        self.trail.clear()
+        self.trail.append(before)
+        self.told_behind, self.untold = (-1, 0) if untold is None else (before.end, untold)
+        self.stream.go_on_with(self._lexer.tokens(before.end))
 
     def cut(self, at: int) -> None:
         """Let the file end here, without a word on what is then missing."""

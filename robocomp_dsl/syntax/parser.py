@@ -6,7 +6,7 @@ with Lark's contextual lexer. What does not fit at all is left to `recovery`.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.builder import Builder
@@ -15,15 +15,19 @@ from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.machine import Machine
 from robocomp_dsl.syntax.tables import END, Tables, name_action
 
+if TYPE_CHECKING:
+    from robocomp_dsl.syntax.reuse import Reuse
+
 DEEPEST = 400
 """Entries of the stack, about four for a pair of braces: readers of a tree may recurse safely."""
 
 
-def parse(tables: Tables, builder: Builder, findings: Findings) -> Any:
+def parse(tables: Tables, builder: Builder, findings: Findings, reuse: Reuse | None = None) -> Any:
     """What the builder makes of the source that the findings are about."""
     machine = Machine(tables, builder, findings)
     stack, trail, take = machine.stack, machine.trail, machine.stream.take
     actions, words = tables.actions, tables.words
+    resting = tables.restarts if reuse else frozenset()
     token = take()
     while True:
         row = actions[stack[-1][0]]
@@ -36,6 +40,8 @@ def parse(tables: Tables, builder: Builder, findings: Findings) -> Any:
             machine.reduce(-1 - action, token.start)
             if token.kind == END and stack[-1][0] == tables.accept:
                 return stack[-1][1]
+            if stack[-1][0] in resting and reuse:
+                token = reuse.between_items(machine, token)
         else:
             trail.append(token)
             stack.append((action, token, token.start, token.end))

@@ -144,4 +144,4 @@ def _bound(span: Span, start: int, match: re.Match[str], group: int) -> Number |
     if not match[group]:
         return None
     at, end = match.span(group)
-    return Number(Span(span.source, start + at, start + end), number(match[group]))
+    return Number(span.part(start + at, start + end), number(match[group]))

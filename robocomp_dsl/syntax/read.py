@@ -27,10 +27,7 @@ _HEAD = rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{"
 
 def read(language: str, builder: type[Builder], source: Source, report: Report) -> Any:
     """The file node that `builder` makes of `source`."""
-    own = Report()
-    findings = Findings(source, own)
-    made = builder(findings)
-    file = parse(load(language), made, findings)
+    file, made, own = _parse(language, builder, source)
     other = None if made.has_block else _other_language(language, source)
     if other:
         what, start, end = other
@@ -44,6 +41,24 @@ def read(language: str, builder: type[Builder], source: Source, report: Report) 
     else:
         report.extend(own)
     return file
+
+
+def _parse(language: str, builder: type[Builder], source: Source) -> tuple[Any, Builder, Report]:
+    """The tree, who made it, and what was found; of an edited text, only what changed is read."""
+    memory = source.memory if builder.ITEMS_STAND_ALONE else None
+    findings = Findings(source, Report())
+    made = builder(findings)
+    if memory is None:
+        return parse(load(language), made, findings), made, findings.report
+    from robocomp_dsl.syntax.reuse import Reuse  # noqa: PLC0415 - only an editor needs it
+
+    reuse = Reuse(memory.get(language), findings)
+    file = parse(load(language), made, findings, reuse)
+    if reuse.jumped and findings.crowded:
+        del memory[language]
+        return _parse(language, builder, source)
+    memory[language] = reuse.memory()
+    return file, made, findings.report
 
 
 def _other_language(language: str, source: Source) -> tuple[str, int, int] | None:

@@ -63,8 +63,14 @@ def _complete_statement(machine: Machine) -> None:
 
 
 def _since(machine: Machine, start: int) -> list[Token]:
-    """The tokens taken since the one that begins at `start`, if they are still known."""
+    """The tokens taken since the one that begins at `start`, if they are still known.
+
+    Not those of an item with a whole block in it: nobody means to begin it anew, and the tokens in
+    front of a block's last item need not be remembered.
+    """
     item = [token for token in machine.trail if token.start >= start]
+    if any(token.kind == "RBRACE" for token in item):
+        return []
     return item if item and item[0].start == start else []
 
 
@@ -97,8 +103,9 @@ def _tell(machine: Machine, situation: Situation, made: Repair) -> None:
         machine.untold += 1
         if machine.untold > PATIENCE:
             raise Garbage(situation.ahead[0])
-    elif not cut:
+    else:
         machine.untold = 0
+    if not machine.untold and not cut:
         expected = expectation(situation, machine.builder.ITEMS)
         made.tell(machine.findings, f"expected {expected}, found {quote(situation.ahead[0])}")
     machine.told_behind = -1 if made.put else situation.before.end

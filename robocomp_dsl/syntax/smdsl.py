@@ -26,6 +26,7 @@ def parse(source: Source, report: Report) -> ast.File:
 class SmdslBuilder(Builder):
     """Makes the nodes of `ast_smdsl`."""
 
+    ITEMS_STAND_ALONE: ClassVar = False  # the docs of states are looked up from outside
     ITEMS: ClassVar = {
         "file_item": "a machine or `:state { … };`",
         "machine_item": "`states`, `initial_state`, `end_state`, `transitions`",

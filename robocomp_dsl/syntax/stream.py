@@ -41,14 +41,23 @@ class Stream:
             ahead.append(next(self._tokens))
         return tuple(ahead)
 
+    @property
+    def has_more(self) -> bool:
+        """Whether tokens were looked at that are not taken yet."""
+        return bool(self._ahead)
+
+    def go_on_with(self, tokens: Iterator[Token]) -> None:
+        """Take all further tokens from another place."""
+        self._ahead.clear()
+        self._tokens = tokens
+
     def put(self, tokens: Iterable[Token]) -> None:
         """Put tokens in front; the first of them comes next."""
         self._ahead.extendleft(reversed(tuple(tokens)))
 
     def cut(self, at: int) -> None:
         """Let the file end here, at the offset `at`."""
-        self._ahead.clear()
-        self._tokens = iter(lambda: Token(END, "", at, at), None)
+        self.go_on_with(iter(lambda: Token(END, "", at, at), None))
 
     def pass_over_statement(self, depth: int, keywords: Container[str], text: str) -> Token:
         """Take the rest of a broken statement and return its last token.

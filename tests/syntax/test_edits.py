@@ -1,0 +1,107 @@
+"""A text of which only the edits are parsed gives the tree and the findings of a full parse."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from robocomp_dsl.diagnostics import Diagnostic, Report
+from robocomp_dsl.source import Source, Span
+from robocomp_dsl.syntax import LANGUAGES
+from robocomp_dsl.syntax.node import Node
+from tests.syntax.test_mutated import PIECES, REAL
+
+STATEMENTS = [
+    "struct A { int x; };\n",
+    "enum E { A, B };\n",
+    "sequence<int> L;\n",
+    "/** Doc. */\n",
+    "/// Doc.\n",
+    "interface I {\n  void f(int a);\n};\n",
+    "};\n",
+    "string x;\n",
+    "# a line\n",
+    "module N\n{\n",
+    "Component C { Communications { requires Laser; }; };\n",
+    "requires Laser;\n",
+    "period 5;\n",
+    "// x\n",
+    ";\n\n;",
+    "/*",
+    "*/",
+    'import "X.idsl";\n',
+    "x float 1.0 [mm] 0:2;\n",
+    "component a of B { after b; };\n",
+    "connect a.X -> b.Y;\n",
+    "}",
+    "\r\n",
+]
+LONG = "".join(
+    f"  struct S{n} {{\n    /** x */ int a{n} = {n} [mm];\n    S{n - 1} b;\n  }};\n"
+    f"  sequence<S{n}> L{n};\n"
+    for n in range(1, 40)
+)
+TEXTS: dict[str, list[str]] = {
+    suffix: [p.read_text("utf-8", "replace") for p in REAL[suffix]] for suffix in LANGUAGES
+}
+TEXTS[".idsl"] += [
+    f"module Long\n{{\n{LONG}}};\n",
+    f"module One {{ {LONG} }};\nmodule Two {{\n{LONG}}};\n",
+]
+
+
+def plain(value: Any) -> Any:
+    """A tree or finding as tuples of numbers and texts, spans and all."""
+    if isinstance(value, Span):
+        return value.start, value.end, value.source.text
+    if isinstance(value, Node):
+        fields: tuple[str, ...] = type(value).__match_args__
+        return type(value).__name__, *(plain(getattr(value, field)) for field in fields)
+    if isinstance(value, tuple):
+        return tuple(plain(one) for one in value)
+    if isinstance(value, Diagnostic):
+        notes = tuple((plain(note.span), note.message) for note in value.notes)
+        edits = tuple((plain(e.span), e.text) for e in value.fix.edits) if value.fix else ()
+        said = (value.code.id, value.message, value.label, value.help)
+        return *said, plain(value.span), notes, edits
+    return value
+
+
+def edit(text: str, rng: random.Random) -> str:
+    """`text` with one place edited, mostly as people do."""
+    at = rng.randint(0, len(text))
+    until = min(len(text), at + rng.choice((0, 0, 0, 1, 1, 8, 80, 800)))
+    lines = [i + 1 for i, c in enumerate(text) if c == "\n"]
+    if lines and rng.random() < 0.3:
+        at = rng.choice(lines)
+        until = rng.choice((at, text.find("\n", at) + 1 or len(text)))
+    put = rng.choice(("", "", " ", "\n", "a", "7", *PIECES, *STATEMENTS, text[at:until] * 2))
+    return text[:at] + put + text[until:]
+
+
+@pytest.mark.parametrize("suffix", sorted(LANGUAGES))
+@settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+@given(seed=st.integers(0, 2**32))
+def test_edits(suffix: str, seed: int) -> None:
+    rng = random.Random(seed)
+    text = rng.choice(TEXTS[suffix])
+    compare(suffix, [text := edit(text, rng) for _ in range(rng.randint(2, 12))])
+
+
+def compare(suffix: str, texts: list[str]) -> None:
+    """Parse the texts one after the other with one memory, and each by itself."""
+    path, memory = Path(f"x{suffix}"), dict[str, Any]()
+    parse = LANGUAGES[suffix]
+    for number, text in enumerate(texts):
+        kept, alone = Report(), Report()
+        source = Source(path, text, memory)
+        tree = parse(source, kept)
+        fresh = parse(Source(path, text), alone)
+        shown = "\n=====\n".join(texts[: number + 1])
+        assert plain(tree) == plain(fresh), shown
+        assert [plain(one) for one in kept] == [plain(one) for one in alone], shown
