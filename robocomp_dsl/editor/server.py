@@ -23,11 +23,13 @@ from pygls.uris import to_fs_path
 
 from robocomp_dsl import __version__
 from robocomp_dsl.editor import (
+    call_hierarchy,
     code_lens,
     completion,
     definition,
     document_symbols,
     folding,
+    formatting,
     hover,
     inlay_hints,
     links,
@@ -63,6 +65,8 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
         quick_fixes.code_actions,
         lsp.CodeActionOptions(code_action_kinds=quick_fixes.KINDS),
     ),
+    lsp.TEXT_DOCUMENT_FORMATTING: (formatting.formatting, None),
+    lsp.TEXT_DOCUMENT_RANGE_FORMATTING: (formatting.range_formatting, None),
     lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: (
         semantic_tokens.semantic_tokens,
         semantic_tokens.LEGEND,
@@ -71,6 +75,9 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
     lsp.TEXT_DOCUMENT_DOCUMENT_LINK: (links.document_links, None),
     lsp.TEXT_DOCUMENT_INLAY_HINT: (inlay_hints.inlay_hints, None),
     lsp.TEXT_DOCUMENT_CODE_LENS: (code_lens.code_lenses, None),
+    lsp.TEXT_DOCUMENT_PREPARE_CALL_HIERARCHY: (call_hierarchy.prepare, None),
+    lsp.CALL_HIERARCHY_INCOMING_CALLS: (call_hierarchy.incoming, None),
+    lsp.CALL_HIERARCHY_OUTGOING_CALLS: (call_hierarchy.outgoing, None),
 }
 """Method of the protocol to the function that answers it, and what the client is told of it."""
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import takewhile
 from typing import TypeAlias
 
 from robocomp_dsl.format.pieces import Piece
@@ -88,20 +87,29 @@ class _Reader:
         return made
 
     def _braces(self) -> list[Piece] | list[Block]:
-        if self._inline_braces:
-            rest = self._pieces[self._at + 1 :]
-            inner = list(takewhile(lambda p: p.kind != "_SEMI" and p.text not in "{}", rest))
-            close = self._peek(len(inner) + 1)
-            if any(not p.comment for p in inner) and close and close.text == "}":
-                return [self._take() for _ in range(len(inner) + 2)]
+        size = self._mere_list() if self._inline_braces else 0
+        if size:
+            return [self._take() for _ in range(size)]
         self._take()
         first = self._at
         opening = self._comments_behind(or_brace=False)
         items = self.items(inside=True)
         close = self._take() if self._at < len(self._pieces) else Piece("SIGN", "", 0, 0, 0)
-        inner = list(self._pieces[first : self._at])
+        inner = self._pieces[first : self._at]
         flat = not any(p.breaks or p.kind == "LINE" or "\n" in p.text for p in inner)
         return [Block(opening, items, close, flat)]
+
+    def _mere_list(self) -> int:
+        """How many pieces the braces are, with all inside, if no statement is; else 0."""
+        words = False
+        for at in range(self._at + 1, len(self._pieces)):
+            one = self._pieces[at]
+            if one.text == "}":
+                return at + 1 - self._at if words else 0
+            if one.kind == "_SEMI" or one.text == "{":
+                return 0
+            words = words or not one.comment
+        return 0
 
     def _comments_behind(self, *, or_brace: bool) -> list[Piece]:
         """The comments that end the line begun, also those in front of its `}` if `or_brace`.

@@ -7,7 +7,6 @@ stand below each other. Texts and what XML has besides tags are kept to the lett
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import takewhile
 
 from robocomp_dsl.format.lines import Line, reindented
 from robocomp_dsl.format.pieces import Piece
@@ -56,10 +55,12 @@ class _Tags:
             self.lines.append(Line(indent + reindented(one, indent)))
 
     def _tag(self, indent: str) -> None:
-        rest = self.pieces[self.at :]
-        parts = list(takewhile(lambda p: p.kind not in _TAG_ENDS, rest))
-        end = rest[len(parts)].text if len(parts) < len(rest) else ""
-        self.at += len(parts) + 1
+        parts = []
+        while self.at < len(self.pieces) and self.pieces[self.at].kind not in _TAG_ENDS:
+            parts.append(self.pieces[self.at])
+            self.at += 1
+        end = self.pieces[self.at].text if self.at < len(self.pieces) else ""
+        self.at += 1
         inline = self._inline() if end == ">" else []
         content = "".join(one.text for one in inline)
         flat = f"{indent}{' '.join(one.text for one in parts)}{end}{content}"

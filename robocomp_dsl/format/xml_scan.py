@@ -20,6 +20,7 @@ _INSIDE = re.compile(
     r"""|(?P<ATTRIBUTE>[A-Za-z_][\w:.-]*\s*=\s*(?:"[^"<]*"|'[^'<]*'))"""
     r"""|(?P<ENDED>>)|(?P<EMPTY>/>)|(?P<OTHER>[^\s<>/]+|\S))"""
 )
+_TIGHT = re.compile(r"[^\s=]+=\S")
 _EQUALS = re.compile(r"\s*=\s*")
 _NAME = re.compile(r"\s+")
 
@@ -33,7 +34,7 @@ def scan_xml(text: str) -> list[Piece]:
         written = match[kind].rstrip()
         start = match.end() - len(match[kind])
         one = make(kind, text, start, start + len(written), at)
-        if kind == "ATTRIBUTE":
+        if kind == "ATTRIBUTE" and not _TIGHT.match(one.text):
             one.text = _EQUALS.sub("=", one.text, count=1)
         elif kind == "CLOSE":
             one.text = _NAME.sub("", one.text)

@@ -1,0 +1,117 @@
+"""Formatting in an editor: small edits that together do what `rcgen fmt` does."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pytest
+from editor_client import Editor
+from lsprotocol import types as lsp
+
+pytestmark = pytest.mark.asyncio
+
+OPTIONS = lsp.FormattingOptions(tab_size=8, insert_spaces=False)
+MESSY = """\
+/** A face: 🙂, and more. */ Component   face {
+  Communications {
+      requires Laser,Speech ; /* 🙂 */ /* one */
+   implements   Face;  // 🙂 two
+
+
+    };
+	language Python
+    period 50 ; };
+"""
+NEAT = """\
+/** A face: 🙂, and more. */ Component face
+{
+    Communications
+    {
+        requires Laser, Speech;  /* 🙂 */ /* one */
+        implements Face;         // 🙂 two
+    };
+    language Python
+    period 50;
+};
+"""
+XML = (
+    '<innerModel><transform id = "a"   tx="1" ><mesh id="🙂"  file="m"/>\n</transform></innerModel>'
+)
+NEAT_XML = """\
+<innerModel>
+    <transform id="a" tx="1">
+        <mesh id="🙂" file="m"/>
+    </transform>
+</innerModel>
+"""
+
+
+def apply(text: str, edits: Sequence[lsp.TextEdit]) -> str:
+    """`text` after the edits, as a client applies them: the last first."""
+    lines = text.split("\n")
+    for one in sorted(edits, key=lambda e: (e.range.start.line, e.range.start.character))[::-1]:
+        start, end = one.range.start, one.range.end
+        before = _cut(lines[start.line], start.character)[0]
+        after = _cut(lines[end.line], end.character)[1]
+        lines[start.line : end.line + 1] = (before + one.new_text + after).split("\n")
+    return "\n".join(lines)
+
+
+def _cut(line: str, units: int) -> tuple[str, str]:
+    data = line.encode("utf-16-le")
+    assert 2 * units <= len(data), "a position behind the end of its line"
+    return data[: 2 * units].decode("utf-16-le"), data[2 * units :].decode("utf-16-le")
+
+
+async def whole(editor: Editor, name: str, text: str) -> list[lsp.TextEdit]:
+    document = lsp.TextDocumentIdentifier(editor.open(name, text))
+    params = lsp.DocumentFormattingParams(document, OPTIONS)
+    return list(await editor.client.text_document_formatting_async(params) or ())
+
+
+async def lines(editor: Editor, name: str, text: str, first: int, last: int) -> str:
+    """`text` with the lines from `first` up to `last`, without that, selected and formatted."""
+    document = lsp.TextDocumentIdentifier(editor.open(name, text))
+    selected = lsp.Range(lsp.Position(first, 0), lsp.Position(last, 0))
+    params = lsp.DocumentRangeFormattingParams(document, selected, OPTIONS)
+    return apply(text, list(await editor.client.text_document_range_formatting_async(params) or ()))
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "neat"), [("face.cdsl", MESSY, NEAT), ("world.xml", XML, NEAT_XML)]
+)
+async def test_a_whole_file(editor: Editor, name: str, text: str, neat: str) -> None:
+    edits = await whole(editor, name, text)
+    assert apply(text, edits) == neat
+    assert all(one.new_text.strip() == "" for one in edits if name != "world.xml")
+
+
+@pytest.mark.parametrize(("name", "neat"), [("face.cdsl", NEAT), ("world.xml", NEAT_XML)])
+async def test_a_neat_file_needs_nothing(editor: Editor, name: str, neat: str) -> None:
+    assert await whole(editor, name, neat) == []
+
+
+async def test_one_change_is_one_edit(editor: Editor) -> None:
+    edits = await whole(editor, "face.cdsl", NEAT.replace("period 50", "period  50"))
+    assert edits == [lsp.TextEdit(lsp.Range(lsp.Position(8, 11), lsp.Position(8, 12)), "")]
+
+
+async def test_line_ends_stay(editor: Editor) -> None:
+    text = NEAT.replace("period 50", "period  50").replace("\n", "\r\n")
+    edits = await whole(editor, "face.cdsl", text)
+    assert apply(text, edits) == NEAT.replace("\n", "\r\n")
+
+
+async def test_errors_of_form_leave_the_file_alone(editor: Editor) -> None:
+    assert await whole(editor, "face.cdsl", MESSY.replace("Component", "Component {")) == []
+
+
+async def test_a_range(editor: Editor) -> None:
+    two = "Component a\n{\n  period   50;\n  threads   2;\n  language   Python;\n};\n"
+    assert await lines(editor, "a.cdsl", two, 3, 4) == two.replace("  threads   2", "    threads 2")
+    assert await lines(editor, "a.cdsl", two, 5, 6) == two
+
+
+async def test_a_range_that_is_not_there(editor: Editor) -> None:
+    with pytest.raises(Exception, match="no line 99"):
+        await lines(editor, "a.cdsl", NEAT, 99, 100)
