@@ -32,6 +32,8 @@ FILES = {
     "wrong.idsl": LASER.replace("float dist", "floot dist").replace("Scans", "Wrong"),
     "wrong.pdsl": "ComponentParams wrong\n{\n    rate flaot 1;\n};\n",
     "wrong.ddsl": 'import "reader.cdsl";\nDeployment wrong\n{\n    component raeder;\n};\n',
+    "wrong.xml": '<innerModel>\n    <transform id="a" id="b"/>\n</innerModel>\n',
+    "ugly.cdsl": READER.replace("    Communications {", "Communications   {"),
 }
 
 
@@ -50,6 +52,7 @@ MISTAKES = (
     Mistake("wrong.idsl", 3, 31, "`floot`"),
     Mistake("wrong.pdsl", 2, 9, "`flaot`"),
     Mistake("wrong.ddsl", 3, 14, "`raeder`"),
+    Mistake("wrong.xml", 1, 22, "`id`"),
 )
 
 

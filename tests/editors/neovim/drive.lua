@@ -72,7 +72,7 @@ end
 
 local function all_findings()
   result.findings = {}
-  for _, name in ipairs({ 'wrong.cdsl', 'wrong.idsl', 'wrong.pdsl', 'wrong.ddsl' }) do
+  for _, name in ipairs({ 'wrong.cdsl', 'wrong.idsl', 'wrong.pdsl', 'wrong.ddsl', 'wrong.xml' }) do
     result.findings[name] = findings(name)
   end
 end
@@ -114,12 +114,13 @@ local function complete(buffer)
   vim.cmd('undo')
 end
 
-local function format(buffer, client)
-  local offered = (client.server_capabilities or client.resolved_capabilities).documentFormattingProvider
-  if not offered then
+local function format(client)
+  local offers = client.server_capabilities or client.resolved_capabilities
+  if not (offers.documentFormattingProvider or offers.document_formatting) then
     return
   end
-  vim.api.nvim_buf_set_lines(buffer, 4, 5, false, { 'Communications   {requires Laser;};' })
+  local buffer = open('ugly.cdsl')
+  ready(buffer)
   if vim.lsp.buf.format then
     vim.lsp.buf.format({ async = false, timeout_ms = WAIT_MS })
   else
@@ -137,8 +138,9 @@ local function everything()
   at(buffer, 'requires Laser', #'requires ')
   result.hover = ask(buffer, 'textDocument/hover').contents.value
   complete(buffer)
-  format(buffer, client)
   definition(buffer)
+  format(client)
+  open('Laser.idsl')
   rename()
 end
 

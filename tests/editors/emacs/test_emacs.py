@@ -1,0 +1,93 @@
+"""A real Emacs, in batch mode, with eglot and the modes that we ship."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lsprotocol import types as lsp
+from real_editor import EDITORS, Project, missing, need, run
+from samples import FILES, MISTAKES, Mistake
+
+from robocomp_dsl.editor.server import FEATURES
+
+pytestmark = pytest.mark.editors
+
+DRIVE = Path(__file__).with_name("drive.el")
+
+
+@pytest.fixture(scope="module")
+def emacs(home: Path) -> list[str | Path]:
+    """The command of an Emacs that has eglot and finds our modes."""
+    command: list[str | Path] = [need("emacs"), "--batch", "-L", EDITORS / "emacs"]
+    there = run([*command, "--eval", '(princ (locate-library "eglot"))'], home, home)
+    return missing("eglot") if "nil" in there.splitlines()[-1] else command
+
+
+@pytest.fixture(scope="module")
+def seen(emacs: list[str | Path], project: Project, home: Path) -> dict[str, Any]:
+    """What a user of Emacs sees in the project."""
+    result = project.path("result.json")
+    run([*emacs, "-l", DRIVE], project.folder, home, {"RESULT": str(result)})
+    made: dict[str, Any] = json.loads(result.read_text())
+    return made
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda one: one.file)
+def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
+    ((line, column, message),) = seen["findings"][mistake.file]
+    assert (line, column) == (mistake.line, mistake.column)
+    assert mistake.message in message
+
+
+def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:
+    assert "interface Scans::Laser" in seen["hover"]
+
+
+def test_completion_offers_interfaces(seen: dict[str, Any]) -> None:
+    assert "Laser" in seen["completion"]
+
+
+def test_definition_jumps_to_the_interface(seen: dict[str, Any]) -> None:
+    assert seen["definition"] == ["Laser.idsl", 6, 14]
+
+
+def test_rename_goes_through_all_files(seen: dict[str, Any]) -> None:
+    assert "    interface Lidar\n" in seen["renamed"]["Laser.idsl"]
+    assert "    Communications { requires Lidar; };\n" in seen["renamed"]["reader.cdsl"]
+
+
+@pytest.mark.skipif(
+    lsp.TEXT_DOCUMENT_FORMATTING not in FEATURES, reason="the server does not format"
+)
+def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
+    assert seen["formatted"] == FILES["reader.cdsl"]
+
+
+def test_words_and_comments_are_coloured(seen: dict[str, Any]) -> None:
+    assert seen["faces"] == ["font-lock-keyword-face", "font-lock-comment-face", "nil"]
+
+
+def test_indentation_leaves_a_tidy_file_alone(seen: dict[str, Any]) -> None:
+    assert seen["indented"] is True
+
+
+@pytest.mark.parametrize("file", ["robocomp.el", "robocomp-words.el"])
+def test_it_compiles_without_a_warning(
+    emacs: list[str | Path], file: str, home: Path, tmp_path: Path
+) -> None:
+    source = tmp_path / file
+    source.write_text((EDITORS / "emacs" / file).read_text(encoding="utf-8"), encoding="utf-8")
+    strict = "(setq byte-compile-error-on-warn t)"
+    run([*emacs, "--eval", strict, "-f", "batch-byte-compile", source], tmp_path, home)
+
+
+def test_without_a_server_the_user_is_told_what_to_do(
+    emacs: list[str | Path], home: Path, tmp_path: Path
+) -> None:
+    asked = "(condition-case told (robocomp--contact) (error (princ (cadr told))))"
+    command = [*emacs, "-l", "robocomp", "--eval", asked]
+    said = run(command, tmp_path, home, {"PATH": str(tmp_path)})
+    assert "pip install 'robocomp_dsl[editor]'" in said
