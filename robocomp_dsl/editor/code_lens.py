@@ -1,20 +1,24 @@
-"""Code lens: how many components use an interface, above its declaration.
+"""Code lens: what can be done with a component, and how many components use an interface.
 
-In: an IDSL file. Out: a line above each interface, which is text only: to see the components, find
-the references of the interface.
+In: a CDSL or IDSL file. Out: a line above each component that generates it, and one above each
+interface that leads to the components.
 """
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 
 from lsprotocol import types as lsp
 
-from robocomp_dsl.check.files import identity
+from robocomp_dsl.editor.asked import location
+from robocomp_dsl.editor.commands import GENERATE, SHOW_REFERENCES
 from robocomp_dsl.editor.positions import range_of
 from robocomp_dsl.editor.session import Session
-from robocomp_dsl.model.component import Component, Role
-from robocomp_dsl.source import UnreadableSource
+from robocomp_dsl.editor.uses import components, interface_key
+from robocomp_dsl.model.component import Port, Role
+from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.syntax import ast_cdsl
 
 _VERBS = {
     Role.IMPLEMENTS: ("implements", "implement"),
@@ -25,35 +29,46 @@ _VERBS = {
 
 
 def code_lenses(session: Session, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
-    """What to show above the interfaces of a file."""
-    session.source(params.text_document.uri)
-    path = session.path_of(params.text_document.uri)
-    if path.suffix.lower() != ".idsl":
+    """What to show in a file."""
+    uri = params.text_document.uri
+    session.source(uri)
+    path = session.path_of(uri)
+    match path.suffix.lower():
+        case ".idsl":
+            things = [one.thing for one in session.index(path).declared()]
+            return _of_interfaces(session, [one for one in things if isinstance(one, Interface)])
+        case ".cdsl":
+            return _of_component(uri, session.parsed(path).tree)
+    return []
+
+
+def _of_component(uri: str, tree: object) -> list[lsp.CodeLens]:
+    if not isinstance(tree, ast_cdsl.File) or tree.component is None:
         return []
-    found = [one.symbol for one in session.index(path).mentions if one.declares]
-    interfaces = [one for one in found if one.kind == "interface"]
-    uses = _uses(session) if interfaces else {}
-    return [
-        lsp.CodeLens(range_of(one.span), lsp.Command(_words(uses.get(one.key, Counter())), ""))
-        for one in interfaces
-    ]
+    command = lsp.Command("generate component", GENERATE, arguments=[uri])
+    return [lsp.CodeLens(range_of(tree.component.name.span), command)]
 
 
-def _uses(session: Session) -> dict[tuple[str, int], Counter[Role]]:
-    """How many components have a port of each role, by the key of the interface."""
-    uses: dict[tuple[str, int], Counter[Role]] = {}
-    for path in session.every_file():
-        if path.suffix.lower() != ".cdsl":
-            continue
-        try:
-            model = session.checked(path).model
-        except UnreadableSource:
-            continue
-        ports = model.ports if isinstance(model, Component) else ()
-        for role, interface in {(port.role, port.interface) for port in ports}:
-            key = identity(interface.span.source.path), interface.span.start
-            uses.setdefault(key, Counter())[role] += 1
-    return uses
+def _of_interfaces(session: Session, declared: list[Interface]) -> list[lsp.CodeLens]:
+    keys = {interface_key(one) for one in declared}
+    ports: dict[tuple[str, int], list[tuple[Port, str]]] = {}
+    for component in components(session) if keys else ():
+        for port in component.ports:
+            key = interface_key(port.interface)
+            if key in keys:
+                ports.setdefault(key, []).append((port, component.name))
+    return [_lens(session, one, ports.get(interface_key(one), ())) for one in declared]
+
+
+def _lens(
+    session: Session, interface: Interface, ports: Iterable[tuple[Port, str]]
+) -> lsp.CodeLens:
+    ports = list(ports)
+    uri, place = session.uri_of(interface.span.source.path), range_of(interface.span)
+    counts = Counter(role for role, _ in {(port.role, name) for port, name in ports})
+    places = [location(session, port.span) for port, _ in ports]
+    arguments = [uri, place.start, places]
+    return lsp.CodeLens(place, lsp.Command(_words(counts), SHOW_REFERENCES, arguments=arguments))
 
 
 def _words(counts: Counter[Role]) -> str:

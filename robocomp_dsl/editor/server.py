@@ -10,7 +10,8 @@ import gc
 import logging
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,7 @@ from robocomp_dsl.editor import (
     workspace_symbols,
 )
 from robocomp_dsl.editor.checking import Checking
+from robocomp_dsl.editor.commands import COMMANDS
 from robocomp_dsl.editor.positions import WrongPosition, agree
 from robocomp_dsl.editor.session import Document, NoDescription, Session
 
@@ -117,6 +119,15 @@ class Server(LanguageServer):
         for method, (function, options) in FEATURES.items():
             handler = _answering(function, self.session)
             self.feature(method, options)(_guarded(method, handler))
+        for name, command in COMMANDS.items():
+            self.command(name)(self._command(name, command))
+
+    def _command(self, name: str, command: Callable[..., Awaitable[Any]]) -> Callable[..., Any]:
+        async def run(*arguments: Any) -> Any:
+            with _explained(name):
+                return await command(self.session, self, *arguments)
+
+        return run
 
     def _notifications(self) -> dict[str, Callable[[Any], Any]]:
         return {
@@ -182,18 +193,25 @@ def _guarded(method: str, handler: Callable[[Any], Any]) -> Callable[[Any], Any]
     """`handler` with every failure made into an answer in the words of the user."""
 
     def guarded(params: Any) -> Any:
-        try:
+        with _explained(method):
             return handler(params)
-        except JsonRpcException:
-            raise
-        except (WrongPosition, NoDescription) as error:
-            raise JsonRpcInvalidParams(str(error)) from None
-        except Exception as error:
-            what = f"internal error in {method}: {type(error).__name__}: {error}"
-            _logger.debug("%s", what, exc_info=True)
-            raise JsonRpcInternalError(what) from None
 
     return guarded
+
+
+@contextmanager
+def _explained(method: str) -> Iterator[None]:
+    """Make every failure inside an answer."""
+    try:
+        yield
+    except JsonRpcException:
+        raise
+    except (WrongPosition, NoDescription) as error:
+        raise JsonRpcInvalidParams(str(error)) from None
+    except Exception as error:
+        what = f"internal error in {method}: {type(error).__name__}: {error}"
+        _logger.debug("%s", what, exc_info=True)
+        raise JsonRpcInternalError(what) from None
 
 
 def _folders(uris: list[str]) -> list[Path]:

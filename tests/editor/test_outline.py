@@ -128,3 +128,8 @@ async def test_code_lens(editor: Editor) -> None:
     assert found.command is not None
     assert found.command.title == "1 component implements this, 1 component requires this"
     assert found.range.start.line == 9
+    assert found.command.command == "rcgen.showReferences"
+    uri, _, places = found.command.arguments or ()
+    assert uri == editor.uri("Laser.idsl")
+    names = {one["uri"].rpartition("/")[2] for one in places}
+    assert names == {"base.cdsl", "reader.cdsl"}
