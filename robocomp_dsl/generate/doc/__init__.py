@@ -8,15 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_dsl.generate.doc.component_page import component_page, parameters_page
+from robocomp_dsl.generate.doc.component_page import (
+    component_page,
+    machine_page,
+    parameters_page,
+)
 from robocomp_dsl.generate.doc.deployment_page import deployment_page
-from robocomp_dsl.generate.doc.html import html_page
+from robocomp_dsl.generate.doc.html import html_page, svg
 from robocomp_dsl.generate.doc.index_page import index_page
 from robocomp_dsl.generate.doc.interface_page import interface_page, module_page
 from robocomp_dsl.generate.doc.markdown import markdown_page
 from robocomp_dsl.generate.doc.site import Site, site_of
 from robocomp_dsl.generate.doc.subject import Subject
-from robocomp_dsl.generate.doc.words import Page
+from robocomp_dsl.generate.doc.words import Figure, Page
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.templates import render
 
@@ -36,6 +40,8 @@ def documentation(subject: Subject, formats: tuple[str, ...] = FORMATS) -> list[
         files += [OutputFile(f"{p.path}.html", html_page(p, pages, subject.title)) for p in pages]
     if "markdown" in formats:
         files += [OutputFile(f"{p.path}.md", markdown_page(p, subject.title)) for p in pages]
+        figures = (one for p in pages for one in p.blocks if isinstance(one, Figure))
+        files += [OutputFile(f"{one.name}.svg", svg(one.drawing)) for one in figures]
     return files
 
 
@@ -50,3 +56,4 @@ def _pages(site: Site) -> Iterator[Page]:
     yield from (interface_page(*pair, site) for pair in pairs)
     yield from (module_page(one, site) for one in site.modules)
     yield from (parameters_page(one, site) for one in subject.parameters)
+    yield from (machine_page(one, site) for one in subject.lone_machines)

@@ -8,7 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, params
+from robocomp_dsl.generate.doc.graphs import component_figure
 from robocomp_dsl.generate.doc.interface_page import badge
+from robocomp_dsl.generate.doc.machine_blocks import machine_blocks
 from robocomp_dsl.generate.doc.site import Names, Site
 from robocomp_dsl.generate.doc.types_shown import inline_doc
 from robocomp_dsl.generate.doc.words import (
@@ -19,6 +21,7 @@ from robocomp_dsl.generate.doc.words import (
     Heading,
     Page,
     Row,
+    Target,
     Text,
     Words,
     code,
@@ -28,7 +31,9 @@ from robocomp_dsl.generate.doc.words import (
     text,
 )
 from robocomp_dsl.model.component import Component, Port, Role
+from robocomp_dsl.model.interface import Pattern
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
+from robocomp_dsl.model.statemachine import StateMachine
 
 ROLES = {
     Role.IMPLEMENTS: "implements",
@@ -43,6 +48,12 @@ def component_page(component: Component, site: Site) -> Page:
     return Page(site.page(component), component.name, "Component", tuple(_blocks(component, site)))
 
 
+def machine_page(one: StateMachine, site: Site) -> Page:
+    """A state machine that no documented component names."""
+    blocks = (Facts((("File", code(one.path.name)),)), *machine_blocks(one, site.page(one)))
+    return Page(site.page(one), one.name, "State machine", blocks)
+
+
 def parameters_page(one: ParameterSet, site: Site) -> Page:
     """Parameters of a file that no documented component names."""
     blocks = (Facts((("File", code(one.path.name)),)), *prose(one.doc), *parameter_table(one))
@@ -54,12 +65,17 @@ def _blocks(component: Component, site: Site) -> Iterator[Block]:
     yield from prose(component.doc)
     if component.ports:
         yield Heading(2, text("Ports"), "ports")
+        yield component_figure(component, site)
     head = ("port", "how", "interface", "operations", "middleware")
     yield from table(f"Ports of {component.name}", head, [_port(p, site) for p in component.ports])
     if component.parameters and component.parameters.parameters:
         yield Heading(2, text("Parameters"), "parameters")
         yield from prose(component.parameters.doc)
         yield from parameter_table(component.parameters)
+    machine = site.subject.machines.get(id(component))
+    if machine is not None:
+        yield Heading(2, text("States"), "states")
+        yield from machine_blocks(machine, site.page(component))
 
 
 def _facts(component: Component, site: Site) -> Iterator[tuple[str, Words]]:
@@ -72,6 +88,8 @@ def _facts(component: Component, site: Site) -> Iterator[tuple[str, Words]]:
         yield "Threads", text(str(component.threads))
     if component.gui:
         yield "Window", code(component.gui)
+    if component.statemachine:
+        yield "State machine", code(component.statemachine.path.name)
     if component.options:
         yield "Options", joined(map(code, component.options))
     homes = [
@@ -84,16 +102,22 @@ def _facts(component: Component, site: Site) -> Iterator[tuple[str, Words]]:
 
 
 def _port(port: Port, site: Site) -> Row:
+    page = site.target(port.interface).page
+    names = Names()
+    groups: dict[Pattern, list[Words]] = {}
+    for one in port.interface.operations:
+        target = Target(page, names.claim(f"operation.{one.name}"))
+        groups.setdefault(port.pattern(one), []).append(code(one.name, target))
     operations = joined(
-        (Code(one.name), Text(" "), badge(port.pattern(one))) for one in port.interface.operations
+        ((badge(pattern), Text(" "), *joined(ones)) for pattern, ones in groups.items()), Text(" ")
     )
-    names = (code(port.name), text(ROLES[port.role]), site.declared(port.interface))
-    return Row((*names, operations, code(port.middleware)))
+    front = (code(port.name), text(ROLES[port.role]), site.declared(port.interface))
+    return Row((*front, operations, code(port.middleware)))
 
 
 def parameter_table(one: ParameterSet) -> Iterator[Block]:
     """All parameters, those inside groups with the names of the groups before theirs."""
-    head = ("parameter", "type", "default", "range", "unit", "", "what it is")
+    head = ("parameter", "type", "default", "range", "unit", "what it is")
     names = Names()
     rows = [
         Row(_parameter(path, p), names.claim(f"parameter.{path}"))
@@ -113,8 +137,9 @@ def _flat(parameters: Iterable[Parameter], before: str = "") -> Iterator[tuple[s
 def _parameter(path: str, one: Parameter) -> tuple[Words, ...]:
     group = one.kind is Kind.GROUP
     default = text("must be given") if one.default is None and not group else _default(one)
-    live = (Badge("live", "live"),) if one.live else ()
-    return (code(path), _type(one), default, _range(one), code(one.unit), live, inline_doc(one.doc))
+    live = (Text(" "), Badge("live", "live")) if one.live else ()
+    name = (Code(path), *live)
+    return name, _type(one), default, _range(one), code(one.unit), inline_doc(one.doc)
 
 
 def _type(one: Parameter) -> Words:
@@ -138,8 +163,12 @@ def _range(one: Parameter) -> Words:
         return ()
     low, high = (None if bound is None else _number(bound) for bound in (one.low, one.high))
     if low is None:
-        return (Text("≤ "), Code(high or ""))
-    return (Text("≥ "), Code(low)) if high is None else (Code(low), Text(" … "), Code(high))
+        return (Text("≤\u00a0"), Code(high or ""))
+    return (
+        (Text("≥\u00a0"), Code(low))
+        if high is None
+        else (Code(low), Text("\u00a0…\u00a0"), Code(high))
+    )
 
 
 def _number(bound: float) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from robocomp_dsl.generate import literals
+from robocomp_dsl.generate.doc.graphs import deployment_figure
 from robocomp_dsl.generate.doc.interface_page import badge
 from robocomp_dsl.generate.doc.site import Names, Site
 from robocomp_dsl.generate.doc.types_shown import inline_doc
@@ -37,6 +38,8 @@ def _blocks(deployment: Deployment, site: Site) -> Iterator[Block]:
     file = ("File", code(deployment.path.name))
     yield Facts((file, ("Middleware", code(deployment.middleware))))
     yield from prose(deployment.doc)
+    if deployment.instances:
+        yield deployment_figure(deployment, site)
     names = Names()
     anchors = {id(one): names.claim(f"instance.{one.name}") for one in deployment.instances}
     yield Heading(2, text("Instances"), "instances")
@@ -45,7 +48,7 @@ def _blocks(deployment: Deployment, site: Site) -> Iterator[Block]:
     yield from table(f"Instances of {deployment.name}", head, rows)
     if deployment.connections:
         yield Heading(2, text("Wires"), "wires")
-    ends = ("from", "to", "interface", "pattern", "quality", "")
+    ends = ("from", "to", "interface", "pattern", "quality")
     wires = [Row(_wire(one, site)) for one in deployment.connections]
     yield from table(f"Wires of {deployment.name}", ends, wires)
     hosts = [Row(_host(one)) for one in deployment.hosts]
@@ -87,19 +90,19 @@ def _start(one: Instance) -> Words:
 def _restart(one: Instance) -> Words:
     if one.restart.policy == "never":
         return text("never")
-    most = f", at most {one.restart.max} times in {one.restart.window_s:g} s"
+    most = f" (≤\u00a0{one.restart.max} in {one.restart.window_s:g}\u00a0s)"
     return text(f"{one.restart.policy.replace('-', ' ')}{most}")
 
 
 def _wire(one: Connection, site: Site) -> tuple[Words, ...]:
     used = dict.fromkeys(one.source_port.pattern(o) for o in one.source_port.interface.operations)
+    implied = (Badge("implied", "plain"),) if one.implied else ()
     return (
         code(f"{one.source.name}.{one.source_port.name}"),
         code(f"{one.target.name}.{one.target_port.name}"),
         site.declared(one.source_port.interface),
-        tuple(map(badge, used)),
+        (*map(badge, used), *implied),
         text(quality(one.qos)),
-        (Badge("implied", "plain"),) if one.implied else (),
     )
 
 

@@ -6,13 +6,13 @@ is made only here, from parts that are escaped.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from os.path import relpath
 
 from markupsafe import Markup, escape
 
-from robocomp_dsl.generate.doc.drawing import Drawing
+from robocomp_dsl.generate.doc.drawing import Drawing, number
 from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Words
 from robocomp_dsl.generate.templates import render
 
@@ -51,11 +51,15 @@ class Html:
                 return link.format(self.address(target), text)
         return escape(getattr(one, "text", ""))
 
-    def drawing(self, drawing: Drawing, name: str) -> Markup:
+    def drawing(self, drawing: Drawing) -> Markup:
         """A drawing inside the page; its parts are links."""
-        return Markup(  # noqa: S704 - the template escapes
-            render("doc/drawing.svg.jinja", drawing=drawing, name=name, address=self.address)
-        )
+        return Markup(svg(drawing, self.address))  # noqa: S704 - its template escapes
+
+
+def svg(drawing: Drawing, link: Callable[[Target], str] | None = None) -> str:
+    """A drawing as part of a page or, without addresses of links, as a file of its own."""
+    context = {"drawing": drawing, "address": link, "number": number, "alone": link is None}
+    return render("doc/drawing.svg.jinja", **context)
 
 
 def address(page: str, target: Target, suffix: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from robocomp_dsl.generate.doc.interface_page import badge
 from robocomp_dsl.generate.doc.site import Site
 from robocomp_dsl.generate.doc.words import (
     Block,
@@ -39,7 +38,7 @@ def _blocks(site: Site) -> Iterator[Block]:
     yield from _section("Deployments", ("deployment", "instances", "what it is"), deployments)
     components = [Row(_component(one, site)) for one in subject.components]
     yield from _section("Components", ("component", "language", "ports", "what it is"), components)
-    head = ("interface", "module", "patterns", "what it is")
+    head = ("interface", "module", "used by", "what it is")
     pairs = [(one, module) for module in site.modules for one in module.interfaces]
     pairs.sort(key=lambda pair: (pair[0].name.lower(), pair[1].name))
     yield from _section("Interfaces", head, [Row(_interface(*pair, site)) for pair in pairs])
@@ -67,10 +66,6 @@ def _component(one: Component, site: Site) -> tuple[Words, ...]:
 
 
 def _interface(one: Interface, module: Module, site: Site) -> tuple[Words, ...]:
-    found = dict.fromkeys(
-        pattern
-        for operation in one.operations
-        for pattern in dict.fromkeys((operation.as_service(), operation.as_topic()))
-    )
-    marks = tuple(badge(pattern) for pattern in sorted(found))
-    return site.declared(one), site.link(module), marks, sentence(one.doc or module.doc)
+    users = {site.page(user): site.link(user) for user, _ in site.users(one)}
+    doc = sentence(one.doc or module.doc)
+    return site.declared(one), site.link(module), joined(users.values()), doc

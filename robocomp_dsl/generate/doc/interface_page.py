@@ -15,6 +15,7 @@ from robocomp_dsl.generate.doc.words import (
     Page,
     Row,
     Signature,
+    Text,
     Words,
     code,
     joined,
@@ -79,7 +80,8 @@ def _users(interface: Interface, site: Site) -> Iterator[Block]:
 
 
 def _operation(one: Operation, anchor: str, site: Site) -> Iterator[Block]:
-    yield Heading(3, (Code(one.name), *patterns(one), *_idempotent(one)), anchor)
+    marks = (*patterns(one), *_idempotent(one))
+    yield Heading(3, (Code(one.name), Text(" "), *marks), anchor)
     yield Signature(tuple(_signature(one, site)))
     yield from prose(one.doc)
     units = [(p, way) for ps, way in ((one.inputs, "in"), (one.outputs, "out")) for p in ps]

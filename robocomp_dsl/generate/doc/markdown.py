@@ -27,6 +27,10 @@ class Markdown:
         """Where a link leads to, seen from this page."""
         return address(self.page, target, ".md")
 
+    def figure(self, name: str) -> str:
+        """Where the file of a drawing is."""
+        return address(self.page, Target(name), ".svg")
+
     def words(self, words: Words) -> str:
         """A line of words."""
         return "".join(map(self._word, words))

@@ -1,0 +1,53 @@
+"""Graphs before and after they are laid out. Lengths are pixels, x to the right, y down."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Point: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A box. `border` "first" or "last" puts it left or right of all nodes that have none."""
+
+    width: float
+    height: float
+    border: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """From one node to another, by their indices; `width` and `height` are those of its label.
+
+    `leaves` and `enters` fix where it touches its nodes, as distances from their tops.
+    """
+
+    source: int
+    target: int
+    width: float = 0.0
+    height: float = 0.0
+    leaves: float | None = None
+    enters: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """Cubic Bézier curves, one after the other: begin, control, control, end, control, ….
+
+    `label` is the centre of the label's place.
+    """
+
+    points: tuple[Point, ...]
+    label: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """The upper left corners of the nodes and the routes of the edges, in the order given."""
+
+    width: float
+    height: float
+    nodes: tuple[Point, ...]
+    routes: tuple[Route, ...]
