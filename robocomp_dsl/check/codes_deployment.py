@@ -354,45 +354,46 @@ Right:
 """,
 )
 
-SEVERAL_HOSTS = Code(
+PLACED_TWICE = Code(
     "RC520",
     Severity.ERROR,
-    "a component is placed on another machine",
+    "a component is placed on two hosts",
     """\
-Hosts other than this machine can be declared, but nothing can be started on them yet.
+What a group is placed on holds for all in it. A component, or a group inside, says the same or
+nothing.
 
-Not yet:
+Wrong:
 
-    host robot { address "10.0.0.2"; };
-    component reflex on robot;
+    group arm on robot { component motor on desk; };
 
-For now:
+Right:
 
-    component reflex;
+    group arm on robot { component motor; };
 """,
 )
 
-GROUPS = Code(
+HOST_ADDRESS = Code(
     "RC521",
     Severity.ERROR,
-    "a group cannot be deployed yet",
+    "a host has no address",
     """\
-Groups can be written, but not deployed yet.
+A host is reached by a name or by the numbers of its network address. `localhost` is this machine
+and needs no declaration.
 
-Not yet:
+Wrong:
 
-    group arm { component motor; export JointMotor from motor; };
+    host robot { user nao; };
 
-For now:
+Right:
 
-    component motor;
+    host robot { address "10.0.0.2"; user nao; };
 """,
 )
 
 EMPTY_DEPLOYMENT = Code(
     "RC522",
     Severity.WARNING,
-    "a deployment has no components",
+    "a deployment or a group has no components",
     """\
 There is nothing to start.
 

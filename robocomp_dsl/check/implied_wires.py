@@ -1,28 +1,33 @@
 """The wires of a deployment that need not be written.
 
-In: instances and the written wires. Out: a wire from each requirement to the only component that
-implements it, and from all publishers of a topic to each subscriber that has no written one.
+In: instances, the written wires, and what groups export. Out: a wire from each requirement to the
+only component that implements it, and from all publishers of a topic to each subscriber that has no
+written one. What is in the same group goes before what is outside of it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.components import Imported
 from robocomp_dsl.check.literals import listing
+from robocomp_dsl.check.scopes import JOINT
 from robocomp_dsl.check.wiring import Written, same_interface
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Instance
 
 End = tuple[Instance, Port]
+Exports = Mapping[str, Mapping[tuple[str, str], str]]
+"""See `groups.seen`."""
 
 
 def implied_wires(
     instances: Sequence[Instance],
     written: Written,
     imported: Imported,
+    exports: Exports,
     report: Report,
     *,
     whole: bool,
@@ -33,26 +38,45 @@ def implied_wires(
     servers = list(_ends(instances, Role.IMPLEMENTS))
     for instance, port in _ends(instances, Role.REQUIRES):
         if (id(instance), id(port)) not in wired:
-            found = [end for end in _serving(port, servers) if end[0] is not instance]
+            others = [end for end in _serving(port, servers) if end[0] is not instance]
+            found = _nearest(instance, others, exports)
             if len(found) == 1:
                 yield Connection(instance, port, *found[0], instance.span, implied=True)
             elif instance.name not in written.troubled:
-                _judge_requirement((instance, port), found, imported, report, whole=whole)
+                shown = [_shown(instance, end, exports) for end in found]
+                _judge_requirement((instance, port), found, shown, imported, report, whole=whole)
     publishers = list(_ends(instances, Role.PUBLISHES))
     for instance, port in _ends(instances, Role.SUBSCRIBES):
         if (id(instance), id(port)) not in wired:
-            heard = _serving(port, publishers)
+            heard = _nearest(instance, _serving(port, publishers), exports)
             for publisher, topic in heard:
                 yield Connection(publisher, topic, instance, port, instance.span, implied=True)
             if not heard and whole:
                 _report_unheard(instance, port, report)
 
 
+def _nearest(instance: Instance, ends: Sequence[End], exports: Exports) -> list[End]:
+    """Those that are seen from the innermost group around `instance` from which any is seen."""
+    scope = instance.group
+    while True:
+        seen = exports.get(scope, {})
+        found = [e for e in ends if e[0].group == scope or (e[0].name, e[1].name) in seen]
+        if found or not scope:
+            return found
+        scope = scope.rpartition(JOINT)[0]
+
+
 def _judge_requirement(
-    end: End, found: Sequence[End], imported: Imported, report: Report, *, whole: bool
+    end: End,
+    found: Sequence[End],
+    shown: Sequence[str],
+    imported: Imported,
+    report: Report,
+    *,
+    whole: bool,
 ) -> None:
     if found:
-        _report_several(*end, found, report)
+        _report_several(*end, found, shown[0], report)
     elif whole:
         _report_unserved(*end, imported, report)
 
@@ -67,14 +91,29 @@ def _serving(port: Port, ends: Sequence[End]) -> list[End]:
     return [end for end in ends if same_interface(end[1], port)]
 
 
-def _report_several(instance: Instance, port: Port, found: Sequence[End], report: Report) -> None:
+def _shown(instance: Instance, end: End, exports: Exports) -> str:
+    """How an end is written where `instance` is, from where it is seen."""
+    other, port = end
+    scope = instance.group
+    while other.group != scope:
+        found = exports.get(scope, {}).get((other.name, port.name))
+        if found or not scope:
+            return found or f"{other.name}.{port.name}"
+        scope = scope.rpartition(JOINT)[0]
+    return f"{other.name.rpartition(JOINT)[2]}.{port.name}"
+
+
+def _report_several(
+    instance: Instance, port: Port, found: Sequence[End], first: str, report: Report
+) -> None:
     names = [f"{one.name}.{other.name}" for one, other in found]
     report.add(
         codes.AMBIGUOUS_REQUIREMENT,
         instance.span,
         f"`{instance.name}` requires `{port.name}`, which {listing(names)} implement",
         notes=[Note(port.span, "it is required here")],
-        help=f"say which one: `connect {instance.name}.{port.name} -> {names[0]};`",
+        help="say which one: "
+        f"`connect {instance.name.rpartition(JOINT)[2]}.{port.name} -> {first};`",
     )
 
 

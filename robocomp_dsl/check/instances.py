@@ -22,11 +22,12 @@ from robocomp_dsl.check.settings import settings_of
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
-from robocomp_dsl.model.deployment import Host, Instance
+from robocomp_dsl.model.deployment import THIS_MACHINE, Host, Instance
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax.ast_base import Name, Number, Text
 
-THIS_MACHINE = Host("", "127.0.0.1")
+HERE = Host("", "127.0.0.1")
+_LOCAL = Host(THIS_MACHINE, THIS_MACHINE)
 DEFAULT_EXECUTABLE = "python3 main.py"
 _CONFIGURATIONS = (".yaml", ".yml", ".toml")
 _LAST_PORT = 65535
@@ -42,7 +43,9 @@ class Surroundings:
     workspace: Workspace
 
 
-def instance_of(tree: ast.Instance, around: Surroundings, report: Report) -> Instance | None:
+def instance_of(
+    tree: ast.Instance, group: str, around: Surroundings, report: Report
+) -> Instance | None:
     """The instance that `tree` describes; None when its component is not known."""
     component = _component(tree.component or tree.name, around, report)
     host = _host(tree.host, around, report)
@@ -67,6 +70,8 @@ def instance_of(tree: ast.Instance, around: Surroundings, report: Report) -> Ins
         restart=restart,
         ready_within_s=ready,
         doc=tree.doc,
+        group=group,
+        placed=tree.host.span if tree.host else None,
     )
 
 
@@ -112,9 +117,11 @@ def _component(name: Name, around: Surroundings, report: Report) -> Component | 
 
 def _host(name: Name | None, around: Surroundings, report: Report) -> Host:
     if name is None:
-        return THIS_MACHINE
+        return HERE
     if name.text in around.hosts:
         return around.hosts[name.text]
+    if name.text == THIS_MACHINE:
+        return _LOCAL
     guess = nearest(name.text, around.hosts)
     report.add(
         codes.UNKNOWN_HOST,
@@ -124,7 +131,7 @@ def _host(name: Name | None, around: Surroundings, report: Report) -> Host:
         help="" if guess else f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
         fix=replace(name.span, guess) if guess else None,
     )
-    return THIS_MACHINE
+    return HERE
 
 
 def _config(written: Text | None, around: Surroundings, report: Report) -> Path | None:

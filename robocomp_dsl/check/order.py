@@ -1,27 +1,62 @@
 """The order in which components start: each behind those that it names with `after`.
 
-In: instances as written. Out: their names in a stable order, and findings about unknown names and
-cycles.
+In: the scopes of a deployment. Out: the full names of its instances in a stable order, and findings
+about unknown names and cycles.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.imports import replace
+from robocomp_dsl.check.scopes import Scope
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.syntax.ast_base import Name
-from robocomp_dsl.syntax.ast_ddsl import Instance
+from robocomp_dsl.syntax.ast_ddsl import Group, Instance
 
 
-def start_order(instances: Sequence[Instance], report: Report) -> list[str]:
-    """The names of all instances, those that stand first first where `after` leaves the choice.
+def start_order(scope: Scope, report: Report) -> list[str]:
+    """The full names of all instances, those of a group together, in the order of starting."""
+    items: list[Instance] = [*scope.instances.values(), *map(_as_instance, scope.groups.values())]
+    items.sort(key=lambda one: one.span.start)
+    farther = scope.outer.visible() if scope.outer else []
+    made: list[str] = []
+    for name in _sorted(items, farther, report):
+        group = scope.groups.get(name)
+        made += start_order(group, report) if group else [scope.full(name)]
+    return made
 
-    What is part of a cycle keeps its written place.
+
+def _as_instance(group: Scope) -> Instance:
+    """A group as one thing that waits for what it and those in it wait for outside of it."""
+    tree = group.tree
+    after = tree.after if isinstance(tree, Group) else ()
+    return Instance(tree.span, tree.name, after=(*after, *_outward(group)))
+
+
+def _outward(group: Scope) -> Iterator[Name]:
+    """The names after which something in a group starts, and that stand for something outside."""
+    inner = [(one.after, group) for one in group.instances.values()]
+    for one in group.groups.values():
+        yield from (name for name in _outward(one) if not _is_in(name.text, group))
+        if isinstance(one.tree, Group):
+            inner.append((one.tree.after, group))
+    for names, scope in inner:
+        yield from (n for n in names if scope.find(n.text) and not _is_in(n.text, scope))
+
+
+def _is_in(name: str, scope: Scope) -> bool:
+    return name in scope.instances or name in scope.groups
+
+
+def _sorted(instances: Sequence[Instance], farther: Sequence[str], report: Report) -> list[str]:
+    """The names of one scope, those that stand first first where `after` leaves the choice.
+
+    What is part of a cycle keeps its written place; `farther` names stand outside of the scope.
     """
     known = {one.name.text: one for one in instances}
-    waits = {name: _known_names(one, known, report) for name, one in known.items()}
+    waits = {name: _known_names(one, known, farther, report) for name, one in known.items()}
     _report_cycles(waits, report)
     order: dict[str, None] = {}
     for start in known:
@@ -38,14 +73,16 @@ def start_order(instances: Sequence[Instance], report: Report) -> list[str]:
 
 
 def _known_names(
-    instance: Instance, known: Mapping[str, Instance], report: Report
+    instance: Instance, known: Mapping[str, Instance], farther: Sequence[str], report: Report
 ) -> dict[str, Name]:
     found: dict[str, Name] = {}
     for name in instance.after:
         if name.text in known:
             found.setdefault(name.text, name)
             continue
-        guess = nearest(name.text, known)
+        if name.text in farther:
+            continue
+        guess = nearest(name.text, [*known, *farther])
         report.add(
             codes.UNKNOWN_INSTANCE,
             name.span,

@@ -5,7 +5,7 @@ In: `connect` lines and instances. Out: `Connection` values, and findings.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.check import codes
@@ -16,7 +16,6 @@ from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Instance
 from robocomp_dsl.syntax import ast_ddsl as ast
-from robocomp_dsl.syntax.ast_base import Name
 
 SOURCES = (Role.REQUIRES, Role.PUBLISHES)
 TARGETS = (Role.IMPLEMENTS, Role.SUBSCRIBES)
@@ -34,13 +33,13 @@ class Written:
 def written_wires(
     trees: Sequence[ast.Connection],
     instances: Mapping[str, Instance],
-    unclear: frozenset[str],
+    troubled: Collection[str],
     report: Report,
 ) -> Written:
-    """The wires that are right. `unclear` are instances whose component is not known."""
-    made = Written([], set())
+    """The wires that are right, between the known instances; `troubled`: see `Written`."""
+    made = Written([], set(troubled))
     for tree in trees:
-        one = _wire(tree, instances, unclear, report)
+        one = _wire(tree, instances, report)
         if one is None or _is_second(one, made.wires, report):
             made.troubled.update((tree.source.instance.text, tree.target.instance.text))
         else:
@@ -54,14 +53,11 @@ def same_interface(one: Port, other: Port) -> bool:
 
 
 def _wire(
-    tree: ast.Connection,
-    instances: Mapping[str, Instance],
-    unclear: frozenset[str],
-    report: Report,
+    tree: ast.Connection, instances: Mapping[str, Instance], report: Report
 ) -> Connection | None:
     qos = qos_of(tree.qos, report)
-    source = _instance(tree.source.instance, instances, unclear, report)
-    target = _instance(tree.target.instance, instances, unclear, report)
+    source = instances.get(tree.source.instance.text)
+    target = instances.get(tree.target.instance.text)
     if source is None or target is None:
         return None
     if _is_reversed(tree, source, target, report):
@@ -73,23 +69,6 @@ def _wire(
     if not _fits(tree, source_port, target_port, report):
         return None
     return Connection(source, source_port, target, target_port, tree.span, qos)
-
-
-def _instance(
-    name: Name, instances: Mapping[str, Instance], unclear: frozenset[str], report: Report
-) -> Instance | None:
-    if name.text in instances or name.text in unclear:
-        return instances.get(name.text)
-    guess = nearest(name.text, [*instances, *unclear])
-    report.add(
-        codes.UNKNOWN_INSTANCE,
-        name.span,
-        f"there is no component `{name.text}` in this deployment",
-        label=f"did you mean `{guess}`?" if guess else "",
-        help="" if guess else f"it has {listing([*instances, *unclear])}",
-        fix=replace(name.span, guess) if guess else None,
-    )
-    return None
 
 
 def _named(instance: Instance, name: str, roles: tuple[Role, ...]) -> Port | None:

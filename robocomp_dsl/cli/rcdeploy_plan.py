@@ -58,6 +58,8 @@ def _process(one: Process) -> dict[str, Any]:
     return {
         "name": one.name,
         "component": one.component,
+        "host": one.host,
+        "group": one.group,
         "argv": list(one.argv),
         "cwd": str(one.cwd.resolve()),
         "env": dict(one.env),
@@ -89,7 +91,9 @@ def _described(one: Process, wave: int) -> Iterator[str]:
     restart = one.restart.policy
     if restart != "never":
         restart += f" at most {one.restart.max} times in {one.restart.window_s:g} s"
-    yield f"{wave}. {one.name} ({one.component}){after}"
+    place = f" on {one.host}" if one.host else ""
+    group = f" in group {one.group}" if one.group else ""
+    yield f"{wave}. {one.name} ({one.component}){group}{place}{after}"
     yield f"   ready within {one.ready_within_s:g} s, restart {restart}"
     variables = [f"{key}={shlex.quote(value)}" for key, value in one.env]
     yield f"   cd {shlex.quote(short(one.cwd))} && " + " ".join([*variables, shlex.join(one.argv)])

@@ -92,3 +92,22 @@ Right:
     Deployment robot { component arm; };      // zenoh
 """,
 )
+
+OTHER_MACHINE = Code(
+    "RC907",
+    Severity.ERROR,
+    "a component is placed on another machine",
+    """\
+rcdeploy starts components on the machine that it runs on, and on no other yet. What is on
+`localhost`, or on a host with that address, is started.
+
+Not yet:
+
+    host robot { address "10.0.0.2"; };
+    component arm on robot;
+
+For now:
+
+    component arm on localhost;
+""",
+)

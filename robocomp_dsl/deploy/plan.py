@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.deployment import Connection, Deployment, Instance, Qos, Restart
+from robocomp_dsl.model.deployment import Connection, Deployment, Host, Instance, Qos, Restart
 from robocomp_dsl.model.types import Literal
 
 PYTHONS = ("python3", "python")
@@ -27,6 +27,7 @@ class Process:
     `env` is added to the environment of rcdeploy. `after`: what must be ready before it starts;
     `stops_after`: what must have ended before it is asked to stop. `config` (None: the
     component's own) and `settings` (`key=value`) are those in `argv`. `port` 0: any.
+    `host` and `group` are as written, empty for this machine and for none.
     """
 
     name: str
@@ -41,6 +42,8 @@ class Process:
     port: int = 0
     config: Path | None = None
     settings: tuple[str, ...] = ()
+    host: str = ""
+    group: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,7 +117,15 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         port=one.port,
         config=one.config,
         settings=settings,
+        host=_shown_host(one.host),
+        group=one.group,
     )
+
+
+def _shown_host(host: Host) -> str:
+    """The name of a host and where it is; empty for this machine without a name."""
+    same = host.address in ("", host.name) or not host.name
+    return host.name if same else f"{host.name} ({host.address})"
 
 
 def _users(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.parameters import schema
 from robocomp_dsl.deploy.plan import Plan, Process
-from robocomp_dsl.diagnostics import Code, Diagnostic
+from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
 from robocomp_dsl.source import Source, Span, UnreadableSource
@@ -34,10 +34,27 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
         way_out = f"leave `middleware` out, or write one of: {', '.join(WATCHED)}"
         found.append(Diagnostic(codes.MIDDLEWARE, deployment.span, said, help=way_out))
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
+        if not instance.host.is_here:
+            found.append(_elsewhere(instance))
+            continue
         missing = list(_executable(instance, process))
         found += missing or _configuration(instance, process)
     found += _ports(deployment) if ports else ()
     return found
+
+
+def _elsewhere(instance: Instance) -> Diagnostic:
+    host = instance.host
+    where = host.address or "an unknown address"
+    notes = (Note(host.span, f"`{host.name}` is declared here"),) if host.span else ()
+    return Diagnostic(
+        codes.OTHER_MACHINE,
+        instance.placed or instance.span,
+        f"`{instance.name}` is on `{host.name}` ({where}), and nothing can be started there yet",
+        label="rcdeploy starts components on this machine only",
+        notes=notes,
+        help="write `on localhost`, or run a deployment of its own on that machine",
+    )
 
 
 def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
@@ -101,7 +118,7 @@ def _span(path: Path, line: int, column: int, width: int) -> Span:
 
 def _ports(deployment: Deployment) -> Iterator[Diagnostic]:
     for instance in deployment.instances:
-        if instance.port and (reason := _taken(instance.port)):
+        if instance.port and instance.host.is_here and (reason := _taken(instance.port)):
             said = f"port {instance.port} cannot be used: {reason}"
             yield _at(instance, codes.PORT_TAKEN, said)
 

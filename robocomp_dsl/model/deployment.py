@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from ipaddress import ip_address
 from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
@@ -29,6 +30,10 @@ class Restart:
     window_s: float = 60.0
 
 
+THIS_MACHINE = "localhost"
+"""The host that need not be declared."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Host:
     """A machine. The one named "" is this machine."""
@@ -39,11 +44,23 @@ class Host:
     labels: tuple[str, ...] = ()
     span: Span | None = None
 
+    @property
+    def is_here(self) -> bool:
+        """Whether it is the machine on which the deployment is started."""
+        if self.address == THIS_MACHINE:
+            return True
+        try:
+            return ip_address(self.address).is_loopback
+        except ValueError:
+            return False
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Instance:
     """One component of the deployment.
 
+    Of one in a group, the groups' names stand before its own in `name`, with `-`, as in
+    `arm-motor`; `group` is `arm`, and empty for one in none. `placed` is where its host is named.
     `config` is None for the component's own `etc/config.yaml`; `settings` are the `set` lines, the
     keys dotted; `executable` is a command line run in the component's folder; `port` 0: any.
     """
@@ -61,6 +78,8 @@ class Instance:
     restart: Restart = field(default_factory=Restart)
     ready_within_s: float = 10.0
     doc: str = ""
+    group: str = ""
+    placed: Span | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,8 +100,33 @@ class Connection:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Export:
+    """A port of an instance inside a group that is used from outside, under `name`."""
+
+    name: str
+    instance: Instance
+    port: Port
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Group:
+    """Components that appear as one outside, where only the `exports` are seen.
+
+    `name` is as in `Instance.group`, outer groups first: `arm-hand`; `instances` are their names,
+    those of groups inside included.
+    """
+
+    name: str
+    instances: tuple[str, ...]
+    exports: tuple[Export, ...]
+    span: Span
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Deployment:
-    """One DDSL file; instances in an order that respects `after`."""
+    """One DDSL file; instances in an order that respects `after`, outer groups first."""
 
     name: str
     path: Path
@@ -92,3 +136,4 @@ class Deployment:
     connections: tuple[Connection, ...]
     hosts: tuple[Host, ...] = ()
     doc: str = ""
+    groups: tuple[Group, ...] = ()

@@ -96,9 +96,14 @@ class Export(Node):
 
 
 class Group(Node):
-    """`group arm { … };`: several components that appear as one outside."""
+    """`group arm on robot { … };`: several components that appear as one outside.
+
+    All of them are on `host`, unless they say it themselves, and start after what `after` names.
+    """
 
     name: Name
+    host: Name | None = None
+    after: tuple[Name, ...] = ()
     instances: tuple[Instance, ...] = ()
     connections: tuple[Connection, ...] = ()
     exports: tuple[Export, ...] = ()

@@ -32,7 +32,7 @@ class DdslBuilder(Instances):
         "host_item": "`address`, `user`, `labels`",
         "instance_item": "a setting of the component (`config`, `set`, `env`, `after`, …)",
         "qos_item": "`reliable`, `best_effort`, `priority`, `depth`, `deadline`",
-        "group_item": "`component`, `connect`, `export`, `group`",
+        "group_item": "`component`, `connect`, `export`, `group`, `after`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:
@@ -87,16 +87,18 @@ class DdslBuilder(Instances):
         """`labels arm, gpu;`."""
         return Setting(span, "labels", tuple(self.without_comma(names)))
 
-    def group(self, span: Span, name: Name, *items: Any) -> ast.Group:
-        """`group name { … };`."""
+    def group(self, span: Span, name: Name, host: Name | None, *items: Any) -> ast.Group:
+        """`group name on host { … };`."""
         return ast.Group(
             span,
             name,
-            only(ast.Instance, items),
-            only(ast.Connection, items),
-            only(ast.Export, items),
-            only(ast.Group, items),
-            self.doc(span),
+            host,
+            instances=only(ast.Instance, items),
+            connections=only(ast.Connection, items),
+            exports=only(ast.Export, items),
+            groups=only(ast.Group, items),
+            doc=self.doc(span),
+            **self.settings(items),
         )
 
     def export(self, span: Span, port: Name, instance: Name, alias: Name | None) -> ast.Export:

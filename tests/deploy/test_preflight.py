@@ -14,6 +14,7 @@ from deploy_robot import build
 
 from robocomp_dsl.cli.rcdeploy import ordered
 from robocomp_dsl.cli.rcdeploy_app import Checked, check
+from robocomp_dsl.cli.rcdeploy_plan import as_text
 
 APP = """
 import "arm/arm.cdsl";
@@ -223,3 +224,37 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert rcdeploy("missing.ddsl").returncode == 1
     assert rcdeploy("app.ddsl", "sttus").returncode == 2
     assert rcdeploy("--no-such-option").returncode == 2
+
+
+PLACED = """
+import "arm/arm.cdsl";
+import "eye/eye.cdsl";
+Deployment app
+{
+    host robot { address "10.0.0.2"; };
+    host desk { address "127.0.0.1"; };
+    group left on WHERE { component arm { set serial = "abc"; }; export Laser from arm; };
+    component eye on localhost { after left; };
+};
+"""
+
+
+def test_another_machine_is_refused_where_it_is_named(folder: Path) -> None:
+    checked = judged(folder, app=PLACED.replace("WHERE", "robot"))
+    said = "`left-arm` is on `robot` (10.0.0.2), and nothing can be started there yet"
+    assert told(checked, folder) == [f"app.ddsl:8:19 RC907 {said}"]
+    assert not checked.ready
+
+
+def test_groups_and_hosts_of_this_machine_run(folder: Path) -> None:
+    for where in ("desk", "localhost"):
+        app = PLACED.replace("WHERE", where)
+        checked = judged(folder, app=app)
+        assert told(checked, folder) == []
+        assert checked.plan is not None
+        arm, eye = checked.plan.processes
+        assert (arm.name, arm.group, eye.after) == ("left-arm", "left", ("left-arm",))
+        assert arm.host == ("desk (127.0.0.1)" if where == "desk" else "localhost")
+        shown = "\n".join(as_text(checked.plan))
+        assert f"1. left-arm (arm) in group left on {arm.host}" in shown
+        assert "2. eye (eye) on localhost after left-arm" in shown

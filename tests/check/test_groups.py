@@ -1,0 +1,133 @@
+"""What the groups and hosts of a deployment become: instances with full names, order, wires."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import check_file
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model.deployment import Deployment, Host
+
+CASES = Path(__file__).parent.parent / "cases"
+PARTS = CASES / "ddsl" / "sem_parts"
+
+
+def read(path: Path) -> Deployment:
+    report = Report()
+    found = check_file(path, Workspace(environ={}, shipped=CASES / "interfaces"), report)
+    assert [d.message for d in report] == []
+    assert isinstance(found, Deployment)
+    return found
+
+
+def written(folder: Path, text: str) -> Deployment:
+    path = folder / "main.ddsl"
+    imports = "".join(f'import "{PARTS}/{n}.cdsl";\n' for n in ("body", "reflex", "filter"))
+    path.write_text(f"{imports}Deployment demo {{ {text} }};")
+    return read(path)
+
+
+def test_names_order_places() -> None:
+    found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
+    order = [one.name for one in found.instances]
+    assert order == [
+        "talker",
+        *("left-body", "left-reflex", "left-inner-second"),
+        *("right-body", "right-deep-body", "right-deep-filter"),
+        "reflex",
+    ]
+    by_name = {one.name: one for one in found.instances}
+    assert by_name["left-inner-second"].group == "left-inner"
+    assert by_name["left-inner-second"].after == ("left-reflex", "talker")
+    assert set(by_name["reflex"].after) == set(order[1:-1])
+    assert by_name["left-body"].host.address == "10.0.0.2"
+    assert by_name["right-body"].host.is_here
+    assert by_name["right-deep-body"].host.name == ""
+    assert by_name["left-body"].placed is not None
+    assert by_name["left-body"].component.name == "body"
+
+
+def test_wires_stay_in_their_group() -> None:
+    found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
+    wires = {
+        f"{w.source.name}.{w.source_port.name} -> {w.target.name}.{w.target_port.name}"
+        for w in found.connections
+    }
+    assert wires == {
+        "left-reflex.Laser -> left-body.Laser",
+        "left-inner-second.Laser -> left-body.Laser",
+        "right-deep-filter.Laser -> right-deep-body.Laser",
+        "reflex.Laser -> left-body.Laser",
+        "left-body.LaserPub -> left-reflex.LaserPub",
+        "left-body.LaserPub -> left-inner-second.LaserPub",
+        "left-body.LaserPub -> reflex.LaserPub",
+    }
+
+
+def test_groups_of_the_model() -> None:
+    found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
+    groups = {one.name: one for one in found.groups}
+    assert list(groups) == ["left", "left-inner", "right", "right-deep"]
+    assert groups["left"].instances == ("left-body", "left-reflex", "left-inner-second")
+    assert groups["left"].doc == "Two that belong together."
+    exports = {(g.name, e.name): e for g in found.groups for e in g.exports}
+    assert exports["left", "Range"].port.name == "Laser"
+    assert exports["right", "Laser"].instance.name == "right-deep-filter"
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        ("group a { after b; component body; }; component b : filter { };", "b a-body"),
+        ("group a { component body { after b; }; }; component b : filter;", "b a-body"),
+        ("group a { group c { component body { after b; }; }; }; component b : filter;", None),
+        ("component b : filter { after a; }; group a { component body; export Laser from body; };",
+         "a-body b"),
+        ("group a { component body { after x; }; component x : body; };", "a-x a-body"),
+        ("group a { after b; component body; }; group b { component body; };", "b-body a-body"),
+    ],
+)  # fmt: skip
+def test_order(tmp_path: Path, text: str, order: str | None) -> None:
+    found = _order(tmp_path, text)
+    assert found == (order or "b a-c-body").split()
+
+
+def _order(folder: Path, text: str) -> list[str]:
+    path = folder / "main.ddsl"
+    imports = "".join(f'import "{PARTS}/{n}.cdsl";\n' for n in ("body", "reflex", "filter"))
+    path.write_text(f"{imports}Deployment demo {{ {text} }};")
+    report = Report()
+    found = check_file(path, Workspace(environ={}, shipped=CASES / "interfaces"), report)
+    # an unserved requirement is another matter
+    assert {d.code.id for d in report} <= {"RC507"}
+    assert isinstance(found, Deployment)
+    return [one.name for one in found.instances]
+
+
+def test_exports_carry_over_two_groups(tmp_path: Path) -> None:
+    found = written(
+        tmp_path,
+        "group a { group b { component body; export Laser from body as Inner; };"
+        " export Inner from b as Outer; }; component filter; connect filter.Laser -> a.Outer;",
+    )
+    (wire,) = (w for w in found.connections if w.source.name == "filter")
+    assert (wire.target.name, wire.target_port.name, wire.implied) == ("a-b-body", "Laser", False)
+
+
+@pytest.mark.parametrize(
+    ("address", "here"),
+    [
+        ("localhost", True),
+        ("127.0.0.1", True),
+        ("127.1.2.3", True),
+        ("::1", True),
+        ("10.0.0.2", False),
+        ("robot.local", False),
+        ("", False),
+    ],
+)
+def test_which_host_is_here(address: str, here: bool) -> None:
+    assert Host("robot", address).is_here is here
