@@ -40,8 +40,9 @@ def documentation(subject: Subject, formats: tuple[str, ...] = FORMATS) -> list[
         files += [OutputFile(f"{p.path}.html", html_page(p, pages, subject.title)) for p in pages]
     if "markdown" in formats:
         files += [OutputFile(f"{p.path}.md", markdown_page(p, subject.title)) for p in pages]
-        figures = (one for p in pages for one in p.blocks if isinstance(one, Figure))
-        files += [OutputFile(f"{one.name}.svg", svg(one.drawing)) for one in figures]
+        blocks = (one for p in pages for one in p.blocks)
+        figures = {one.name: one for one in blocks if isinstance(one, Figure)}
+        files += [OutputFile(f"{one.name}.svg", svg(one.drawing)) for one in figures.values()]
     return files
 
 

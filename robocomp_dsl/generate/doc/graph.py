@@ -59,12 +59,14 @@ def drawn(
     joined = {end for edge in edges for end in (edge.source, edge.target)}
     inner = [i for i in range(len(nodes)) if i in joined]
     at = {node: place for place, node in enumerate(inner)}
-    boxes = [_size(nodes[i]) for i in inner]
+    sizes = [_size(node) for node in nodes]
     lines = [layered.Edge(at[e.source], at[e.target], *label_size(e.labels)) for e in edges]
-    made = layered.layout(boxes, lines)
-    corners = dict(zip(inner, made.nodes, strict=True))
-    alone = [i for i in range(len(nodes)) if i not in joined]
-    width, height = _rows(nodes, alone, corners, made)
+    ranks = layered.ranks_of([sizes[i] for i in inner], lines)
+    boxes = layered.roomy([sizes[i] for i in inner], lines, ranks)
+    made = layered.layout(boxes, lines, ranks)
+    places = dict(zip(inner, zip(boxes, made.nodes, strict=True), strict=True))
+    alone = [(i, size) for i, size in enumerate(sizes) if i not in joined]
+    width, height = _rows(alone, places, made)
     return Drawing(
         width + 2 * MARGIN,
         height + 2 * MARGIN,
@@ -73,7 +75,7 @@ def drawn(
         parts=(
             *(_line(e, r) for e, r in zip(edges, made.routes, strict=True)),
             *(_label(e, r) for e, r in zip(edges, made.routes, strict=True) if e.labels),
-            *(_box(node, *corners[i]) for i, node in enumerate(nodes)),
+            *(_box(node, *places[i]) for i, node in enumerate(nodes)),
         ),
     )
 
@@ -91,19 +93,17 @@ def label_size(labels: Sequence[tuple[str, Target | None]]) -> tuple[float, floa
 
 
 def _rows(
-    nodes: Sequence[GraphNode],
-    alone: Sequence[int],
-    corners: dict[int, layered.Point],
+    alone: Sequence[tuple[int, layered.Node]],
+    places: dict[int, tuple[layered.Node, layered.Point]],
     made: layered.Layout,
 ) -> tuple[float, float]:
     """Put nodes below the graph, row by row; the size of everything."""
     width, room = made.width, max(made.width, ROW)
     x, y, height = 0.0, made.height + GAP * bool(made.nodes), made.height
-    for i in alone:
-        size = _size(nodes[i])
+    for i, size in alone:
         if x and x + size.width > room:
             x, y = 0.0, height + GAP
-        corners[i] = (x, y)
+        places[i] = (size, (x, y))
         x += size.width + GAP
         width, height = max(width, x - GAP), max(height, y + size.height)
     return width, height
@@ -117,9 +117,8 @@ def _label(edge: GraphEdge, route: layered.Route) -> Box:
     return plate(edge.labels, edge.kind, route.label[0] + MARGIN, route.label[1] + MARGIN)
 
 
-def _box(node: GraphNode, x: float, y: float) -> Box:
-    size = _size(node)
-    left, top = x + MARGIN, y + MARGIN
+def _box(node: GraphNode, size: layered.Node, corner: layered.Point) -> Box:
+    left, top = corner[0] + MARGIN, corner[1] + MARGIN
     centre, middle = left + size.width / 2, top + size.height / 2
     names = [Label(centre, middle - (LINE / 2 if node.below else 0), node.name, "name")]
     if node.below:

@@ -76,6 +76,29 @@ def component_figure(component: Component, site: Site) -> Figure:
     return Figure(f"{site.page(component)}.ports", drawing)
 
 
+def fitting_figure(site: Site) -> Figure | None:
+    """Which components could work together; None where no two have an interface in common."""
+    components = site.subject.components
+    found: dict[tuple[int, int, str], dict[str, Target | None]] = {}
+    for i, client in enumerate(components):
+        for port in (*client.with_role(Role.REQUIRES), *client.with_role(Role.PUBLISHES)):
+            wanted = Role.SUBSCRIBES if port.role.is_topic else Role.IMPLEMENTS
+            target = site.target(port.interface)
+            for j, server in enumerate(components):
+                if any(site.target(p.interface) == target for p in server.with_role(wanted)):
+                    kind = TOPIC if port.role.is_topic else CALL
+                    found.setdefault((i, j, kind), {})[port.interface.name] = target
+    if not found:
+        return None
+    nodes = [GraphNode(c.name, "component", Target(site.page(c)), "", c.name) for c in components]
+    edges = [
+        GraphEdge(*key, tuple(names.items()), ", ".join(names)) for key, names in found.items()
+    ]
+    title = "Components and what they can use of each other"
+    drawing = drawn(title, f"{len(nodes)} components", nodes, edges)
+    return Figure("components/all.graph", drawing, _legend(edges))
+
+
 _WORDS = {
     Role.IMPLEMENTS: "implements",
     Role.REQUIRES: "requires",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from robocomp_dsl.generate.doc.graphs import deployment_figure, fitting_figure
 from robocomp_dsl.generate.doc.site import Site
 from robocomp_dsl.generate.doc.words import (
     Block,
@@ -22,6 +23,8 @@ from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.interface import Interface, Module
 
 PATH = "index"
+MOST_GRAPHS = 3
+"""With more deployments the first page would be all graphs."""
 
 
 def index_page(site: Site) -> Page:
@@ -36,8 +39,13 @@ def _blocks(site: Site) -> Iterator[Block]:
         for d in subject.deployments
     ]
     yield from _section("Deployments", ("deployment", "instances", "what it is"), deployments)
+    if len(subject.deployments) in range(1, MOST_GRAPHS + 1):
+        yield from (deployment_figure(one, site) for one in subject.deployments)
     components = [Row(_component(one, site)) for one in subject.components]
     yield from _section("Components", ("component", "language", "ports", "what it is"), components)
+    fitting = None if deployments else fitting_figure(site)
+    if fitting:
+        yield fitting
     head = ("interface", "module", "used by", "what it is")
     pairs = [(one, module) for module in site.modules for one in module.interfaces]
     pairs.sort(key=lambda pair: (pair[0].name.lower(), pair[1].name))

@@ -92,14 +92,16 @@ class Levels:
         made = Level(states, crossings, [])
         at = {state.name: i for i, state in enumerate(states)}
         made.ways = [*self._ways(name, at), *_crossing_ways(crossings, at, self.lines)]
-        nodes = made.nodes = [_node(state) for state in states]
+        nodes = [_node(state) for state in states]
         nodes += [layered.Node(0, 0, "last" if one.right else "first") for one in crossings]
         if not parallel:
             begins = (i for i, state in enumerate(states) if state.initial)
             made.ways += [Way(len(nodes), i, ("", states[i].name)) for i in begins]
             if any(state.initial for state in states):
                 nodes.append(layered.Node(DOT, DOT))
-        ranks = layered.ranks_of(nodes, [layered.Edge(w.source, w.target) for w in made.ways])
+        bare = [layered.Edge(way.source, way.target) for way in made.ways]
+        ranks = layered.ranks_of(nodes, bare)
+        made.nodes = layered.roomy(nodes, bare, ranks)
         for i, state in enumerate(states):
             if state.inside:
                 inside = self._passing(i, state.name, made.ways, ranks)
@@ -107,8 +109,8 @@ class Levels:
                     state.name, state.inside, parallel=state.parallel, passing=inside
                 )
                 made.inner[i] = inner
-                nodes[i] = layered.Node(inner.width, inner.height)
-        made.made = layered.layout(nodes, [_edge(way, made) for way in made.ways], ranks)
+                made.nodes[i] = layered.Node(inner.width, inner.height)
+        made.made = layered.layout(made.nodes, [_edge(way, made) for way in made.ways], ranks)
         _measure(made, f"{name} (parallel)" if parallel else name)
         return made
 

@@ -12,10 +12,10 @@ from robocomp_dsl.generate.doc.layered.columns import columns_of
 from robocomp_dsl.generate.doc.layered.graph import Edge, Layout, Node, Point, Route
 from robocomp_dsl.generate.doc.layered.order import put_in_order
 from robocomp_dsl.generate.doc.layered.place import column_places, heights
-from robocomp_dsl.generate.doc.layered.ranks import Ranks, ranks_of
+from robocomp_dsl.generate.doc.layered.ranks import Ranks, ranks_of, roomy
 from robocomp_dsl.generate.doc.layered.routes import loops_above, route_all
 
-__all__ = ["Edge", "Layout", "Node", "Point", "Ranks", "Route", "layout", "ranks_of"]
+__all__ = ["Edge", "Layout", "Node", "Point", "Ranks", "Route", "layout", "ranks_of", "roomy"]
 
 
 def layout(nodes: Sequence[Node], edges: Sequence[Edge], ranks: Ranks | None = None) -> Layout:

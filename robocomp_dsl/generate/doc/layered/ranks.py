@@ -7,11 +7,14 @@ depth-first search for the cycles and longest paths for the ranks.
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from robocomp_dsl.generate.doc.layered.graph import Edge, Node
+
+PORT = 10.0
+"""Distance of two edges where they touch a node."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,21 @@ def ranks_of(nodes: Sequence[Node], edges: Sequence[Edge]) -> Ranks:
     _longest(made.of, after)
     _borders(made.of, nodes)
     return made
+
+
+def roomy(nodes: Sequence[Node], edges: Sequence[Edge], ranks: Ranks) -> list[Node]:
+    """The nodes, higher where many edges come to one side."""
+    sides = Counter(
+        (end, side)
+        for i, edge in enumerate(edges)
+        for side, end in enumerate(ranks.ends(i, edge))
+        if edge.source != edge.target
+    )
+    least = [PORT * (max(sides[i, 0], sides[i, 1]) + 1) for i in range(len(nodes))]
+    return [
+        node if node.border else replace(node, height=max(node.height, height))
+        for node, height in zip(nodes, least, strict=True)
+    ]
 
 
 def _closing(count: int, edges: Sequence[Edge], fixed: set[int]) -> set[int]:

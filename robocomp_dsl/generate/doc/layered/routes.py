@@ -117,6 +117,6 @@ def _loop(edge: Edge, node: Node, corner: Point, risen: list[float]) -> Route:
     risen[edge.source] += LOOP + edge.height
     foot = FOOT * (1 + low / (LOOP + edge.height))
     x, y = corner[0] + node.width / 2, corner[1]
-    peak = y - low - LOOP / 0.75
+    peak = y - low - LOOP  # the curve itself rises to three quarters of it
     points = ((x - foot, y), (x - foot, peak), (x + foot, peak), (x + foot, y))
     return Route(points, (x, y - low - LOOP - edge.height / 2))
