@@ -1,0 +1,99 @@
+/** The language server of this window: started, stopped, and asked. */
+
+import * as vscode from "vscode";
+import {
+  LanguageClient,
+  type ExecuteCommandSignature,
+  type LanguageClientOptions,
+  type Location,
+  type Position,
+  type ServerOptions,
+} from "vscode-languageclient/node";
+
+import { rcgen } from "./places";
+
+export const LANGUAGES = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl", "innermodel"];
+const SHOW_REFERENCES = "rcgen.showReferences";
+const CHOOSE = "Choose rcgen …";
+const SETTINGS = "Open settings";
+
+let client: LanguageClient | undefined;
+
+/** Start the server, or say what is missing. */
+export async function start(output: vscode.OutputChannel): Promise<void> {
+  const program = await rcgen();
+  if (program === undefined) {
+    output.appendLine("rcgen was not found");
+    void tellMissing();
+    return;
+  }
+  output.appendLine(`starting ${program} lsp`);
+  const server: ServerOptions = { command: program, args: ["lsp"], options: workingFolder() };
+  client = new LanguageClient("robocomp", "RoboComp", server, options(output));
+  try {
+    await client.start();
+  } catch (error) {
+    client = undefined;
+    const reason = error instanceof Error ? error.message : String(error);
+    void vscode.window.showErrorMessage(`RoboComp: ${program} does not start: ${reason}`);
+  }
+}
+
+/** End the server, if there is one. */
+export async function stop(): Promise<void> {
+  const ending = client;
+  client = undefined;
+  await ending?.dispose();
+}
+
+/** Say that there is no server, with a way out. */
+export async function tellMissing(): Promise<void> {
+  const answer = await vscode.window.showErrorMessage(
+    "RoboComp: `rcgen` was not found in the workspace's .venv, beside the Python interpreter, or on the PATH. " +
+      "Install it there with pip install 'robocomp_dsl[editor]', or say where it is.",
+    CHOOSE,
+    SETTINGS,
+  );
+  if (answer === SETTINGS) {
+    await vscode.commands.executeCommand("workbench.action.openSettings", "robocomp.server.path");
+  } else if (answer === CHOOSE) {
+    const [chosen] = (await vscode.window.showOpenDialog({ title: "The program rcgen" })) ?? [];
+    if (chosen) {
+      const target = vscode.workspace.workspaceFolders
+        ? vscode.ConfigurationTarget.Workspace
+        : vscode.ConfigurationTarget.Global;
+      await vscode.workspace.getConfiguration("robocomp").update("server.path", chosen.fsPath, target);
+    }
+  }
+}
+
+function workingFolder(): { cwd?: string } {
+  const first = vscode.workspace.workspaceFolders?.[0];
+  return first ? { cwd: first.uri.fsPath } : {};
+}
+
+function options(output: vscode.OutputChannel): LanguageClientOptions {
+  return {
+    documentSelector: LANGUAGES.map((language) => ({ scheme: "file", language })),
+    outputChannel: output,
+    synchronize: {
+      fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{idsl,cdsl,pdsl,ddsl,smdsl,xml}"),
+    },
+    middleware: { executeCommand },
+  };
+}
+
+/** VS Code has a list of places of its own; everything else is the server's to execute. */
+function executeCommand(command: string, given: unknown[], next: ExecuteCommandSignature): unknown {
+  if (command !== SHOW_REFERENCES || !client) {
+    return next(command, given);
+  }
+  const [uri, position, places] = given as [string, Position, Location[]];
+  const convert = client.protocol2CodeConverter;
+  return vscode.commands.executeCommand(
+    "editor.action.showReferences",
+    convert.asUri(uri),
+    convert.asPosition(position),
+    places.map((place) => convert.asLocation(place)),
+  );
+}
