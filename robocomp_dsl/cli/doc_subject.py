@@ -6,11 +6,11 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from robocomp_dsl.check import CHECKS, check_file
+from robocomp_dsl.check import check_file
 from robocomp_dsl.check.files import identity
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.doc.subject import Subject, modules_behind
+from robocomp_dsl.generate.doc.subject import Subject, modules_behind, natural
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.parameter import ParameterSet
@@ -29,9 +29,9 @@ def read_subject(
     seen += [part.component for one in deployments for part in one.instances]
     components = _once(seen)
     by_file = {identity(one.path): one for one in components}
-    machines = _machines(components, workspace, report)
-    named = {identity(one.path) for one in machines.values()}
-    named |= {identity(one.parameters.path) for one in components if one.parameters}
+    named = {identity(one.parameters.path) for one in components if one.parameters}
+    behind = (one.statemachine.machine for one in components if one.statemachine)
+    named |= {identity(one.path) for one in behind if one}
     modules = [m for one in models if isinstance(one, tuple) for m in one]
     modules += [m for one in seen for m in one.modules]
     alone = [one for one in models if isinstance(one, ParameterSet | StateMachine)]
@@ -42,8 +42,7 @@ def read_subject(
         components=components,
         deployments=deployments,
         parameters=_once(one for one in alone if isinstance(one, ParameterSet)),
-        lone_machines=_once(one for one in alone if isinstance(one, StateMachine)),
-        machines=machines,
+        machines=_once(one for one in alone if isinstance(one, StateMachine)),
         same={id(one): by_file[identity(one.path)] for one in seen},
     )
 
@@ -53,18 +52,4 @@ def _once(models: Iterable[_Noun]) -> tuple[_Noun, ...]:
     kept: dict[str, _Noun] = {}
     for one in models:
         kept.setdefault(identity(one.path), one)
-    return tuple(sorted(kept.values(), key=lambda m: (m.name.lower(), m.name, str(m.path))))
-
-
-def _machines(
-    components: Iterable[Component], workspace: Workspace, report: Report
-) -> dict[int, StateMachine]:
-    """The state machines of components, by the identity of the component."""
-    made: dict[int, StateMachine] = {}
-    for one in components:
-        path = one.path.parent / one.statemachine.path if one.statemachine else None
-        if path and path.suffix.lower() in CHECKS and workspace.files.exists(path):
-            found = check_file(path, workspace, report)
-            if isinstance(found, StateMachine):
-                made[id(one)] = found
-    return made
+    return tuple(sorted(kept.values(), key=lambda m: (natural(m.name), str(m.path))))

@@ -19,7 +19,7 @@ from robocomp_dsl.generate.doc.index_page import index_page
 from robocomp_dsl.generate.doc.interface_page import interface_page, module_page
 from robocomp_dsl.generate.doc.markdown import markdown_page
 from robocomp_dsl.generate.doc.site import Site, site_of
-from robocomp_dsl.generate.doc.subject import Subject
+from robocomp_dsl.generate.doc.subject import Subject, natural
 from robocomp_dsl.generate.doc.words import Figure, Page
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.templates import render
@@ -53,8 +53,8 @@ def _pages(site: Site) -> Iterator[Page]:
     yield from (deployment_page(one, site) for one in subject.deployments)
     yield from (component_page(one, site) for one in subject.components)
     pairs = [(one, module) for module in site.modules for one in module.interfaces]
-    pairs.sort(key=lambda pair: (pair[0].name.lower(), pair[1].name))
+    pairs.sort(key=lambda pair: (natural(pair[0].name), pair[1].name))
     yield from (interface_page(*pair, site) for pair in pairs)
     yield from (module_page(one, site) for one in site.modules)
     yield from (parameters_page(one, site) for one in subject.parameters)
-    yield from (machine_page(one, site) for one in subject.lone_machines)
+    yield from (machine_page(one, site) for one in subject.machines)

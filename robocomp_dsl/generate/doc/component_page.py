@@ -11,8 +11,8 @@ from robocomp_dsl.generate import literals, params
 from robocomp_dsl.generate.doc.graphs import component_figure
 from robocomp_dsl.generate.doc.interface_page import badge
 from robocomp_dsl.generate.doc.machine_blocks import machine_blocks
+from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Names, Site
-from robocomp_dsl.generate.doc.types_shown import inline_doc
 from robocomp_dsl.generate.doc.words import (
     Badge,
     Block,
@@ -26,7 +26,6 @@ from robocomp_dsl.generate.doc.words import (
     Words,
     code,
     joined,
-    prose,
     table,
     text,
 )
@@ -72,7 +71,7 @@ def _blocks(component: Component, site: Site) -> Iterator[Block]:
         yield Heading(2, text("Parameters"), "parameters")
         yield from prose(component.parameters.doc)
         yield from parameter_table(component.parameters)
-    machine = site.subject.machines.get(id(component))
+    machine = component.statemachine.machine if component.statemachine else None
     if machine is not None:
         yield Heading(2, text("States"), "states")
         yield from machine_blocks(machine, site.page(component))

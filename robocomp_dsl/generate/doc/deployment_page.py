@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.doc.graphs import deployment_figure
 from robocomp_dsl.generate.doc.interface_page import badge
+from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Names, Site
-from robocomp_dsl.generate.doc.types_shown import inline_doc
 from robocomp_dsl.generate.doc.words import (
     Badge,
     Block,
@@ -21,11 +21,10 @@ from robocomp_dsl.generate.doc.words import (
     Words,
     code,
     joined,
-    prose,
     table,
     text,
 )
-from robocomp_dsl.model.deployment import Connection, Deployment, Host, Instance, Qos
+from robocomp_dsl.model.deployment import Connection, Deployment, Export, Group, Host, Instance, Qos
 
 
 def deployment_page(deployment: Deployment, site: Site) -> Page:
@@ -51,6 +50,10 @@ def _blocks(deployment: Deployment, site: Site) -> Iterator[Block]:
     ends = ("from", "to", "interface", "pattern", "quality")
     wires = [Row(_wire(one, site)) for one in deployment.connections]
     yield from table(f"Wires of {deployment.name}", ends, wires)
+    groups = [Row(_group(one)) for one in deployment.groups]
+    if groups:
+        yield Heading(2, text("Groups"), "groups")
+    yield from table("Groups", ("group", "instances", "exports", "what it is"), groups)
     hosts = [Row(_host(one)) for one in deployment.hosts]
     if hosts:
         yield Heading(2, text("Hosts"), "hosts")
@@ -113,6 +116,18 @@ def quality(qos: Qos) -> str:
     depth = "" if qos.depth is None else f"depth {qos.depth}"
     deadline = "" if qos.deadline_ms is None else f"deadline {qos.deadline_ms:g} ms"
     return ", ".join(part for part in (reliable, priority, depth, deadline) if part)
+
+
+def _group(one: Group) -> tuple[Words, ...]:
+    exports = (
+        (Code(f"{export.instance.name}.{export.port.name}"), *_renamed(export))
+        for export in one.exports
+    )
+    return code(one.name), joined(map(code, one.instances)), joined(exports), inline_doc(one.doc)
+
+
+def _renamed(export: Export) -> Words:
+    return () if export.name == export.port.name else (Text(" as "), Code(export.name))
 
 
 def _host(one: Host) -> tuple[Words, ...]:

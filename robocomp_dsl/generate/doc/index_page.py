@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from robocomp_dsl.generate.doc.graphs import deployment_figure, fitting_figure
+from robocomp_dsl.generate.doc.prose import prose, sentence
 from robocomp_dsl.generate.doc.site import Site
+from robocomp_dsl.generate.doc.subject import natural
 from robocomp_dsl.generate.doc.words import (
     Block,
     Heading,
@@ -14,8 +16,6 @@ from robocomp_dsl.generate.doc.words import (
     Words,
     code,
     joined,
-    prose,
-    sentence,
     table,
     text,
 )
@@ -48,15 +48,13 @@ def _blocks(site: Site) -> Iterator[Block]:
         yield fitting
     head = ("interface", "module", "used by", "what it is")
     pairs = [(one, module) for module in site.modules for one in module.interfaces]
-    pairs.sort(key=lambda pair: (pair[0].name.lower(), pair[1].name))
+    pairs.sort(key=lambda pair: (natural(pair[0].name), pair[1].name))
     yield from _section("Interfaces", head, [Row(_interface(*pair, site)) for pair in pairs])
     modules = [Row((site.link(m), code(m.path.name), sentence(m.doc))) for m in site.modules]
     yield from _section("Modules", ("module", "file", "what it is"), modules)
     sets = [Row((site.link(p), code(p.path.name), sentence(p.doc))) for p in subject.parameters]
     yield from _section("Parameters", ("parameters", "file", "what it is"), sets)
-    machines = [
-        Row((site.link(m), code(m.path.name), sentence(m.doc))) for m in subject.lone_machines
-    ]
+    machines = [Row((site.link(m), code(m.path.name), sentence(m.doc))) for m in subject.machines]
     yield from _section("State machines", ("state machine", "file", "what it is"), machines)
     if not (deployments or components or pairs or modules or sets or machines):
         yield from prose("There is nothing here to document.")

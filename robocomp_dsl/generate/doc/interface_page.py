@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from robocomp_dsl.generate.doc.prose import prose, sentence
 from robocomp_dsl.generate.doc.site import Names, Site, type_anchor
 from robocomp_dsl.generate.doc.types_shown import type_blocks, types_behind
 from robocomp_dsl.generate.doc.words import (
@@ -19,8 +20,6 @@ from robocomp_dsl.generate.doc.words import (
     Words,
     code,
     joined,
-    prose,
-    sentence,
     table,
     text,
 )

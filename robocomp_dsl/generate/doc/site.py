@@ -90,7 +90,7 @@ def site_of(subject: Subject) -> Site:
     pages |= {copy: pages[id(one)] for copy, one in subject.same.items()}
     _place(pages, "deployments", subject.deployments)
     _place(pages, "parameters", subject.parameters)
-    _place(pages, "statemachines", subject.lone_machines)
+    _place(pages, "statemachines", subject.machines)
     first: dict[tuple[str, str, int], Module] = {}
     for one in subject.modules:
         first.setdefault(_key(one), one)

@@ -11,6 +11,7 @@ from robocomp_dsl.generate.doc.drawing import Box, Drawing, Label, Line, line, s
 from robocomp_dsl.generate.doc.graph import MARGIN, plate
 from robocomp_dsl.generate.doc.layered import Node, Point
 from robocomp_dsl.generate.doc.state_levels import DOT, HEAD, Level, Way, levels_of
+from robocomp_dsl.generate.doc.state_words import shown
 from robocomp_dsl.generate.doc.words import Figure
 from robocomp_dsl.model.statemachine import State, StateMachine
 
@@ -57,9 +58,10 @@ def _painted(level: Level, x: float, y: float) -> Iterator[Box | Line]:
 
 
 def _state(state: State, node: Node, x: float, y: float) -> Iterator[Box]:
-    name = Label(x + node.width / 2, y + node.height / 2, state.name, "name")
+    name = Label(x + node.width / 2, y + node.height / 2, shown(state), "name")
     about = f"{state.name}: an end" if state.final else state.name
-    yield Box(x, y, node.width, node.height, "state", about, 10.0, (name,))
+    corner = node.height / 2 if state.history else 10.0
+    yield Box(x, y, node.width, node.height, "state", about, corner, (name,))
     if state.final:
         width, height = node.width - 2 * RING, node.height - 2 * RING
         yield Box(x + RING, y + RING, width, height, "ring", corner=10.0 - RING)
@@ -68,8 +70,7 @@ def _state(state: State, node: Node, x: float, y: float) -> Iterator[Box]:
 def _composite(state: State, inner: Level, x: float, y: float) -> Iterator[Box | Line]:
     """A box with a head, and what is inside it."""
     kind = "parallel" if state.parallel else "states"
-    title = f"{state.name} (parallel)" if state.parallel else state.name
-    name = Label(x + inner.width / 2, y + HEAD / 2, title, "name")
+    name = Label(x + inner.width / 2, y + HEAD / 2, shown(state), "name")
     yield Box(x, y, inner.width, inner.height, kind, state.name, 10.0, (name,))
     ends = ((x, y + HEAD), (x + inner.width, y + HEAD))
     yield line((ends[0], *ends, ends[1]), "rule", arrow=False)

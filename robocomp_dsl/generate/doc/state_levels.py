@@ -14,10 +14,8 @@ from dataclasses import dataclass, field
 from robocomp_dsl.generate.doc import layered
 from robocomp_dsl.generate.doc.drawing import LINE, text_width
 from robocomp_dsl.generate.doc.graph import label_size
-from robocomp_dsl.model.statemachine import State, StateMachine, Transition
-
-Pair = tuple[str, str]
-"""Source and target of transitions; those that share both are one line."""
+from robocomp_dsl.generate.doc.state_words import Pair, lines_of, shown
+from robocomp_dsl.model.statemachine import State, StateMachine
 
 LEAST = 72.0
 DOT = 12.0
@@ -84,34 +82,28 @@ class Levels:
     home: Mapping[str, str]
     lines: Mapping[Pair, tuple[str, ...]]
 
-    def level(
-        self, name: str, states: tuple[State, ...], *, parallel: bool, passing: Sequence[Crossing]
-    ) -> Level:
-        """The box `name`, through whose border lines are `passing`."""
+    def level(self, name: str, states: tuple[State, ...], passing: Sequence[Crossing]) -> Level:
+        """The box `name`, through whose border lines are `passing`; its size is left to do."""
         crossings = [*passing, *self._own_crossings(name)]
         made = Level(states, crossings, [])
         at = {state.name: i for i, state in enumerate(states)}
         made.ways = [*self._ways(name, at), *_crossing_ways(crossings, at, self.lines)]
         nodes = [_node(state) for state in states]
         nodes += [layered.Node(0, 0, "last" if one.right else "first") for one in crossings]
-        if not parallel:
-            begins = (i for i, state in enumerate(states) if state.initial)
+        begins = [i for i, state in enumerate(states) if state.initial and not state.history]
+        if begins:
             made.ways += [Way(len(nodes), i, ("", states[i].name)) for i in begins]
-            if any(state.initial for state in states):
-                nodes.append(layered.Node(DOT, DOT))
+            nodes.append(layered.Node(DOT, DOT))
         bare = [layered.Edge(way.source, way.target) for way in made.ways]
         ranks = layered.ranks_of(nodes, bare)
         made.nodes = layered.roomy(nodes, bare, ranks)
         for i, state in enumerate(states):
             if state.inside:
                 inside = self._passing(i, state.name, made.ways, ranks)
-                inner = self.level(
-                    state.name, state.inside, parallel=state.parallel, passing=inside
-                )
+                inner = _measured(self.level(state.name, state.inside, inside), shown(state))
                 made.inner[i] = inner
                 made.nodes[i] = layered.Node(inner.width, inner.height)
         made.made = layered.layout(made.nodes, [_edge(way, made) for way in made.ways], ranks)
-        _measure(made, f"{name} (parallel)" if parallel else name)
         return made
 
     def _own_crossings(self, name: str) -> list[Crossing]:
@@ -192,17 +184,18 @@ def _edge(way: Way, level: Level) -> layered.Edge:
 
 
 def _node(state: State) -> layered.Node:
-    return layered.Node(max(LEAST, text_width(state.name) + 28), LINE + 17)
+    return layered.Node(max(LEAST, text_width(shown(state)) + 28), LINE + 17)
 
 
-def _measure(level: Level, title: str) -> None:
+def _measured(level: Level, title: str = "") -> Level:
     """The size of a box with its head; the outermost one has neither head nor border."""
     inner = level.made
     room = INSET if title else 0.0
-    level.width = max(inner.width + 2 * room, text_width(title) + 2 * room)
+    level.width = max(inner.width, text_width(title)) + 2 * room
     level.left = (level.width - inner.width) / 2
     level.top = HEAD + room * 0.8 if title else 0.0
     level.height = level.top + inner.height + room
+    return level
 
 
 def levels_of(machine: StateMachine) -> Level:
@@ -213,16 +206,4 @@ def levels_of(machine: StateMachine) -> Level:
         box, state = todo.pop()
         home[state.name] = box
         todo += [(state.name, one) for one in state.inside]
-    lines: dict[Pair, tuple[str, ...]] = {}
-    for one in machine.transitions:
-        said = (words,) if (words := label(one)) else ()
-        lines[one.source, one.target] = (*lines.get((one.source, one.target), ()), *said)
-    return Levels(home, lines).level("", machine.states, parallel=False, passing=())
-
-
-def label(one: Transition) -> str:
-    """What fires a transition; nothing for the event that has its name from the two states."""
-    default = one.event.removeprefix("t_") == f"{one.source}_to_{one.target}"
-    event = "" if default else one.event
-    after = "" if one.after_s is None else f"after {one.after_s:g} s"
-    return " or ".join(part for part in (event, after) if part)
+    return _measured(Levels(home, lines_of(machine)).level("", machine.states, ()))

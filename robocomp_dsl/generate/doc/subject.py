@@ -5,6 +5,7 @@ In: models, as the checks give them. Out: the same, sorted, with everything behi
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -19,9 +20,8 @@ from robocomp_dsl.model.statemachine import StateMachine
 class Subject:
     """Everything that gets a page, each sort in the order of names.
 
-    `machines` has the state machine of a component, by the component's identity; `parameters` and
-    `lone_machines` are those that no component here names. A component that several deployments
-    import was read once for each: `same` leads from each of them to the one in `components`.
+    `parameters` and `machines` are those that no component here names. A component that several
+    deployments import was read once for each: `same` leads from each to the one in `components`.
     """
 
     title: str
@@ -29,12 +29,19 @@ class Subject:
     components: tuple[Component, ...] = ()
     deployments: tuple[Deployment, ...] = ()
     parameters: tuple[ParameterSet, ...] = ()
-    lone_machines: tuple[StateMachine, ...] = ()
-    machines: Mapping[int, StateMachine] = field(default_factory=dict)
+    machines: tuple[StateMachine, ...] = ()
     same: Mapping[int, Component] = field(default_factory=dict)
+
+
+def natural(name: str) -> tuple[list[tuple[int, str]], str]:
+    """What names are sorted by: whatever the case, and 9 before 10."""
+    parts = re.findall(r"[0-9]+|[^0-9]+", name.lower())
+    numbers = [(len(part.lstrip("0")), part.lstrip("0")) for part in parts]
+    keys = zip(parts, numbers, strict=True)
+    return [number if part.isdecimal() else (-1, part) for part, number in keys], name
 
 
 def modules_behind(modules: Iterable[Module]) -> tuple[Module, ...]:
     """These modules and all that they import, in the order of names; copies of a file, too."""
     found = {id(one): one for module in modules for one in module.closure()}
-    return tuple(sorted(found.values(), key=lambda m: (m.name.lower(), m.name, str(m.path))))
+    return tuple(sorted(found.values(), key=lambda m: (natural(m.name), str(m.path))))

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals
+from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Site
 from robocomp_dsl.generate.doc.words import (
     Block,
@@ -18,8 +19,6 @@ from robocomp_dsl.generate.doc.words import (
     Text,
     Words,
     code,
-    inline,
-    prose,
     table,
 )
 from robocomp_dsl.model.interface import Interface, Operation
@@ -67,11 +66,6 @@ def container(one: Sequence | Dictionary, site: Site) -> Words:
         else (*site.type(one.key), Code(", "), *site.type(one.value))
     )
     return (Code(f"{KINDS[type(one)]}<"), *inner, Code(f"> {one.name};"))
-
-
-def inline_doc(doc: str) -> Words:
-    """A whole doc comment for one cell of a table."""
-    return inline(" ".join(" ".join(literals.lines(doc)).split()))
 
 
 def literal(value: Literal | None, type_: Type) -> str:

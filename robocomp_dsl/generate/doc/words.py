@@ -5,12 +5,10 @@ In: the user's texts. Out: data that `html.py` and `markdown.py` write down; onl
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
-from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.doc.drawing import Drawing
 
 
@@ -62,7 +60,7 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Prose:
-    """Paragraphs and lists, as `prose` makes them."""
+    """Paragraphs and lists, as `prose.py` makes them."""
 
     kind: ClassVar[str] = "prose"
     parts: tuple[Paragraph | Bullets, ...]
@@ -168,56 +166,3 @@ def table(about: str, head: Sequence[str], rows: Sequence[Row]) -> tuple[Table, 
     kept = [i for i in range(len(head)) if any(row.cells[i] for row in rows)]
     slim = (Row(tuple(row.cells[i] for i in kept), row.anchor) for row in rows)
     return (Table(about, tuple(head[i] for i in kept), tuple(slim)),)
-
-
-_TICKED = re.compile(r"`([^`]+)`")
-_BULLET = re.compile(r"[-*+] +(\S.*)")
-
-
-def inline(said: str) -> Words:
-    """A line of a doc comment: what stands in backticks is code."""
-    return tuple(
-        Code(part) if i % 2 else Text(part) for i, part in enumerate(_TICKED.split(said)) if part
-    )
-
-
-def prose(doc: str) -> tuple[Prose, ...]:
-    """A doc comment: paragraphs between empty lines, and lists; nothing for an empty one."""
-    parts: list[Paragraph | Bullets] = []
-    for lines in _paragraphs(literals.lines(doc)):
-        at = next((i for i, line in enumerate(lines) if _BULLET.match(line.strip())), len(lines))
-        if lines[:at]:
-            parts.append(Paragraph(inline(" ".join(line.strip() for line in lines[:at]))))
-        if lines[at:]:
-            parts.append(Bullets(tuple(map(inline, _items(lines[at:])))))
-    return (Prose(tuple(parts)),) if parts else ()
-
-
-def sentence(doc: str) -> Words:
-    """The first paragraph of a doc comment, up to the end of its first sentence."""
-    first = " ".join(line.strip() for line in next(_paragraphs(literals.lines(doc)), []))
-    found = re.match(r".*?[.!?](?=\s)", first)
-    return inline(found[0] if found else first)
-
-
-def _paragraphs(lines: Sequence[str]) -> Iterator[list[str]]:
-    held: list[str] = []
-    for line in lines:
-        if line.strip():
-            held.append(line)
-        elif held:
-            yield held
-            held = []
-    if held:
-        yield held
-
-
-def _items(lines: Sequence[str]) -> list[str]:
-    items: list[str] = []
-    for line in lines:
-        found = _BULLET.match(line.strip())
-        if found:
-            items.append(found[1])
-        else:
-            items[-1] += f" {line.strip()}"
-    return items
