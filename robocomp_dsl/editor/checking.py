@@ -40,7 +40,7 @@ class Checking:
     def changed(self, document: Document) -> None:
         """Check `document` and what depends on it, as soon as no key waits for it."""
         key = identity(document.path)
-        dependants = self._dependants(key)
+        dependants = _stale(self._dependants(key))
         self._waiting = {key: document, **dependants, **self._waiting}
         took = self._took.get(key, 0.0)
         self._schedule(min(took, LONGEST_WAIT_S) if took > SLOW_S else 0.0)
@@ -50,12 +50,12 @@ class Checking:
         key = identity(document.path)
         self._waiting.pop(key, None)
         self._publish(lsp.PublishDiagnosticsParams(document.uri, []))
-        self._waiting.update(self._dependants(key))
+        self._waiting.update(_stale(self._dependants(key)))
         self._schedule(0.0)
 
     def everything(self) -> None:
         """Check all open documents: files that are not open have changed."""
-        self._waiting.update(self._session.documents)
+        self._waiting.update(_stale(self._session.documents))
         self._schedule(0.0)
 
     def _dependants(self, key: str) -> dict[str, Document]:
@@ -93,3 +93,10 @@ class Checking:
         self._took[key] = perf_counter() - begin
         version = document.version
         self._publish(lsp.PublishDiagnosticsParams(document.uri, found, version))
+
+
+def _stale(documents: dict[str, Document]) -> dict[str, Document]:
+    """Say of `documents` that their last check is no longer true."""
+    for one in documents.values():
+        one.stale = True
+    return documents

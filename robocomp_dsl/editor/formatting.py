@@ -7,10 +7,11 @@ editor, and with it cursors, marks and folds. A file with errors of form gets no
 from __future__ import annotations
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 
 from robocomp_dsl.editor.positions import range_of, span_of
 from robocomp_dsl.editor.session import NoDescription, Session
-from robocomp_dsl.format import changes, formatted
+from robocomp_dsl.format import CannotFormat, changes, formatted
 from robocomp_dsl.source import Source, UnreadableSource
 
 
@@ -38,6 +39,9 @@ def _edits(session: Session, source: Source, first: int, last: int) -> list[lsp.
         new = formatted(source, session.parsed(source.path).findings)
     except UnreadableSource as error:
         raise NoDescription(f"cannot read `{source.path}`: {error}") from None
+    except CannotFormat as error:
+        said = f"`{source.path.name}` stays as it is: {error}"
+        raise JsonRpcException(said, lsp.LSPErrorCodes.RequestFailed) from None
     if new is None or new == source.text:
         return []
     return [

@@ -5,10 +5,12 @@ In: the index of a file. Out: the protocol's five numbers for every name.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from lsprotocol import types as lsp
 
 from robocomp_dsl.editor.index import Mention
-from robocomp_dsl.editor.positions import length_of, position_at
+from robocomp_dsl.editor.positions import length_of, position_at, span_of
 from robocomp_dsl.editor.session import Session
 
 TYPES = {
@@ -44,7 +46,18 @@ LEGEND = lsp.SemanticTokensLegend(_NAMES, ["declaration"])
 def semantic_tokens(session: Session, params: lsp.SemanticTokensParams) -> lsp.SemanticTokens:
     """The names of a whole file."""
     session.source(params.text_document.uri)
+    return _tokens(session.index(session.path_of(params.text_document.uri)).mentions)
+
+
+def tokens_in_range(session: Session, params: lsp.SemanticTokensRangeParams) -> lsp.SemanticTokens:
+    """The names of a part of a file. Raises `NoDescription` and `WrongPosition`."""
+    asked = span_of(session.source(params.text_document.uri), params.range)
     mentions = session.index(session.path_of(params.text_document.uri)).mentions
+    return _tokens([m for m in mentions if m.span.start <= asked.end and asked.start <= m.span.end])
+
+
+def _tokens(mentions: Sequence[Mention]) -> lsp.SemanticTokens:
+    """The protocol's five numbers for each, relative to the one before."""
     data: list[int] = []
     line = column = 0
     # Of two meanings of one word the declared one counts.

@@ -23,6 +23,7 @@ from pygls.protocol import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
 from robocomp_dsl import __version__
+from robocomp_dsl.check import CHECKS
 from robocomp_dsl.editor import (
     call_hierarchy,
     code_lens,
@@ -73,6 +74,10 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
         semantic_tokens.semantic_tokens,
         semantic_tokens.LEGEND,
     ),
+    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE: (
+        semantic_tokens.tokens_in_range,
+        semantic_tokens.LEGEND,
+    ),
     lsp.TEXT_DOCUMENT_FOLDING_RANGE: (folding.folding_ranges, None),
     lsp.TEXT_DOCUMENT_DOCUMENT_LINK: (links.document_links, None),
     lsp.TEXT_DOCUMENT_INLAY_HINT: (inlay_hints.inlay_hints, None),
@@ -82,6 +87,19 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
     lsp.CALL_HIERARCHY_OUTGOING_CALLS: (call_hierarchy.outgoing, None),
 }
 """Method of the protocol to the function that answers it, and what the client is told of it."""
+
+_MOVED = (
+    lsp.WORKSPACE_DID_CREATE_FILES,
+    lsp.WORKSPACE_DID_RENAME_FILES,
+    lsp.WORKSPACE_DID_DELETE_FILES,
+)
+OURS = lsp.FileOperationRegistrationOptions(
+    [
+        lsp.FileOperationFilter(lsp.FileOperationPattern(glob), scheme="file")
+        for glob in (*(f"**/*{suffix}" for suffix in sorted(CHECKS)), "**/")
+    ]
+)
+"""Files that matter here; and folders, as they may hold some."""
 
 COLLECTION = (50_000, 20, 100)
 """Thresholds of the three generations of Python's garbage collector."""
@@ -116,6 +134,8 @@ class Server(LanguageServer):
         self.checking = Checking(self.session, self.text_document_publish_diagnostics)
         for method, handler in self._notifications().items():
             self.feature(method)(_guarded(method, handler))
+        for method in _MOVED:
+            self.feature(method, OURS)(_guarded(method, self._disk_changed))
         for method, (function, options) in FEATURES.items():
             handler = _answering(function, self.session)
             self.feature(method, options)(_guarded(method, handler))
@@ -132,6 +152,7 @@ class Server(LanguageServer):
     def _notifications(self) -> dict[str, Callable[[Any], Any]]:
         return {
             lsp.INITIALIZE: self._initialize,
+            lsp.INITIALIZED: self._initialized,
             lsp.TEXT_DOCUMENT_DID_OPEN: self._opened,
             lsp.TEXT_DOCUMENT_DID_CHANGE: self._changed,
             lsp.TEXT_DOCUMENT_DID_CLOSE: self._closed,
@@ -145,6 +166,17 @@ class Server(LanguageServer):
         uris = [folder.uri for folder in params.workspace_folders or ()]
         uris = uris or [params.root_uri or ""]
         self.session.folders = _folders(uris)
+
+    def _initialized(self, _: object) -> None:
+        """Ask to be told of files that change outside of the editor."""
+        workspace = self.client_capabilities.workspace
+        can = workspace.did_change_watched_files if workspace else None
+        if can and can.dynamic_registration:
+            watched = [lsp.FileSystemWatcher(f"**/*{suffix}") for suffix in sorted(CHECKS)]
+            method = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
+            options = lsp.DidChangeWatchedFilesRegistrationOptions(watched)
+            asked = lsp.Registration("rcgen-files", method, options)
+            self.client_register_capability(lsp.RegistrationParams([asked]))
 
     def _opened(self, params: lsp.DidOpenTextDocumentParams) -> None:
         document = synchronize.did_open(self.session, params)

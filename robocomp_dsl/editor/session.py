@@ -53,13 +53,17 @@ class Checked:
 
 @dataclass(slots=True)
 class Document:
-    """A file that the client has open. `good` is the last check of it without form errors."""
+    """A file that the client has open. `good` is the last check of it without form errors.
+
+    `stale`: a file that the check looked at has changed since.
+    """
 
     uri: str
     path: Path
     version: int | None
     checked: Checked | None = None
     good: Checked | None = None
+    stale: bool = False
 
 
 @dataclass(slots=True)
@@ -125,13 +129,14 @@ class Session:
         document = self.documents.get(identity(path))
         if document:
             document.checked = made
+            document.stale = False
             document.good = made if made.complete else document.good
         return made
 
     def checked(self, path: Path) -> Checked:
         """The last check of an open file; one that is not open is checked again."""
         document = self.documents.get(identity(path))
-        kept = document.checked if document else None
+        kept = document.checked if document and not document.stale else None
         if kept and kept.source is self.files.read(path):
             return kept
         return self.check(path)

@@ -22,10 +22,12 @@ async def start() -> AsyncIterator[Callable[..., Any]]:
         folder: Path,
         capabilities: str = "visual-studio-code",
         change: Callable[[lsp.ClientCapabilities], None] = lambda _: None,
+        listen: Callable[[LanguageClient], None] = lambda _: None,
     ) -> Editor:
         can = client_capabilities(capabilities)
         change(can)
         client = make_test_lsp_client()
+        listen(client)
         await client.start_io(*SERVER)
         running.append(client)
         uri = from_fs_path(str(folder)) or ""

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import Any
+
 import pytest
 from editor_client import Editor
 from lsprotocol import types as lsp
+from pytest_lsp import LanguageClient
 
 LASER = "module Scans\n{\n    interface Laser\n    {\n        float range();\n    };\n};\n"
 COMPONENT = """import "Laser.idsl";
@@ -97,3 +101,59 @@ async def test_innermodel(editor: Editor) -> None:
     editor.open("robot.xml", '<innerModel>\n  <transform id="a" id="b"/>\n</innerModel>\n')
     found = await editor.until("robot.xml", bool)
     assert any(one.range.start.line == 1 for one in found)
+
+
+async def test_file_that_changes_on_the_disk(editor: Editor) -> None:
+    editor.write("Laser.idsl", LASER)
+    editor.open("reader.cdsl", COMPONENT)
+    await editor.until("reader.cdsl", lambda found: not found)
+    change = lsp.FileChangeType
+    for kind, text in ((change.Changed, LASER.replace("interface Laser", "interface Lidar")),
+                       (change.Created, LASER)):  # fmt: skip
+        editor.write("Laser.idsl", text)
+        event = lsp.FileEvent(editor.uri("Laser.idsl"), kind)
+        editor.client.workspace_did_change_watched_files(lsp.DidChangeWatchedFilesParams([event]))
+        await editor.until("reader.cdsl", lambda found, text=text: bool(found) is (text != LASER))
+
+
+async def test_files_that_are_deleted_and_renamed(editor: Editor) -> None:
+    editor.write("Mine.idsl", LASER.replace("Laser", "Mine"))
+    editor.open("reader.cdsl", COMPONENT.replace("Laser", "Mine"))
+    await editor.until("reader.cdsl", lambda found: not found)
+    home = editor.folder
+    (home / "Mine.idsl").rename(home / "Other.idsl")
+    renamed = lsp.FileRename(editor.uri("Mine.idsl"), editor.uri("Other.idsl"))
+    editor.client.workspace_did_rename_files(lsp.RenameFilesParams([renamed]))
+    assert "RC201" in codes(await editor.until("reader.cdsl", bool))
+    (home / "Other.idsl").rename(home / "Mine.idsl")
+    editor.client.workspace_did_create_files(
+        lsp.CreateFilesParams([lsp.FileCreate(editor.uri("Mine.idsl"))])
+    )
+    await editor.until("reader.cdsl", lambda found: not found)
+    (home / "Mine.idsl").unlink()
+    editor.client.workspace_did_delete_files(
+        lsp.DeleteFilesParams([lsp.FileDelete(editor.uri("Mine.idsl"))])
+    )
+    assert "RC201" in codes(await editor.until("reader.cdsl", bool))
+
+
+@pytest.mark.parametrize(
+    ("capabilities", "asked"), [("visual-studio-code", True), ("neovim", False), ("emacs", True)]
+)
+async def test_clients_that_can_watch_files_are_asked_to(
+    start: Any, tmp_path: Path, capabilities: str, asked: bool
+) -> None:
+    registered: list[lsp.Registration] = []
+
+    def listen(client: LanguageClient) -> None:
+        @client.feature(lsp.CLIENT_REGISTER_CAPABILITY)
+        def register(params: lsp.RegistrationParams) -> None:
+            registered.extend(params.registrations)
+
+    editor = await start(tmp_path, capabilities, listen=listen)
+    editor.open("a.pdsl", "ComponentParams a\n{\n    rate flaot 1;\n};\n")
+    await editor.until("a.pdsl", bool)
+    globs = [
+        watcher["globPattern"] for one in registered for watcher in one.register_options["watchers"]
+    ]
+    assert ("**/*.cdsl" in globs) is asked

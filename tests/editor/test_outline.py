@@ -92,6 +92,17 @@ async def test_semantic_tokens(editor: Editor) -> None:
     ]
 
 
+async def test_semantic_tokens_of_some_lines(editor: Editor) -> None:
+    project.write(editor)
+    document = opened(editor, "app.ddsl")
+    lines = lsp.Range(lsp.Position(6, 0), lsp.Position(7, 0))
+    params = lsp.SemanticTokensRangeParams(document, lines)
+    found = await editor.client.text_document_semantic_tokens_range_async(params)
+    assert found is not None
+    assert list(found.data[:3]) == [6, 12, 3]  # `eye` of `connect eye.Laser -> base.Laser`
+    assert len(found.data) == 5 * 4
+
+
 async def test_folding(editor: Editor) -> None:
     text = FILES["app.ddsl"].replace("Deployment", "/* one\n   two */\nDeployment")
     params = lsp.FoldingRangeParams(opened(editor, "app.ddsl", text))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import subprocess
+
 import project
 import pytest
-from editor_client import Editor, edited
+from editor_client import SERVER, Editor, edited
 from lsprotocol import types as lsp
 from project import FILES
 
@@ -52,14 +54,74 @@ async def test_fixes(editor: Editor) -> None:
         editor.close(name)
 
 
-async def test_everything_at_once(editor: Editor) -> None:
+GUESSES = [
+    ("a.smdsl", "game { initial_state first; states second; transitions { first => secnd; }; };\n",
+     "secnd", "Change to `second`", "first => second;"),
+    ("a.xml", "<innerModel>\n<transfrm id='a'>\n</transfrm>\n</innerModel>\n", "transfrm",
+     "Change to `transform`", "<transform id='a'>\n</transform>"),
+    ("a.xml", "<innerModel>\n<transform id='a' Tx='1'/>\n</innerModel>\n", "Tx=",
+     "Change to `tx`", "tx='1'"),
+    ("a.xml", "<innerModel>\n<mesh id='a' file='b' render='norml'/>\n</innerModel>\n", "'norml",
+     "Change to `normal`", "render='normal'"),
+]  # fmt: skip
+
+
+async def test_words_that_were_meant(editor: Editor) -> None:
+    for name, text, word, title, expected in GUESSES:
+        found = await actions(editor, name, text, word)
+        titles = [action.title for action in found]
+        assert title in titles, (text, titles)
+        assert expected in applied(editor, found[titles.index(title)], name, text)
+        editor.close(name)
+
+
+async def test_every_file_that_could_be_imported_is_offered(editor: Editor) -> None:
+    project.write(editor)
+    editor.write("Other.idsl", FILES["Laser.idsl"].replace("Scans", "Other"))
+    text = FILES["reader.cdsl"].replace('import "Laser.idsl";\n', "")
+    found = await actions(editor, "reader.cdsl", text, "Laser")
+    titles = {one.title for one in found}
+    assert {'Add `import "Laser.idsl";`', 'Add `import "Other.idsl";`'} <= titles
+    assert not any(one.is_preferred for one in found)
+
+
+async def test_all_of_a_file(editor: Editor) -> None:
     project.write(editor)
     text = FILES["Laser.idsl"].replace("float angle", "floot angle").replace("float dist", "reel d")
     text = text.replace("int level", "int32 level")
-    (one,) = await actions(editor, "Laser.idsl", text, "module", ["source.fixAll"])
+    found = await actions(editor, "Laser.idsl", text, "floot")
+    (one,) = [each for each in found if each.title.startswith("Take all ")]
     after = applied(editor, one, "Laser.idsl", text)
     assert "float angle" in after
     assert "int level" in after
+
+
+LEGACY = """import "Laser.idsl";
+Component reader
+{
+    Communications { requires Laser; };
+    language Python;
+    gui Qt(QWidget);
+};
+"""
+
+
+async def test_fix_all_is_what_check_fix_does(editor: Editor) -> None:
+    project.write(editor)
+    text = "import 'Laser.idsl'\n" + LEGACY.partition("\n")[2].replace("requires", "REQUIRES")
+    text = text.replace("Laser;", "Lasr;")
+    path = editor.folder / "reader.cdsl"
+    editor.write("reader.cdsl", text)
+    subprocess.run([*SERVER[:-1], "check", "--fix", str(path)], check=False, capture_output=True)
+    expected = path.read_text(encoding="utf-8")
+    assert expected != text
+    editor.write("reader.cdsl", text)
+    for kind in ("source.fixAll", "source.fixAll.rcgen", "source"):
+        (one,) = await actions(editor, "reader.cdsl", text, "Component", [kind])
+        assert one.kind == "source.fixAll.rcgen"
+        assert applied(editor, one, "reader.cdsl", text) == expected
+    assert "Lasr" in expected  # what is a guess is not taken
+    assert await actions(editor, "reader.cdsl", expected, "Component", ["source.fixAll"]) == []
 
 
 async def test_nothing_where_nothing_is_wrong(editor: Editor) -> None:
