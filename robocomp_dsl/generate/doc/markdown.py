@@ -12,9 +12,9 @@ from robocomp_dsl.generate.doc.html import address
 from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Words
 from robocomp_dsl.generate.templates import render
 
-_SIGNS = re.compile(r"([\\`*_\[\]{}<>#|~&!$^=:@])")
-_BEGINS = re.compile(r"^(\s*)(?:([-+])|(\d+)([.)]))")
-"""What would begin a list at the beginning of a line."""
+_SIGNS = re.compile(r"[\\`*_\[\]<>#|~&$@]|:(?=//)")
+_BEGINS = re.compile(r"[-+=]|\d+(?=[.)])")
+"""What could begin a list or underline a heading where a line begins."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,18 +60,23 @@ class Markdown:
 
 def plain(text: str) -> str:
     """Words that stand for themselves."""
-    return _SIGNS.sub(r"\\\1", text)
+    return _SIGNS.sub(r"\\\g<0>", text)
 
 
-def begin(text: str) -> str:
-    """A line that does not begin a list or a heading."""
-    return _BEGINS.sub(lambda m: f"{m[1]}\\{m[2]}" if m[2] else f"{m[1]}{m[3]}\\{m[4]}", text)
+def begin(line: str) -> str:
+    """A line that begins no list and underlines no heading."""
+    found = _BEGINS.match(line)
+    if not found:
+        return line
+    return f"{found[0]}\\{line[found.end() :]}" if found[0].isdigit() else f"\\{line}"
 
 
 def code(text: str) -> str:
-    """Code as an element of HTML: ticks cannot hold `|`, blanks at the ends, or nothing."""
-    signs = {"&": "&amp;", "<": "&lt;", ">": "&gt;", " ": "&nbsp;" if not text.strip() else " "}
-    inner = "".join(signs.get(c) or (f"&#{ord(c)};" if _SIGNS.match(c) else c) for c in text)
+    """Code as an element of HTML: between ticks `|` and blanks at the ends would be lost."""
+    blank = not text.strip()
+    inner = "".join(
+        "&nbsp;" if blank else f"&#{ord(c)};" if _SIGNS.match(c) or c in "!:^" else c for c in text
+    )
     return f"<code>{inner}</code>"
 
 

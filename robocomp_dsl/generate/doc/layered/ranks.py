@@ -56,10 +56,10 @@ def roomy(nodes: Sequence[Node], edges: Sequence[Edge], ranks: Ranks) -> list[No
         for side, end in enumerate(ranks.ends(i, edge))
         if edge.source != edge.target
     )
-    least = [PORT * (max(sides[i, 0], sides[i, 1]) + 1) for i in range(len(nodes))]
+    most = (max(sides[i, 0], sides[i, 1]) for i in range(len(nodes)))
     return [
-        node if node.border else replace(node, height=max(node.height, height))
-        for node, height in zip(nodes, least, strict=True)
+        node if count < 2 else replace(node, height=max(node.height, PORT * (count + 1)))
+        for node, count in zip(nodes, most, strict=True)
     ]
 
 
