@@ -14,8 +14,8 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.check import described
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.cli.rewriting import BOM, difference, rewrite
-from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.format import MeaningWouldChange, formatted
+from robocomp_dsl.diagnostics import Report, Severity
+from robocomp_dsl.format import CannotFormat, formatted
 from robocomp_dsl.generate.write import CannotWrite
 from robocomp_dsl.source import Source, UnreadableSource, decode
 
@@ -103,13 +103,13 @@ class _Run:
         found = Report()
         check_syntax(path, self._workspace, found)
         if found.failed:
-            self.report.extend(found)
+            self.report.extend(one for one in found if one.severity is Severity.ERROR)
             return
         source: Source = self._workspace.files.read(path)
         try:
             new = formatted(source, list(found))
-        except MeaningWouldChange:
-            self._fail(f"`{path}` is left as it is: {MeaningWouldChange.__doc__}")
+        except CannotFormat as error:
+            self._fail(f"`{path}` stays as it is: {error}")
             return
         if new is not None:
             self.old[path], self.new[path] = source.text, new

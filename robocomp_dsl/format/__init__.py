@@ -33,29 +33,34 @@ PARSERS: dict[str, Callable[[Source, Report], object]] = {**LANGUAGES, ".xml": p
 """File suffix (lower case) to parser, for every language that can be formatted."""
 
 
-class MeaningWouldChange(Exception):
-    """The new text would say something else: a mistake of ours that must not reach a file."""
+class CannotFormat(Exception):
+    """The text must stay as it is; the message says why, in words for the user."""
 
 
 def formatted(source: Source, findings: Collection[Diagnostic]) -> str | None:
     """The text of `source` as the house writes it, or None if it has errors of form.
 
     `findings` are those of the parser. Raises `KeyError` for a suffix that is none of `PARSERS`,
-    and `MeaningWouldChange`.
+    and `CannotFormat`.
     """
     suffix = source.path.suffix.lower()
     parser = PARSERS[suffix]
     if any(one.severity is Severity.ERROR for one in findings):
         return None
-    missing = {f.span.end for f in findings if f.code is codes.LEGACY_SEMICOLON}
+    missing = {one.span.end for one in findings if one.code is codes.LEGACY_SEMICOLON}
     old = _scan(source.text, suffix, missing)
     new = _formatted(old, suffix, source.text)
-    if not pieces.same(_written(old), _scan(new, suffix)):
-        raise MeaningWouldChange
     # Where nothing was found, nothing was guessed either, and the tokens alone give the tree.
-    if findings and not _same_tree(source, new, parser):
-        raise MeaningWouldChange
+    right = pieces.same([one for one in old if one.text], _scan(new, suffix))
+    if not right or (findings and not _same_tree(source, new, parser)):
+        raise CannotFormat(_reason(findings))
     return new
+
+
+def _reason(findings: Collection[Diagnostic]) -> str:
+    if any(one.code is codes.TOO_MANY for one in findings):
+        return "it has too many legacy forms; mend them first, with `rcgen check --fix`"
+    return "it would say something else, which is a mistake of ours; please report it"
 
 
 def changes(source: Source, new: str) -> list[Change]:
@@ -80,10 +85,6 @@ def _lines(old: Sequence[Piece], suffix: str) -> list[Line]:
         return lay_out_xml(old)
     style = STYLES[suffix[1:]]
     return lay_out(items.read(old, inline_braces=style.inline_braces), style)
-
-
-def _written(old: Sequence[Piece]) -> list[Piece]:
-    return [one for one in old if one.text]
 
 
 def _same_tree(source: Source, new: str, parser: Callable[[Source, Report], object]) -> bool:

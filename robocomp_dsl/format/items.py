@@ -40,11 +40,14 @@ class Statement:
 Part: TypeAlias = Piece | Block
 
 
+def fills_line(comment: Piece) -> bool:
+    """Whether nothing may follow a comment on its line."""
+    return comment.kind == "LINE" or "\n" in comment.text
+
+
 def ends_line(comment: Piece, following: Piece | None) -> bool:
     """Whether nothing may follow a comment on its line, or nothing does."""
-    if comment.kind == "LINE" or "\n" in comment.text:
-        return True
-    return following is None or following.breaks > 0
+    return fills_line(comment) or following is None or following.breaks > 0
 
 
 def read(pieces: Sequence[Piece], *, inline_braces: bool) -> list[Statement]:
@@ -96,7 +99,7 @@ class _Reader:
         items = self.items(inside=True)
         close = self._take() if self._at < len(self._pieces) else Piece("SIGN", "", 0, 0, 0)
         inner = self._pieces[first : self._at]
-        flat = not any(p.breaks or p.kind == "LINE" or "\n" in p.text for p in inner)
+        flat = not any(p.breaks or fills_line(p) for p in inner)
         return [Block(opening, items, close, flat)]
 
     def _mere_list(self) -> int:

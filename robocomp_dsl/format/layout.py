@@ -8,9 +8,8 @@ made here, so is every blank.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import pairwise
 
-from robocomp_dsl.format.items import Block, Part, Statement, ends_line
+from robocomp_dsl.format.items import Block, Part, Statement, ends_line, fills_line
 from robocomp_dsl.format.lines import Line, reindented
 from robocomp_dsl.format.pieces import Piece
 from robocomp_dsl.format.style import INDENT, WIDTH, Style
@@ -73,7 +72,9 @@ class _Rows:
         if behind_comma and one.breaks:
             self._end_row()
             self._blank(one)
-        head = one.text in self.style.breaks
+        # A comment at the end of a line would be one about that line.
+        commented = self.left is not None and self.left.comment
+        head = one.text in self.style.breaks and not commented
         if head:
             self.heads.add(len(self.row))
         self._append(one, may_break=behind_comma or head)
@@ -146,9 +147,16 @@ class _Rows:
 
 
 def _broken(parts: Sequence[Part]) -> bool:
-    """Whether the user broke a line behind a comma."""
-    words = [p for p in parts if isinstance(p, Piece) and not p.comment]
-    return any(a.text == "," and b.breaks for a, b in pairwise(words))
+    """Whether there is a line break behind a comma, by the user or for a comment."""
+    behind_comma = False
+    for part in parts:
+        if isinstance(part, Block):
+            behind_comma = False
+        elif behind_comma and (part.breaks or (part.comment and fills_line(part))):
+            return True
+        elif not part.comment:
+            behind_comma = part.text == ","
+    return False
 
 
 def _together(parts: Sequence[Part], at: int) -> list[Piece]:

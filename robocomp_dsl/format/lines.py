@@ -5,7 +5,7 @@ In: lines with the comments behind them. Out: the text.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -25,23 +25,29 @@ class Line:
 
 
 def text_of(lines: Iterable[Line]) -> str:
-    """The lines as one text; comments behind neighbouring lines begin in the same column."""
+    """The lines as one text; comments behind neighbouring statements begin in the same column."""
     made: list[str] = []
-    for _, run in groupby(lines, key=lambda one: bool(one.note)):
+    for _, run in groupby(lines, key=_neighbourhood):
         made += _aligned(list(run))
     return "".join(f"{one}\n" for one in made)
 
 
-def _aligned(run: list[Line]) -> Iterator[str]:
-    if not run[0].note:
-        yield from (one.code for one in run)
-        return
+def _neighbourhood(one: Line) -> tuple[bool, int, bool]:
+    """What neighbouring lines must share to be aligned; braces stand for themselves."""
+    if not one.note:
+        return False, 0, False
+    words = one.code.lstrip()
+    return True, len(one.code) - len(words), words.startswith(("{", "}"))
+
+
+def _aligned(run: Sequence[Line]) -> Iterator[str]:
     widths = [len(one.code.rpartition("\n")[2]) for one in run]
     column = max(widths)
     if any(column + _GAP + len(one.note.partition("\n")[0]) > WIDTH for one in run):
         column = 0
     for one, width in zip(run, widths, strict=True):
-        yield f"{one.code}{' ' * (max(column - width, 0) + _GAP)}{one.note}"
+        blanks = " " * (max(column - width, 0) + _GAP)
+        yield f"{one.code}{blanks}{one.note}" if one.note else one.code
 
 
 def reindented(comment: Piece, indent: str) -> str:

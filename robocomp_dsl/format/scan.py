@@ -39,6 +39,8 @@ def scan(text: str, language: str, missing: Collection[int] = ()) -> list[Piece]
         one = make(kind, text, start, end, behind)
         if group == "_SEMI":
             one.text = _BLANK.sub("", one.text)
+        elif group == "BRACKETED":
+            one.text = f"[{one.text[1:-1].strip()}]"
         pieces.append(one)
         behind = end
         if end in missing:

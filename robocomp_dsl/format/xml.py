@@ -40,19 +40,18 @@ class _Tags:
             self.depth = max(self.depth - 1, 0)
         elif self.blank and one.breaks > 1:
             self.lines.append(Line())
-        self.blank = True
         indent = INDENT * self.depth
         if one.kind == "OPEN":
             self._tag(indent)
             return
-        behind = self.pieces[self.at - 1].kind in (*_TAG_ENDS, "CLOSE") and self.at > 0
+        behind = self.at > 0 and self.pieces[self.at - 1].kind in (*_TAG_ENDS, "CLOSE")
         self.at += 1
-        if not one.comment:
-            self.lines.append(Line(indent + one.text))
-        elif behind and not one.breaks:
+        if one.comment and behind and not one.breaks:
             self.lines[-1].note = one.text
-        else:
-            self.lines.append(Line(indent + reindented(one, indent)))
+            return
+        text = reindented(one, indent) if one.comment else one.text
+        self.lines.append(Line(indent + text))
+        self.blank = True
 
     def _tag(self, indent: str) -> None:
         parts = []
@@ -73,9 +72,8 @@ class _Tags:
             attributes = aligned.join(one.text for one in parts[1:])
             flat = f"{indent}{parts[0].text} {attributes}{end}{content}"
         self.lines.append(Line(flat))
-        if end == ">" and not inline:
-            self.depth += 1
-            self.blank = False
+        self.blank = end != ">" or bool(inline)
+        self.depth += not self.blank
 
     def _inline(self) -> list[Piece]:
         """What follows on the line of a tag: its end, or a single short text and its end."""

@@ -1,0 +1,24 @@
+"""What the tests of formatting share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.format import PARSERS, formatted
+from robocomp_dsl.source import Source
+
+CASES = Path(__file__).parent / "cases"
+ROOT = Path(__file__).parent.parent.parent
+
+
+def parse(name: str, text: str) -> tuple[object, Report]:
+    """The tree of a text and what was found in it."""
+    report = Report()
+    path = Path(name)
+    return PARSERS[path.suffix](Source(path, text), report), report
+
+
+def fmt(name: str, text: str) -> str | None:
+    """The text as the house writes it, or None where it has errors."""
+    return formatted(Source(Path(name), text), list(parse(name, text)[1]))
