@@ -70,7 +70,7 @@ def command(
     from robocomp_dsl.generate.write import CannotWrite  # noqa: PLC0415
 
     report = Report()
-    paths = list(dict.fromkeys(p for given in files for p in described(given)))
+    paths = _paths(files)
     subject = read_subject(paths, title or _title(files), Workspace(folders), report)
     options.show(report.sorted(), "full", sys.stderr)
     if report.failed:
@@ -84,23 +84,52 @@ def command(
         print(said)
 
 
+def _paths(files: Sequence[Path]) -> list[Path]:
+    """The descriptions meant; leaves with 1 where there are none."""
+    paths = list(dict.fromkeys(path for given in files for path in described(given)))
+    for path in paths:
+        if path.suffix.lower() == ".xml":
+            raise click.UsageError(f"`{path}`: bodies have no documentation, leave it out")
+    if not paths:
+        options.complain(f"there are no descriptions in {', '.join(f'`{one}`' for one in files)}")
+        sys.exit(FINDINGS)
+    return paths
+
+
 def _title(files: Sequence[Path]) -> str:
     """The name of the only file or folder, or of the one around them."""
-    if len(files) == 1:
-        return files[0].stem or files[0].resolve().name or "Robot"
-    return Path.cwd().name or "Robot"
+    only = files[0] if len(files) == 1 else Path()
+    return only.stem or only.resolve().name or "Robot"
 
 
 def _write(output: Path, files: Sequence[OutputFile]) -> str:
     """Write the pages; what to say then. Raises `CannotWrite`."""
-    from robocomp_dsl.generate.doc import MARK  # noqa: PLC0415
     from robocomp_dsl.generate.write import CannotWrite, compare, write  # noqa: PLC0415
 
     for one in compare(output, files):
-        if one.old is not None and MARK.encode() not in one.old:
+        if one.old is not None and not _is_ours(one.old):
             where = f"`{output / one.file.path}` is not a page of an earlier run"
             raise CannotWrite(f"{where}; move it, or choose another folder with -o")
     changes = write(output, files)
     written = sum(one.pending for one in changes)
     first = next(one.path for one in files if one.path.startswith("index."))
-    return f"{output / first}: {written} of {len(changes)} files written"
+    said = f"{output / first}: {written} of {len(changes)} files written"
+    left = _left(output, {one.path for one in files})
+    return f"{said}; pages of an earlier run are left: {', '.join(left)}" if left else said
+
+
+def _left(output: Path, made: set[str]) -> list[str]:
+    """Files of an earlier run, in the formats of this one, to which nothing leads any more."""
+    kinds = {Path(path).suffix for path in made}
+    others = (p for p in output.glob("*/*") if p.relative_to(output).as_posix() not in made)
+    return sorted(
+        path.relative_to(output).as_posix()
+        for path in others
+        if path.suffix in kinds and path.is_file() and _is_ours(path.read_bytes())
+    )
+
+
+def _is_ours(data: bytes) -> bool:
+    from robocomp_dsl.generate.doc import MARK  # noqa: PLC0415
+
+    return MARK.encode() in data

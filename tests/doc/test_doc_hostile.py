@@ -86,7 +86,9 @@ def test_html_says_it_and_obeys_nothing(evil: dict[str, str]) -> None:
 
 def test_markdown_says_the_same(evil: dict[str, str]) -> None:
     """A reader of Markdown makes of a page what the other form of it is."""
-    reader = MarkdownIt("commonmark", {"html": True, "xhtmlOut": False}).enable(["table", "strikethrough"])
+    reader = MarkdownIt("commonmark", {"html": True, "xhtmlOut": False}).enable(
+        ["table", "strikethrough"]
+    )
     for path, text in evil.items():
         if not path.endswith(".md"):
             continue

@@ -115,7 +115,7 @@ def _loop(edge: Edge, node: Node, corner: Point, risen: list[float]) -> Route:
     """Out of the top of a node and back into it; each further one is outside of the last."""
     low = risen[edge.source]
     risen[edge.source] += LOOP + edge.height
-    foot = FOOT * (1 + low / (LOOP + edge.height))
+    foot = min(FOOT * (1 + low / (LOOP + edge.height)), node.width / 2)
     x, y = corner[0] + node.width / 2, corner[1]
     peak = y - low - LOOP  # the curve itself rises to three quarters of it
     points = ((x - foot, y), (x - foot, peak), (x + foot, peak), (x + foot, y))
