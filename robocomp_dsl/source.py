@@ -20,6 +20,7 @@ MAX_BYTES = 4 * 1024 * 1024
 
 
 _DECLARED = re.compile(r"""\A(\s*<\?xml\b[^>]*?\sencoding\s*=\s*)(["'])([A-Za-z][\w.-]*)\2""")
+_POINTER = re.compile(rb"(version https://git-lfs\.)|[./]*/?\.git/annex/objects/\S+\s*\Z")
 _LEGACY = {
     "iso-8859-1": "iso-8859-1",
     "latin-1": "iso-8859-1",
@@ -188,6 +189,9 @@ def decode(data: bytes) -> str:
         raise UnreadableSource("the text is UTF-16; save it as UTF-8")
     if b"\0" in data:
         raise UnreadableSource("this is a binary file, not a text")
+    if found := _POINTER.match(data):
+        tool = "Git LFS" if found[1] else "git-annex"
+        raise UnreadableSource(f"this is only a pointer of {tool}; the file itself is not here")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

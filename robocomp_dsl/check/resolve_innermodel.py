@@ -29,6 +29,14 @@ MAX_NODES = 100_000
 ROOT_ID = "root"
 _NAMELESS = ("axes", "taxel")
 """Tags of nodes that nobody refers to."""
+_OTHERS = {
+    "rcmanager": "a deployment for rcmanager, not a body",
+    "agmmodel": "a model of the world for AGM, not a body",
+    "scxml": "a state machine: its file is called `.scxml`",
+    "robot": "a robot in URDF, not in InnerModel",
+    "mujoco": "a model for MuJoCo, not in InnerModel",
+}
+"""Outermost elements, in lower case, of other files that people have."""
 _INCLUDE = Tag(Node, {"path": TEXT})
 
 
@@ -65,11 +73,13 @@ class _Resolver:
         if root is None:
             return ()
         if root.tag.text.lower() != ROOT:
+            other = _OTHERS.get(root.tag.text.lower(), "")
             self.report.add(
                 codes.BODY_TAG,
                 root.tag.span,
                 f"the outermost element is `<{root.tag.text}>`, it must be `<innerModel>`",
                 label=did_you_mean(root.tag.text, ["innerModel"]),
+                help=f"this is {other}" if other else "",
             )
             return ()
         read_values(root, Tag(Node, {}), self.report)

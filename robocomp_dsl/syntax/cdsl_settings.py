@@ -42,11 +42,14 @@ class Settings(Builder):
         return Setting(span, "language", name)
 
     def gui(self, span: Span, first: Name, second: Name | None) -> Setting:
-        """`gui Qt(QWidget);`, or `gui QWidget;` as it was once written."""
+        """`gui Qt(QWidget);`, or `gui QWidget;` and `gui Qt;` as it was once written."""
         widget = second or first
         if widget.text.lower() in ("no_gui", "none"):
             return self.no_gui(span)
         toolkit = first if second else None
+        if not second and first.text.lower() == "qt":
+            self._old_gui(first, "the window class is missing", "QWidget", None)
+            return Setting(span, "gui", Gui(span, Name(first.span, "QWidget"), first))
         if toolkit:
             self.vocabulary(toolkit, ("Qt",), "toolkit")
         if widget.text == "QFrame":

@@ -97,3 +97,48 @@ def test_text_is_a_warning_only(tmp_path: Path) -> None:
     report = Report()
     check_innermodel(path, Workspace(environ={}), report)
     assert [d.severity for d in report] == [Severity.WARNING]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("../../.git/annex/objects/QF/zv/SHA256E-s970--77.xml/SHA256E-s970--77.xml", "git-annex"),
+        ("/annex/../.git/annex/objects/a\n", "git-annex"),
+        ("version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 1\n", "Git LFS"),
+    ],
+)
+def test_a_file_that_was_not_fetched(tmp_path: Path, text: str, said: str) -> None:
+    path = tmp_path / "w.xml"
+    path.write_text(text)
+    report = Report()
+    check_innermodel(path, Workspace(environ={}), report)
+    (finding,) = report
+    assert finding.code.id == "RC001"
+    assert f"only a pointer of {said}" in finding.message
+
+
+@pytest.mark.parametrize(
+    ("text", "help"),
+    [
+        ("<rcmanager/>", "a deployment for rcmanager"),
+        ('<AGMModel id="a"/>', "a model of the world for AGM"),
+        ("<scxml/>", "a state machine"),
+        ("<transform/>", ""),
+    ],
+)
+def test_xml_of_another_kind(tmp_path: Path, text: str, help: str) -> None:
+    path = tmp_path / "w.xml"
+    path.write_text(text)
+    report = Report()
+    check_innermodel(path, Workspace(environ={}), report)
+    (finding,) = report
+    assert finding.code.id == "RC801"
+    assert help in finding.help
+    assert bool(help) == bool(finding.help)
+
+
+def test_comments_in_comments(tmp_path: Path) -> None:
+    """A comment ends at the first `-->`, whatever was begun in it."""
+    path = tmp_path / "w.xml"
+    path.write_text(TREE.replace("<imu", "<!-- <!-- <imu id='x'/> --> <imu"))
+    assert nodes(path) == (["root", "a", "b"], [])
