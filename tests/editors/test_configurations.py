@@ -1,0 +1,69 @@
+"""The configurations of editors that cannot be run here: they are well formed, and name what exists."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+from real_editor import EDITORS
+
+BRACES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl"}
+COMMAND = ["rcgen", "lsp"]
+
+
+def toml(path: Path) -> dict[str, Any]:
+    return tomllib.loads(path.read_text(encoding="utf-8"))
+
+
+def test_helix() -> None:
+    read = toml(EDITORS / "helix" / "languages.toml")
+    server = read["language-server"]["robocomp"]
+    assert [server["command"], *server["args"]] == COMMAND
+    languages = {one["name"]: one for one in read["language"]}
+    assert set(languages) == {*BRACES, "innermodel"}
+    for name, one in languages.items():
+        assert one["language-servers"] == ["robocomp"]
+        if name in BRACES:
+            assert one["file-types"] == [name]
+            assert one["scope"] == f"source.{name}"
+
+
+def test_zed() -> None:
+    folder = EDITORS / "zed"
+    extension = toml(folder / "extension.toml")
+    languages = {
+        path.parent.name: toml(path) for path in sorted(folder.glob("languages/*/config.toml"))
+    }
+    assert {name: one["path_suffixes"] for name, one in languages.items()} == {
+        name: [name] for name in BRACES
+    }
+    server = extension["language_servers"]["rcgen"]
+    assert set(server["languages"]) == {one["name"] for one in languages.values()}
+    assert server["language_ids"] == {one["name"]: name for name, one in languages.items()}
+    assert toml(folder / "Cargo.toml")["package"]["version"] == extension["version"]
+    binary = json.loads((folder / "settings.json").read_text())["lsp"]["rcgen"]["binary"]
+    assert binary["arguments"] == ["lsp"]
+
+
+@pytest.mark.editors
+def test_zed_program_is_rust() -> None:
+    rustfmt = shutil.which("rustfmt")
+    if rustfmt is None:
+        pytest.skip("rustfmt is not installed; the extension is compiled by Zed")
+    source = EDITORS / "zed" / "src" / "lib.rs"
+    command = [rustfmt, "--edition", "2021", "--check", source]
+    subprocess.run(command, check=True, timeout=60)
+
+
+def test_kate() -> None:
+    servers = json.loads((EDITORS / "kate" / "lspclient.json").read_text())["servers"]
+    assert set(servers) == BRACES
+    assert servers["idsl"]["command"] == COMMAND
+    assert all(servers[one]["use"] == "idsl" for one in BRACES - {"idsl"})
+    for name, one in servers.items():
+        assert one["highlightingModeRegex"] == f"^{name.upper()}$"
