@@ -16,7 +16,7 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes, literals
 from robocomp_dsl.generate.export import by_file, closure
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.slice_names import SliceNames, escaped
+from robocomp_dsl.generate.slice_names import SliceNames, escaped, members
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.interface import Interface, Module, Operation
 from robocomp_dsl.model.types import (
@@ -111,10 +111,12 @@ class _Printer:
         self._module = module
         self._names = names
         self._report = report
+        self._inside: frozenset[str] = frozenset()
 
     def declaration(self, one: Declaration) -> str:
         """One declaration with its comment, indented once."""
         name = escaped(self._names[one])
+        self._inside = frozenset(self._names[each].lower() for each in members(one))
         match one:
             case Enum():
                 text = f"enum {name}{_block(self._enumerators(one))}"
@@ -137,11 +139,16 @@ class _Printer:
     def _type(self, one: Type | ExceptionType) -> str:
         if isinstance(one, Primitive):
             return one.name
-        name = escaped(self._names[one])
-        if one.module == self._module.name:
-            return name
+        # A short name that a member has too would, says Slice, change its meaning on the way.
+        hidden = self._names[one].lower() in self._inside
+        if hidden or one.module != self._module.name:
+            return self._path(one)
+        return escaped(self._names[one])
+
+    def _path(self, one: Declaration) -> str:
         # From the outermost place, because a declaration of ours may be called as that module.
-        return f"::{escaped(self._names.module(one.module))}::{name}"
+        # Within a path Slice takes keywords for names, and a backslash for a part of the name.
+        return f"::{self._names.module(one.module)}::{self._names[one]}"
 
     def _enumerators(self, one: Enum) -> Iterator[str]:
         plain = [e.value for e in one.enumerators] == list(range(len(one.enumerators)))
@@ -175,7 +182,7 @@ class _Printer:
                 return f" = {str(one.default).lower()}"
             case str() if isinstance(one.type, Enum):
                 chosen = next(e for e in one.type.enumerators if e.name == one.default)
-                return f" = {escaped(self._names[chosen])}"
+                return f" = {self._path(one.type)}::{self._names[chosen]}"
             case str():
                 return f" = {_quoted(one.default)}"
         return f" = {one.default!r}"
@@ -207,9 +214,10 @@ def _block(rows: Iterable[str]) -> str:
 
 def comment(doc: str, unit: str = "") -> list[str]:
     """A doc comment as lines of Slice, none for an empty one."""
-    rows = [row.replace("*/", "* /") for row in literals.lines(doc)]
+    rows = literals.lines(doc)
     if unit:
-        rows = [*rows[:-1], f"{rows[-1] if rows else ''} [{unit.replace('*/', '* /')}]".strip()]
+        rows = [*rows[:-1], f"{rows[-1] if rows else ''} [{literals.printable(unit)}]".strip()]
+    rows = [row.replace("*/", "* /").replace("/*", "/ *") for row in rows]
     if len(rows) < 2:
         return [f"/** {row} */" for row in rows]
     return [f"/** {rows[0]}", *(f" * {row}".rstrip() for row in rows[1:]), " */"]

@@ -7,7 +7,7 @@ is for printing. Slice does not tell capital from small letters within one place
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.export import Spelling, report_renamed
@@ -20,11 +20,13 @@ KEYWORDS = frozenset(
     (
         *("bool", "byte", "class", "const", "dictionary", "double", "enum", "exception"),
         *("extends", "false", "float", "idempotent", "implements", "int", "interface", "local"),
-        *("LocalObject", "long", "module", "Object", "optional", "out", "sequence", "short"),
-        *("string", "struct", "tag", "throws", "true", "Value", "void"),
+        *("long", "module", "optional", "out", "sequence", "short", "string", "struct", "tag"),
+        *("throws", "true", "void"),
     )
 )
 _RESERVED_END = re.compile(r"(?:Prx|Ptr|Helper|Holder)$")
+_BUILT_IN = ("LocalObject", "Object", "Value")
+"""Types of Slice: even escaped, a type of ours with such a name is taken for them in places."""
 
 
 def escaped(name: str) -> str:
@@ -37,7 +39,20 @@ def fit(name: str) -> str:
     plain = re.sub("_+", "_", name).strip("_") or "n"
     if plain[0].isdigit() or plain[:3].lower() == "ice":
         plain = f"n_{plain}"
-    return f"{plain}1" if _RESERVED_END.search(plain) else plain
+    return f"{plain}1" if _RESERVED_END.search(plain) or plain in _BUILT_IN else plain
+
+
+def members(one: Declaration) -> Iterator[Named]:
+    """Everything that has a name within a declaration, parameters too."""
+    match one:
+        case Struct() | ExceptionType():
+            yield from one.fields
+        case Enum():
+            yield from one.enumerators
+        case Interface():
+            for operation in one.operations:
+                yield operation
+                yield from (*operation.inputs, *operation.outputs)
 
 
 class SliceNames:

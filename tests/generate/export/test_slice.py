@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
 
 import exported
 import pytest
+import random_idsl
+from hypothesis import HealthCheck, given, settings
 
 from robocomp_dsl.generate.export import export
 from robocomp_dsl.resources import INTERFACES
@@ -42,3 +45,16 @@ def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
         exported.put(made.files, tmp_path)
     assert {p.stem for p in tmp_path.glob("*.ice")} >= {Path(n).stem for n in exported.SHIPPED}
     assert slice2py(tmp_path) == ""
+
+
+@compiled
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(texts=random_idsl.texts())
+def test_any_valid_interface_compiles(texts: dict[str, str]) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in texts.items():
+            (folder / file).write_text(text)
+        made = export(exported.modules(folder / "Text.idsl"), "slice")
+        exported.put(made.files, folder)
+        assert slice2py(folder) == "", "\n".join(one.text for one in made.files)

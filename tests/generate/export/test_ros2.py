@@ -1,0 +1,104 @@
+"""`--to ros2`: what rosbags' parser reads in it, and whether the bytes are the same."""
+
+from __future__ import annotations
+
+import re
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import exported
+import pytest
+import random_idsl
+from hypothesis import HealthCheck, given, settings
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+from robocomp_dsl.generate import ros2_names
+from robocomp_dsl.generate.export import export
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.resources import INTERFACES
+
+# The rules of rosidl_adapter's parser.
+PACKAGE = MEMBER = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*")
+MESSAGE = re.compile(r"[A-Z][A-Za-z0-9]*")
+CONSTANT = re.compile(r"[A-Z]([A-Z0-9_]?[A-Z0-9]+)*")
+
+
+def parsed(files: Iterable[OutputFile]) -> dict[str, Any]:
+    """All types of the messages and services, each name within the rules."""
+    found: dict[str, Any] = {}
+    for one in files:
+        package, _, rest = one.path.partition("/")
+        assert PACKAGE.fullmatch(package)
+        stem = Path(rest).stem
+        if rest.startswith("msg/"):
+            found |= get_types_from_msg(one.text, f"{package}/msg/{stem}")
+        elif rest.startswith("srv/"):
+            request, response = re.split("(?m)^---\n", one.text)
+            # Halves of services are read as messages, which is what they are to the parser.
+            found |= get_types_from_msg(request, f"{package}/msg/{stem}_Request")
+            found |= get_types_from_msg(response, f"{package}/msg/{stem}_Response")
+        if rest.startswith(("msg/", "srv/")):
+            assert MESSAGE.fullmatch(stem)
+    for constants, members in found.values():
+        for name, _, _ in constants:
+            assert CONSTANT.fullmatch(name)
+        for name, _ in members:
+            assert MEMBER.fullmatch(name)
+            assert name not in ros2_names.WORDS
+        for names in ([n for n, *_ in constants], [n for n, _ in members]):
+            assert len({*names}) == len(names)
+    return found
+
+
+def registered(types: dict[str, Any]) -> Any:
+    """A store of only these types; it refuses a mention of one that is not there."""
+    store = get_typestore(Stores.EMPTY)
+    store.register(types)
+    for name in types:
+        store.generate_msgdef(name, ros_version=2)
+    return store
+
+
+def test_every_shipped_interface_is_read() -> None:
+    everything: dict[str, Any] = {}
+    for name in exported.SHIPPED:
+        made = export(exported.modules(INTERFACES / name), "ros2")
+        assert not made.findings
+        paths = [one.path.lower() for one in made.files]
+        assert len({*paths}) == len(paths)
+        everything |= parsed(made.files)
+    registered(everything)
+    assert "robocomp_laser/msg/TLaserData" in everything
+    assert "robocomp_laser/msg/LaserGetLaserData_Response" in everything
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(texts=random_idsl.texts())
+def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for file, text in texts.items():
+            (folder / file).write_text(text)
+        made = export(exported.modules(folder / "Text.idsl"), "ros2")
+        paths = [one.path.lower() for one in made.files]
+        assert len({*paths}) == len(paths)
+        registered(parsed(made.files))
+
+
+@pytest.mark.parametrize(
+    ("name", "member", "message"),
+    [
+        ("getLaserData", "get_laser_data", "GetLaserData"),
+        ("HTTPServer2Go", "http_server2_go", "HTTPServer2Go"),
+        ("RoboCompLaser", "robocomp_laser", "RoboCompLaser"),
+        ("_x__y_", "x_y", "XY"),
+        ("__", "n", "N"),
+        ("_1", "n1", "N1"),
+        ("class", "class_value", "Class"),
+        ("header", "header", "HeaderData"),
+    ],
+)
+def test_names(name: str, member: str, message: str) -> None:
+    assert (ros2_names.member(name), ros2_names.camel(name)) == (member, message)
