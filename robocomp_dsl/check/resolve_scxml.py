@@ -6,14 +6,14 @@ executable content stay as they are written.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.files import Parsed
 from robocomp_dsl.check.names import report_repeat
 from robocomp_dsl.check.scxml_form import judge_form, local
-from robocomp_dsl.check.scxml_tags import STATES
+from robocomp_dsl.check.scxml_tags import ACTIONS, STATES
 from robocomp_dsl.diagnostics import Report, did_you_mean
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 from robocomp_dsl.syntax.ast_base import Name, Text
@@ -215,7 +215,7 @@ class _Resolver:
             span=target.value.span if target else way.tag.span,
             others=tuple(targets[1:]),
             cond=_text(way, "cond"),
-            action="\n".join(one.span.text for one in way.children),
+            action=_actions([way]),
             internal=_text(way, "type") == "internal",
         )
 
@@ -248,7 +248,12 @@ def _text(element: Element, name: str) -> str:
 
 def _content(element: Element, name: str) -> str:
     """The executable content of all children called `name`, as written."""
-    return "\n".join(one.span.text for block in _named(element, name) for one in block.children)
+    return _actions(_named(element, name))
+
+
+def _actions(blocks: Iterable[Element]) -> str:
+    found = (one for block in blocks for one in block.children if local(one) in ACTIONS)
+    return "\n".join(one.span.text for one in found)
 
 
 def _words(text: Text) -> Iterator[Name]:
