@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import pytest
 from editor_client import Editor
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 
 pytestmark = pytest.mark.asyncio
 
@@ -112,6 +113,13 @@ async def test_a_range(editor: Editor) -> None:
     assert await lines(editor, "a.cdsl", two, 5, 6) == two
 
 
+async def test_what_cannot_be_formatted_is_said(editor: Editor) -> None:
+    fields = "".join(f"    int p{number}\n" for number in range(150))
+    with pytest.raises(JsonRpcException, match=r"`a\.idsl` stays as it is: it has too many") as told:
+        await whole(editor, "a.idsl", f"module M {{ struct S\n{{\n{fields}}}; }};\n")
+    assert told.value.code == lsp.LSPErrorCodes.RequestFailed
+
+
 async def test_a_range_that_is_not_there(editor: Editor) -> None:
-    with pytest.raises(Exception, match="no line 99"):
+    with pytest.raises(JsonRpcException, match="no line 99"):
         await lines(editor, "a.cdsl", NEAT, 99, 100)

@@ -1,0 +1,186 @@
+"""What holds for every text: it says the same, with the same comments, and stays as it is then."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from random import Random
+
+import pytest
+from formats import CASES, ROOT, fmt, parse
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.format import PARSERS, changes
+from robocomp_dsl.source import Source
+
+TEXT = r"\"(?:[^\"\\\n]|\\.)*\""
+COMMENT = re.compile(TEXT + r"|(<!--.*?-->|/\*.*?\*/|//[^\n]*|#[^\n]*)", re.DOTALL)
+
+
+def _described(*folders: str) -> list[Path]:
+    found = (path for folder in folders for path in (ROOT / folder).rglob("*"))
+    texts = (path for path in found if path.name != "Latin1.idsl")  # which is no text
+    return sorted(path for path in texts if path.suffix in PARSERS and path.is_file())
+
+
+SHIPPED = _described("interfaces", "components")
+WRITTEN = _described("interfaces", "components", "tests/cases", "tests/format/cases")
+
+
+def _comments(text: str) -> list[str]:
+    """The words of all comments, each line without the blanks around it."""
+    found = (match[1] for match in COMMENT.finditer(text) if match[1])
+    return ["\n".join(line.strip() for line in one.split("\n")) for one in found]
+
+
+def _stays(name: str, text: str, made: str) -> None:
+    """`made` of `text` says the same, and is not formatted any further."""
+    (old, before), (new, after) = parse(name, text), parse(name, made)
+    assert repr(new) == repr(old)  # a tree without its spans
+    assert [one.code.id for one in after.sorted()] == [one.code.id for one in before.sorted()]
+    assert fmt(name, made) == made
+    patched = text
+    source = Source(Path(name), text)
+    for start, end, put in reversed(changes(source, made)):
+        patched = patched[:start] + put + patched[end:]
+    assert patched == made
+
+
+@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: str(path.relative_to(ROOT)))
+@pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["lf", "crlf"])
+def test_files(path: Path, end: str) -> None:
+    text = Source.read(path).text.replace("\r\n", "\n").replace("\n", end)
+    made = fmt(path.name, text)
+    if made is None:
+        assert parse(path.name, text)[1].failed
+        return
+    _stays(path.name, text, made)
+    assert _comments(made.replace("\r", "")) == _comments(text.replace("\r", ""))
+    assert made.endswith(end)
+    assert not made.endswith(end * 2)
+    assert not made.startswith(end)
+    assert end * 3 not in made
+    assert made.count("\r\n") == (made.count("\n") if end == "\r\n" else 0)
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_is_shipped_is_formatted(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert fmt(path.name, text) == text
+
+
+@pytest.mark.parametrize("path", sorted(CASES.glob("*.out")), ids=lambda path: path.name)
+def test_trailing_blanks_and_tabs_go(path: Path) -> None:
+    inside_comment = {"comments.cdsl.out": ["\t*/"], "legacy.cdsl.out": ["\t\t    line */"]}
+    lines = path.read_text(encoding="utf-8").split("\n")
+    odd = [line for line in lines if line.startswith("\t") or line != line.rstrip()]
+    assert odd == inside_comment.get(path.name, [])
+
+
+TOKEN = re.compile(TEXT + r"|on-failure|\[[^\]\n]*\]|[+-]?[\w.]+|::|->|=>|[^\s\w]")
+WORLD = [
+    *('<?xml version="1.0"?>', "<!DOCTYPE innerModel>", "<innerModel", 'a="1"', ">"),
+    *("<transform", 'id="a"', "tx='1'", ">", "<mesh", 'id="b  c"', "/>", "<mesh", 'id="d"', ">"),
+    *("</mesh>", "<?keep this?>", "some  words", "</transform>", "<![CDATA[ <a> ]]>", "<t", ">"),
+    *("words", "</t>", "<t", ">", "<![CDATA[x]]>", "</t>", "<plane", 'file="x/y.osg"', "/>"),
+    "</innerModel>",
+]
+BLANKS = ["", " ", "  ", "\n", "\n\n", "\n\n\n\n", "\t", "\n\t ", " \n   "]
+INLINE = ["/* b */", "/** d */", "/*\n  * s\n*/", "/* a\n b\n   c */", "/**/"]
+TO_END = ["// l\n", "/// d\n", "# h\n", "//\n", "# h\n\n   #i\n", "//// x  \n"]
+XML_COMMENTS = ["<!-- c -->", "<!--a\n  b-->"]
+STRETCH = 40
+"""Tokens between which there is something odd; between all others is a blank."""
+
+TEXTS = {
+    path.name: path.read_text(encoding="utf-8")
+    for path in [
+        *(ROOT / "components").rglob("*.?dsl"),
+        ROOT / "interfaces" / "ControlBoard.idsl",
+        ROOT / "tests" / "cases" / "smdsl" / "sem_clean.smdsl",
+        ROOT / "tests" / "cases" / "pdsl" / "sem_clean.pdsl",
+        ROOT / "tests" / "cases" / "idsl" / "sem_clean.idsl",
+    ]
+}
+
+
+def _tokens(text: str) -> list[str]:
+    bare = COMMENT.sub(lambda match: " " if match[1] else match[0], text)
+    return TOKEN.findall(bare)
+
+
+def _gap(chance: Random, comments: Sequence[str]) -> str:
+    gap = chance.choice(BLANKS)
+    if comments and chance.random() < 0.5:
+        gap += chance.choice(comments) + chance.choice(BLANKS)
+    return gap
+
+
+def _reflowed(name: str, chance: Random) -> str:
+    """The tokens of a file with other blanks and comments between them."""
+    tokens = _tokens(TEXTS[name])
+    first = chance.randrange(len(tokens))
+    text, left = "", ";"
+    for number, token in enumerate(tokens):
+        odd = first <= number < first + STRETCH
+        gap = _gap(chance, INLINE + TO_END) if odd else " "
+        if not (gap or left in ";{}(),<>" or token in "{}(),<>;"):
+            gap = " "
+        text, left = text + gap + token, token
+    return text
+
+
+@given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
+@settings(max_examples=150, deadline=None)
+def test_any_blanks_and_comments_between_tokens(name: str, seed: int) -> None:
+    text = _reflowed(name, Random(seed))
+    made = fmt(name, text)
+    assert made is not None, [one.message for one in parse(name, text)[1]]
+    _stays(name, text, made)
+    assert _comments(made) == _comments(text)
+
+
+@given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
+@settings(max_examples=60, deadline=None)
+def test_blanks_within_lines_make_no_difference(name: str, seed: int) -> None:
+    neat = fmt(name, TEXTS[name])
+    assert neat is not None
+    chance = Random(seed)
+    lines = []
+    for line in neat.split("\n"):
+        if any(mark in line for mark in ("//", "*", '"', "#", "[")):
+            lines.append(line)
+            continue
+        between = r"(?<=\w) (?=\w)|(?<=[,;{]) "
+        wide = re.sub(between, lambda _: chance.choice([" ", "  ", "\t"]), line.strip())
+        lines.append(chance.choice(["", "\t", "   "]) + wide)
+    assert fmt(name, "\n".join(lines)) == neat
+
+
+@given(st.integers(0, 2**32))
+@settings(max_examples=150, deadline=None)
+def test_any_blanks_and_comments_between_tags(seed: int) -> None:
+    chance = Random(seed)
+    text = ""
+    for token in WORLD:
+        gap = _gap(chance, XML_COMMENTS if token[0] == "<" else ()) if text else ""
+        text += (gap or " " * bool(text)) + token
+    made = fmt("world.xml", text)
+    assert made is not None, [one.message for one in parse("world.xml", text)[1]]
+    _stays("world.xml", text, made)
+    assert _comments(made) == _comments(text)
+
+
+@given(
+    st.sampled_from(sorted(PARSERS)), st.text("ab1 \n\t{};,:()<>[]=\"'/*#.+-&!?é\r", max_size=60)
+)
+@settings(max_examples=300, deadline=None)
+def test_any_text(suffix: str, text: str) -> None:
+    made = fmt(f"x{suffix}", text)
+    if made is not None:
+        assert fmt(f"x{suffix}", made) == made
+        old, new = (PARSERS[suffix](Source(Path("x"), t), Report()) for t in (text, made))
+        assert repr(old) == repr(new)
