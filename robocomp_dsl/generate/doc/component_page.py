@@ -14,6 +14,7 @@ from robocomp_dsl.generate.doc.machine_blocks import machine_blocks
 from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Names, Site
 from robocomp_dsl.generate.doc.words import (
+    BLANK,
     Badge,
     Block,
     Code,
@@ -108,7 +109,7 @@ def _port(port: Port, site: Site) -> Row:
         target = Target(page, names.claim(f"operation.{one.name}"))
         groups.setdefault(port.pattern(one), []).append(code(one.name, target))
     operations = joined(
-        ((badge(pattern), Text(" "), *joined(ones)) for pattern, ones in groups.items()), Text(" ")
+        ((*badge(pattern), BLANK, *joined(ones)) for pattern, ones in groups.items()), BLANK
     )
     front = (code(port.name), text(ROLES[port.role]), site.declared(port.interface))
     return Row((*front, operations, code(port.middleware)))
@@ -136,7 +137,7 @@ def _flat(parameters: Iterable[Parameter], before: str = "") -> Iterator[tuple[s
 def _parameter(path: str, one: Parameter) -> tuple[Words, ...]:
     group = one.kind is Kind.GROUP
     default = text("must be given") if one.default is None and not group else _default(one)
-    live = (Text(" "), Badge("live", "live")) if one.live else ()
+    live = (BLANK, Badge("live", "live")) if one.live else ()
     name = (Code(path), *live)
     return name, _type(one), default, _range(one), code(one.unit), inline_doc(one.doc)
 

@@ -10,6 +10,7 @@ from robocomp_dsl.generate.doc.interface_page import badge
 from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Names, Site
 from robocomp_dsl.generate.doc.words import (
+    BLANK,
     Badge,
     Block,
     Code,
@@ -104,7 +105,7 @@ def _wire(one: Connection, site: Site) -> tuple[Words, ...]:
         code(f"{one.source.name}.{one.source_port.name}"),
         code(f"{one.target.name}.{one.target_port.name}"),
         site.declared(one.source_port.interface),
-        (*map(badge, used), *implied),
+        joined((*map(badge, used), implied), BLANK),
         text(quality(one.qos)),
     )
 

@@ -8,6 +8,7 @@ from robocomp_dsl.generate.doc.prose import prose, sentence
 from robocomp_dsl.generate.doc.site import Names, Site, type_anchor
 from robocomp_dsl.generate.doc.types_shown import type_blocks, types_behind
 from robocomp_dsl.generate.doc.words import (
+    BLANK,
     Badge,
     Block,
     Code,
@@ -16,7 +17,6 @@ from robocomp_dsl.generate.doc.words import (
     Page,
     Row,
     Signature,
-    Text,
     Words,
     code,
     joined,
@@ -24,7 +24,7 @@ from robocomp_dsl.generate.doc.words import (
     text,
 )
 from robocomp_dsl.model.component import Role
-from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
+from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 
 LONGEST_SIGNATURE = 84
 """Characters of an operation on one line."""
@@ -79,24 +79,18 @@ def _users(interface: Interface, site: Site) -> Iterator[Block]:
 
 
 def _operation(one: Operation, anchor: str, site: Site) -> Iterator[Block]:
-    marks = (*patterns(one), *_idempotent(one))
-    yield Heading(3, (Code(one.name), Text(" "), *marks), anchor)
+    again = (Badge("idempotent", "plain"),) if one.idempotent else ()
+    marks = (badge(pattern) for pattern in patterns(one))
+    yield Heading(3, joined(((Code(one.name),), *marks, again), BLANK), anchor)
     yield Signature(tuple(_signature(one, site)))
     yield from prose(one.doc)
-    units = [(p, way) for ps, way in ((one.inputs, "in"), (one.outputs, "out")) for p in ps]
-    rows = [
-        Row((code(p.name), text(way), site.type(p.type), code(p.unit)))
-        for p, way in units
-        if p.unit
-    ]
-    yield from table(f"Units of {one.name}", ("parameter", "", "type", "unit"), rows)
 
 
 def _signature(one: Operation, site: Site) -> Iterator[Words]:
     """On one line where it is short, else with a line for each parameter."""
     result = site.type(one.result) if one.result else code("void")
-    params = [(*site.type(p.type), Code(f" {p.name}")) for p in one.inputs]
-    params += [(Code("out "), *site.type(p.type), Code(f" {p.name}")) for p in one.outputs]
+    params = [_param(p, site) for p in one.inputs]
+    params += [(Code("out "), *_param(p, site)) for p in one.outputs]
     throws = joined(map(site.declared, one.throws), Code(", "))
     tail = (Code(" throws "), *throws, Code(";")) if throws else (Code(";"),)
     head = (*result, Code(f" {one.name}("))
@@ -110,20 +104,21 @@ def _signature(one: Operation, site: Site) -> Iterator[Words]:
     yield (Code(")"), *tail)
 
 
-def _idempotent(one: Operation) -> Words:
-    return (Badge("idempotent", "plain"),) if one.idempotent else ()
+def _param(one: Param, site: Site) -> Words:
+    unit = f" [{one.unit}]" if one.unit else ""
+    return (*site.type(one.type), Code(f" {one.name}{unit}"))
 
 
-def patterns(one: Operation) -> Words:
+def patterns(one: Operation) -> tuple[Pattern, ...]:
     """Its pattern, or both that an unmarked operation may have."""
     if one.pattern is Pattern.UNMARKED:
-        return (badge(one.as_service()), badge(one.as_topic()))
-    return (badge(one.pattern),)
+        return (one.as_service(), one.as_topic())
+    return (one.pattern,)
 
 
-def badge(pattern: Pattern) -> Badge:
+def badge(pattern: Pattern) -> Words:
     """The mark of a pattern."""
-    return Badge(pattern.value, pattern.value)
+    return (Badge(pattern.value, pattern.value),)
 
 
 def _module(module: Module, site: Site) -> Iterator[Block]:

@@ -17,6 +17,9 @@ _BEGINS = re.compile(r"[-+=]|\d+(?=[.)])")
 """What could begin a list or underline a heading where a line begins."""
 
 
+_ENTITIES = {c: f"&#{ord(c)};" for c in "\\`*_[]<>#|~&$@:!^"}
+
+
 @dataclass(frozen=True, slots=True)
 class Markdown:
     """Writes the parts of one page."""
@@ -50,7 +53,7 @@ class Markdown:
     def _word(self, one: object) -> str:
         match one:
             case Badge(text, _):
-                return f" *{plain(text)}*"
+                return f"*{plain(text)}*"
             case Code(text, None):
                 return code(text)
             case Code(text, Target() as target):
@@ -72,11 +75,11 @@ def begin(line: str) -> str:
 
 
 def code(text: str) -> str:
-    """Code as an element of HTML: between ticks `|` and blanks at the ends would be lost."""
+    """Code between ticks, or as an element of HTML where ticks would not hold it."""
+    if text == text.strip() and "|" not in text and "`" not in text:
+        return f"`{text}`"
     blank = not text.strip()
-    inner = "".join(
-        "&nbsp;" if blank else f"&#{ord(c)};" if _SIGNS.match(c) or c in "!:^" else c for c in text
-    )
+    inner = "".join("&nbsp;" if blank else _ENTITIES.get(c, c) for c in text)
     return f"<code>{inner}</code>"
 
 

@@ -43,6 +43,7 @@ class Badge:
     kind: str
 
 
+BLANK = Text(" ")
 COMMA = Text(", ")
 
 Words: TypeAlias = tuple[Text | Code | Badge, ...]

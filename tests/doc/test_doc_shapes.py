@@ -1,0 +1,167 @@
+"""Unusual descriptions: every name has one page, every link leads to the right one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from doc_site import check_links, pages, read
+
+COMPONENT = (
+    'import "{file}"; Component {name} {{ Communications {{ {ports} }}; language Python; }};'
+)
+
+
+def _write(folder: Path, files: dict[str, str]) -> None:
+    for name, said in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(said)
+
+
+def _text(files: dict[str, str], page: str) -> str:
+    return read(files[f"{page}.html"]).text
+
+
+def test_two_modules_in_one_file(tmp_path: Path) -> None:
+    _write(
+        tmp_path,
+        {
+            "Two.idsl": "module A { struct S { int a; }; }; "
+            "module B { interface I { void f(A::S s); }; };",
+            "c.cdsl": COMPONENT.format(file="Two.idsl", name="c", ports="implements I;"),
+        },
+    )
+    made = pages(tmp_path / "c.cdsl")
+    assert check_links(made)
+    assert "interfaces/B.I.html" in made
+    assert 'id="type.S"' in made["modules/A.html"]
+
+
+@pytest.mark.parametrize(("other", "count"), [("int a;", 1), ("float b;", 2)])
+def test_two_copies_of_a_file_are_one_page(tmp_path: Path, other: str, count: int) -> None:
+    """Unless they differ."""
+    idsl = "module M {{ struct S {{ {} }}; interface I {{ S f(); }}; }};"
+    _write(
+        tmp_path,
+        {
+            "x/I.idsl": idsl.format("int a;"),
+            "y/I.idsl": idsl.format(other),
+            "x/x.cdsl": COMPONENT.format(file="I.idsl", name="x", ports="implements I;"),
+            "y/y.cdsl": COMPONENT.format(file="I.idsl", name="y", ports="requires I;"),
+        },
+    )
+    made = pages(tmp_path / "x" / "x.cdsl", tmp_path / "y" / "y.cdsl")
+    assert check_links(made)
+    found = [path for path in made if path.startswith("interfaces/") and path.endswith(".html")]
+    assert len(found) == count
+    assert ("y requires it" in _text(made, "interfaces/M.I")) == (count == 1)
+
+
+def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> None:
+    _write(
+        tmp_path,
+        {
+            f"{name}.cdsl": COMPONENT.format(file="Laser.idsl", name=name, ports="requires Laser;")
+            for name in ("base", "Base")
+        },
+    )
+    made = pages(tmp_path / "base.cdsl", tmp_path / "Base.cdsl")
+    assert check_links(made)
+    assert {"components/Base.html", "components/base-2.html"} <= set(made)
+
+
+def test_types_of_all_sorts(tmp_path: Path) -> None:
+    _write(
+        tmp_path,
+        {
+            "T.idsl": """
+            module T {
+                enum Colour { red, blue = 7 };
+                sequence<Colour> Colours;
+                dictionary<string, Colours> Named;
+                struct Car { Colour colour = blue; string plate = "a\\"b"; bool fast = true;
+                    double weight [kg]; Named all; };
+                exception Broken { string what; };
+                interface Garage {
+                    idempotent Car get(string plate) throws Broken;
+                    [command] void paint(Car car);
+                    void call();
+                    int longest(string firstParameter, string secondParameter, out Car third,
+                        out Colours fourth) throws Broken;
+                };
+            };"""
+        },
+    )
+    made = pages(tmp_path / "T.idsl")
+    assert check_links(made)
+    said = _text(made, "interfaces/T.Garage")
+    for one in (
+        "get query idempotent",
+        "paint command",
+        "call query publish",
+        "colour Colour blue",
+        'plate string "a\\"b"',
+        "fast bool true",
+        "weight double kg",
+        "sequence<Colour> Colours;",
+        "dictionary<string, Colours> Named;",
+        "blue 7",
+        "int longest( string firstParameter, string secondParameter, out Car third,",
+    ):
+        assert one in said
+    assert 'href="#type.Car"' in made["interfaces/T.Garage.html"]
+    assert 'href="#type.Broken"' in made["interfaces/T.Garage.html"]
+
+
+def test_parameters_of_all_sorts(tmp_path: Path) -> None:
+    _write(
+        tmp_path,
+        {
+            "p.pdsl": """
+            ComponentParams p {
+                must string;
+                half float 0.5 0:;
+                low int :10;
+                on bool true live;
+                mode {fast, slow} slow;
+                motors[1:4] { name string; limits { top float 1.5 [rad]; }; };
+            };"""
+        },
+    )
+    made = pages(tmp_path / "p.pdsl")
+    assert check_links(made)
+    said = _text(made, "parameters/p").replace("\u00a0", " ")
+    for one in (
+        "must string must be given",
+        "half float 0.5 ≥ 0",
+        "low int must be given ≤ 10",
+        "on live bool true",
+        "mode one of fast, slow slow",
+        "motors[] list of 1 to 4 groups",
+        "motors[].limits.top float 1.5 rad",
+    ):
+        assert one in said
+
+
+def test_a_component_without_anything(tmp_path: Path) -> None:
+    _write(tmp_path, {"e.cdsl": "Component e { language Python; period 0; };"})
+    made = pages(tmp_path / "e.cdsl")
+    assert check_links(made)
+    assert "Computes only on events" in _text(made, "components/e")
+
+
+def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
+    ports = {"a": "requires Laser;", "b": "implements Laser; requires Laser as other;", "c": ""}
+    _write(
+        tmp_path,
+        {
+            f"{name}.cdsl": COMPONENT.format(file="Laser.idsl", name=name, ports=said)
+            for name, said in ports.items()
+        },
+    )
+    made = pages(*(tmp_path / f"{name}.cdsl" for name in ports))
+    assert check_links(made)
+    index = made["index.html"]
+    assert index.count('class="line call"') == 3  # a to b, b to itself, and the legend
+    assert '<a href="components/c.html">' in index
