@@ -19,6 +19,7 @@ def test_a_plain_component(rcgen: Rcgen, here: Path) -> None:
     assert sorted(p.name for p in (here / "watcher").iterdir()) == ["watcher.cdsl", "watcher.pdsl"]
     check = rcgen("check", "watcher")
     assert (check.code, check.out) == (0, "")
+    assert rcgen("fmt", "--check", "watcher").code == 0
     assert rcgen("component", "watcher/watcher.cdsl").code == 0
 
 
@@ -31,6 +32,7 @@ def test_with_ports_and_interfaces_of_its_own(rcgen: Rcgen, here: Path) -> None:
     assert (run.code, run.err) == (0, "")
     check = rcgen("check", "there")
     assert (check.code, check.out) == (0, "")
+    assert rcgen("fmt", "--check", "there").code == 0
     text = (here / "there" / "arm.cdsl").read_text()
     assert "implements JointMotor, Arm;" in text
     assert "subscribesTo News;" in text
