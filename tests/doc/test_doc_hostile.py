@@ -92,7 +92,7 @@ def test_markdown_says_the_same(evil: dict[str, str]) -> None:
     for path, text in evil.items():
         if not path.endswith(".md"):
             continue
-        markdown = read(reader.render(text))
+        markdown = read(reader.render(re.sub(r"(?m)^Types: \[.*", "", text)))
         assert not {"script", "b", "i", "s", "u", "p onclick"} & set(markdown.tags), path
         html = evil[path.replace(".md", ".html")]
         main = html[html.index("<h1>") : html.index("</main>")]

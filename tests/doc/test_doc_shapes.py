@@ -165,3 +165,8 @@ def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
     index = made["index.html"]
     assert index.count('class="line call"') == 3  # a to b, b to itself, and the legend
     assert '<a href="components/c.html">' in index
+
+
+def test_code_beside_code_is_told_in_markdown(tmp_path: Path) -> None:
+    _write(tmp_path, {"e.cdsl": "/** So `a``b` is. */ Component e { language Python; };"})
+    assert "So `ab` is." in pages(tmp_path / "e.cdsl")["components/e.md"]

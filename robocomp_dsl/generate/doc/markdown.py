@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 
 from robocomp_dsl.generate.doc.html import address
-from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Words
+from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Text, Words
 from robocomp_dsl.generate.templates import render
 
 _SIGNS = re.compile(r"[\\`*_\[\]<>#|~&$@]|:(?=//)")
@@ -36,19 +36,22 @@ class Markdown:
 
     def words(self, words: Words) -> str:
         """A line of words."""
-        return "".join(map(self._word, words))
-
-    def cell(self, words: Words) -> str:
-        """Words for a cell of a table."""
-        return self.words(words)
+        return "".join(map(self._word, _merged(words)))
 
     def line(self, words: Words) -> str:
         """Words at the beginning of a line."""
         return begin(self.words(words))
 
-    def signature(self, lines: tuple[Words, ...]) -> str:
-        """Lines of code with links in them, which a fenced block cannot have."""
-        return "\\\n".join(self.words(words) for words in lines)
+    def fenced(self, lines: tuple[Words, ...]) -> str:
+        """A block of code, in which there are no links."""
+        said = "\n".join("".join(one.text for one in words) for words in lines)
+        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", said)), default=0))
+        return f"{fence}idsl\n{said}\n{fence}"
+
+    def links(self, lines: tuple[Words, ...]) -> str:
+        """The names in a block of code that lead somewhere, each once."""
+        found = [one for words in lines for one in words if isinstance(one, Code) and one.target]
+        return ", ".join(self._word(one) for one in dict.fromkeys(found))
 
     def _word(self, one: object) -> str:
         match one:
@@ -59,6 +62,18 @@ class Markdown:
             case Code(text, Target() as target):
                 return f"[{code(text)}]({self.address(target)})"
         return plain(getattr(one, "text", ""))
+
+
+def _merged(words: Words) -> Words:
+    """Code that follows code as one, because their ticks would be taken together."""
+    made: list[Text | Code | Badge] = []
+    for one in words:
+        last = made[-1] if made else None
+        if isinstance(one, Code) and isinstance(last, Code) and not (one.target or last.target):
+            made[-1] = Code(last.text + one.text)
+        else:
+            made.append(one)
+    return tuple(made)
 
 
 def plain(text: str) -> str:
