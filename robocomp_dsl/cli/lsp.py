@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import click
 
 HOST = "127.0.0.1"
@@ -22,10 +24,10 @@ def command(port: int | None, host: str, stdio: bool) -> None:
             f"the language server needs {error.name}: pip install 'robocomp_dsl[editor]'"
         ) from None
     if port is None:
-        server.serve_stdio()
-        return
+        sys.exit(server.serve_stdio())
     try:
-        server.serve_tcp(host, port)
+        code = server.serve_tcp(host, port)
     except OSError as error:
         reason = error.strerror or str(error)
         raise click.ClickException(f"cannot listen on {host}:{port}: {reason}") from None
+    sys.exit(code)

@@ -11,7 +11,7 @@ import logging
 import os
 import sys
 from collections.abc import Awaitable, Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,6 @@ from lsprotocol import types as lsp
 from pygls.capabilities import ServerCapabilitiesBuilder
 from pygls.exceptions import JsonRpcException, JsonRpcInternalError, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
-from pygls.protocol import LanguageServerProtocol, lsp_method
 from pygls.uris import to_fs_path
 
 from robocomp_dsl import __version__
@@ -46,6 +45,7 @@ from robocomp_dsl.editor import (
 from robocomp_dsl.editor.checking import Checking
 from robocomp_dsl.editor.commands import COMMANDS
 from robocomp_dsl.editor.positions import WrongPosition, agree
+from robocomp_dsl.editor.protocol import Protocol
 from robocomp_dsl.editor.session import Document, NoDescription, Session
 
 Feature = Callable[[Session, Any], Any]
@@ -107,29 +107,11 @@ COLLECTION = (50_000, 20, 100)
 _logger = logging.getLogger(__name__)
 
 
-class _Protocol(LanguageServerProtocol):
-    """As pygls has it, but texts are kept by the session alone, with its own idea of lines."""
-
-    @lsp_method(lsp.TEXT_DOCUMENT_DID_OPEN)
-    def lsp_text_document__did_open(self, params: lsp.DidOpenTextDocumentParams) -> Iterator[Any]:
-        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_OPEN], (params,), None
-
-    @lsp_method(lsp.TEXT_DOCUMENT_DID_CHANGE)
-    def lsp_text_document__did_change(
-        self, params: lsp.DidChangeTextDocumentParams
-    ) -> Iterator[Any]:
-        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_CHANGE], (params,), None
-
-    @lsp_method(lsp.TEXT_DOCUMENT_DID_CLOSE)
-    def lsp_text_document__did_close(self, params: lsp.DidCloseTextDocumentParams) -> Iterator[Any]:
-        yield self.fm.features[lsp.TEXT_DOCUMENT_DID_CLOSE], (params,), None
-
-
 class Server(LanguageServer):
     """One client's server."""
 
     def __init__(self) -> None:
-        super().__init__("rcgen", __version__, protocol_cls=_Protocol)
+        super().__init__("rcgen", __version__, protocol_cls=Protocol)
         self.session = Session()
         self.checking = Checking(self.session, self.text_document_publish_diagnostics)
         for method, handler in self._notifications().items():
@@ -141,6 +123,11 @@ class Server(LanguageServer):
             self.feature(method, options)(_guarded(method, handler))
         for name, command in COMMANDS.items():
             self.command(name)(self._command(name, command))
+
+    @property
+    def exit_code(self) -> int:
+        """0 if the client asked to shut down before it left, else 1."""
+        return 0 if isinstance(self.protocol, Protocol) and self.protocol.ended else 1
 
     def _command(self, name: str, command: Callable[..., Awaitable[Any]]) -> Callable[..., Any]:
         async def run(*arguments: Any) -> Any:
@@ -201,20 +188,25 @@ class Server(LanguageServer):
         self.session.folders = [*kept, *come]
 
 
-def serve_stdio() -> None:
-    """Answer on stdin and stdout until the client leaves."""
+def serve_stdio() -> int:
+    """Answer on stdin and stdout until the client leaves. The exit code of the specification."""
     _prepare_process()
     # pygls closes what it writes to; the process still flushes its own stdout when it ends.
     with os.fdopen(os.dup(sys.stdout.fileno()), "wb") as stdout:
-        Server().start_io(stdout=stdout)
+        server = Server()
+        server.start_io(stdout=stdout)
+    return server.exit_code
 
 
-def serve_tcp(host: str, port: int) -> None:
+def serve_tcp(host: str, port: int) -> int:
     """Wait for one client at `host`:`port` and answer it until it leaves. Raises `OSError`."""
     _prepare_process()
     # Tells on which port, which is news where it was left to the system (0).
     logging.getLogger("pygls.server").setLevel(logging.INFO)
-    Server().start_tcp(host, port)
+    server = Server()
+    with suppress(SystemExit):
+        server.start_tcp(host, port)
+    return server.exit_code
 
 
 def _answering(function: Feature, session: Session) -> Callable[[Any], Any]:
