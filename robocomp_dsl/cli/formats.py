@@ -17,8 +17,8 @@ def concise(findings: Sequence[Diagnostic]) -> str:
 
 def _concise(one: Diagnostic) -> str:
     line, column = one.span.begin
-    where = f"{render.shown_path(one.span.source.path)}:{line}:{column}"
-    label = f" ({render.harmless(one.label)})" if one.label else ""
+    where = f"{_one_line(render.shown_path(one.span.source.path))}:{line}:{column}"
+    label = f" ({_one_line(one.label)})" if one.label else ""
     return f"{where}: {one.severity}[{one.code.id}]: {_one_line(one.message)}{label}"
 
 

@@ -61,16 +61,16 @@ def command(
     if not files:
         options.complain(f"`{file}` declares nothing that could be exported")
         sys.exit(FINDINGS)
+    if output is None and len(files) > 1:
+        less = "" if alone or to != "slice" else ", or leave out imports with --alone"
+        raise click.UsageError(
+            f"{len(files)} files result ({_listed(files)}); say with -o DIR where they go{less}"
+        )
     _hand_out(files, output, quiet)
 
 
 def _hand_out(files: tuple[OutputFile, ...], folder: Path | None, quiet: bool) -> None:
     if folder is None:
-        if len(files) > 1:
-            raise click.UsageError(
-                f"{len(files)} files result ({_listed(files)}); say with -o DIR where they go, "
-                "or leave out imports with --alone"
-            )
         options.write_text(files[0].text, sys.stdout)
         return
     try:

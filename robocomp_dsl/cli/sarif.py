@@ -6,6 +6,7 @@ In: diagnostics. Out: the JSON text. Columns count characters, as everywhere her
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -109,4 +110,5 @@ def _replacements(fix: Fix, path: Path) -> Iterable[Record]:
 
 def _uri(path: Path) -> str:
     """A path as given, so that a relative one stays relative to the working folder (RFC 3986)."""
-    return path.as_uri() if path.is_absolute() else quote(path.as_posix())
+    # Through bytes, because a name on the disk need not be a valid text.
+    return path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))

@@ -31,7 +31,7 @@ def test_several_files_want_a_folder(rcgen: Rcgen, here: Path) -> None:
     refused = rcgen("interface", "N.idsl", "--to", "slice")
     assert refused.code == 2
     assert "3 files result (GenericBase.ice, Laser.ice, N.ice)" in refused.err
-    assert "-o DIR" in refused.err
+    assert "-o DIR where they go, or leave out imports with --alone" in refused.err
     alone = rcgen("interface", "N.idsl", "--to", "slice", "--alone")
     assert '#include "Laser.ice"' in alone.out
     assert "sequence<::RoboCompLaser::TData> Scan;" in alone.out
@@ -77,7 +77,8 @@ FINDINGS = {
         "warning[RC621]: `a_b` is exported as `a_b2`: in ROS 2 another one",
     ),
     "an error in the file": ("module M { struct A { in x; }; };", "slice", 1, "error[RC3"),
-    "no module": ("", "slice", 1, "declares nothing"),
+    "no module": ('import "Laser.idsl";', "slice", 1, "error[RC002]"),
+    "nothing in the module": ("module M { };", "json-schema", 1, "`M.idsl` declares nothing"),
 }
 
 
