@@ -101,7 +101,7 @@ def _tell(machine: Machine, situation: Situation, made: Repair) -> None:
     cut = situation.ahead[0].kind == END and machine.findings.cut
     if machine.told_behind == situation.before.end:
         machine.untold += 1
-        if machine.untold > PATIENCE:
+        if machine.untold > PATIENCE and situation.ahead[0].kind != END:
             raise Garbage(situation.ahead[0])
     else:
         machine.untold = 0

@@ -6,7 +6,7 @@ In: a copy of the parser's states and the next tokens. Out: answers, without sid
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.lexer import Token
@@ -81,7 +81,7 @@ class Situation:
         """What lets the file end: how many states to keep, and the signs to put behind them."""
         states = list(self.states)
         while True:
-            kinds = replace(self, states=states)._ends()
+            kinds = self._ends(states)
             if kinds is not None:
                 at = self.before.end
                 return len(states), [Token(kind, "", at, at) for kind in kinds]
@@ -89,14 +89,16 @@ class Situation:
             while states[-1] not in self.tables.restarts:
                 states.pop()
 
-    def _ends(self) -> list[str] | None:
+    def _ends(self, states: list[int]) -> list[str] | None:
+        """The signs behind which the file may end; a `}` first, as each closes one more block."""
         kinds: list[str] = []
-        while self.shifts([*kinds, END]) <= len(kinds):
-            fitting = (k for k in ("_SEMI", "RBRACE") if self.shifts([*kinds, k]) > len(kinds))
-            one = next(fitting, None)
-            if one is None or len(kinds) > len(self.states):
+        while not self._shift(list(states), END):
+            tried = ((kind, list(states)) for kind in ("RBRACE", "_SEMI"))
+            fitting = next((one for one in tried if self._shift(one[1], one[0])), None)
+            if fitting is None or len(kinds) > 2 * len(self.states):
                 return None
-            kinds.append(one)
+            kinds.append(fitting[0])
+            states = fitting[1]
         return kinds
 
     def _shift(self, states: list[int], kind: str) -> bool:

@@ -23,6 +23,12 @@ REAL = {
     )
     for suffix in PARSERS
 }
+HEADS = {
+    ".idsl": "module M {\n",
+    ".cdsl": "Component C {\n",
+    ".pdsl": "ComponentParams P {\n",
+    ".ddsl": "Deployment D {\n",
+}
 PIECES = [
     "{",
     "}",
@@ -116,6 +122,14 @@ def test_a_very_long_file_of_one_thing(suffix: str, piece: str) -> None:
     size = MAX_BYTES // 10 if suffix == ".xml" else MAX_BYTES
     count = size // len(piece.encode())
     assert len(judge(suffix, piece * count)) <= 210
+
+
+@pytest.mark.parametrize("suffix", sorted(LANGUAGES))
+@pytest.mark.parametrize("piece", ["[", "-", "€ ", "<", "/*", "<!--", "("])
+def test_nonsense_inside_a_block_ends(suffix: str, piece: str) -> None:
+    # The end of the file has to be reached even after the parser gave up.
+    head = HEADS.get(suffix, "M {\n")
+    assert 1 <= len(judge(suffix, head + piece * 2000)) <= 210
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
