@@ -113,9 +113,6 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
     if found is None or report.failed:
         return None
     if (language or found.language).lower() in LANGUAGES:
-        if machine := found.statemachine:
-            said = f"no code is generated for the state machine `{machine.path}` yet"
-            report.add(codes.NO_STATE_MACHINE, machine.span, said)
         return found
     report.add(
         codes.NO_TARGET,

@@ -17,22 +17,14 @@ and ask for Python on the command line:
 The generated component talks to components of any language through its middleware.""",
 )
 
-NO_STATE_MACHINE = Code(
-    "RC602",
-    Severity.WARNING,
-    "nothing is generated for the state machine",
-    """The component has `statemachine "x.smdsl";`. This version generates the component without it:
-its life cycle (initialize, compute, emergency, restore, finalize) is there, its own states are not.
-The line can stay; until then, keep the state in an attribute and look at it in `compute`.""",
-)
-
 MISSING_METHOD = Code(
     "RC611",
     Severity.WARNING,
-    "an operation had no method in the user's class",
-    """The component implements or subscribes to an interface, and `specificworker.py` had no method
-for one of its operations. rcgen puts a stub behind the last statement of the class, and the imports
-it needs behind yours; nothing else of the file is touched. Put your code into the stub:
+    "an operation or state had no method in the user's class",
+    """The component implements or subscribes to an interface, or has a state machine, and
+`specificworker.py` had no method for one of its operations or states. rcgen puts a stub behind
+the last statement of the class, and the imports it needs behind yours; nothing else of the
+file is touched. Put your code into the stub:
 
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
         return 0, DatasayResp()
@@ -43,11 +35,12 @@ Until you do, a caller gets `RemoteError`, and a message of a topic is dropped."
 STALE_METHOD = Code(
     "RC614",
     Severity.WARNING,
-    "a method belongs to an operation that is gone",
-    """An operation was removed from its interface, or the port from the component; the method that
-served it is still in `specificworker.py`. Nothing calls it. If the operation was renamed, a stub
-with the new name is at the end of the class: move your code there. rcgen never deletes code of
-yours; when you have deleted the method, this is not said any more.""",
+    "a method belongs to something that is gone",
+    """An operation was removed from its interface, a port from the component, or a state from its
+state machine; the method that served it is still in `specificworker.py`. Nothing calls it. If
+the operation was renamed, a stub with the new name is at the end of the class: move your code
+there. rcgen never deletes code of yours; when you have deleted the method, this is not said
+any more.""",
 )
 
 CHANGED_SIGNATURE = Code(

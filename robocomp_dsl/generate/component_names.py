@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from robocomp_dsl.generate import names
+from robocomp_dsl.generate.machine_code import method_names
 from robocomp_dsl.generate.python_types import PythonTypes
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Interface, Module, Operation
@@ -64,7 +65,9 @@ def members(
 ) -> Called:
     """Names for the methods and proxies; none hides a type or what every component has."""
     params = types.scope.claim(f"{names.camel(component.name)}Params")
-    scope = names.Scope(names.COMPONENT_MEMBERS | types.scope.taken)
+    ref = component.statemachine
+    states = method_names(ref.machine) if ref and ref.machine else set()
+    scope = names.Scope(names.COMPONENT_MEMBERS | types.scope.taken | states)
     served = [p for p in component.ports if p.role in SERVED]
     proxies = {
         p: scope.claim(f"{p.name.lower()}_proxy") for p in component.ports if p not in served

@@ -119,6 +119,7 @@ COMPONENT_MEMBERS = frozenset(
         "finalize",
         "initialize",
         "log",
+        "machine",
         "name",
         "params",
         "quit",

@@ -36,6 +36,7 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
         _file("generated/interfaces.py", code=interfaces),
         _file("generated/params.py", code=parameters),
         _file("generated/genericworker.py", worker=code),
+        *([_file("generated/machine.py", machine=code.machine)] if code.machine else []),
         OutputFile("etc/config.schema.json", schema),
         _file("specificworker.py", keep=True, worker=code),
         _file("etc/config.yaml", "config.yaml", keep=True, title=code.title, lines=config),

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.component_names import SERVED, Called
 from robocomp_dsl.generate.layout import BODY, INNER, Group, Item, definition
+from robocomp_dsl.generate.machine_code import MachineCode, machine_code
 from robocomp_dsl.generate.worker_imports import generic_imports, specific_imports
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Operation, Pattern
@@ -63,6 +64,7 @@ class WorkerCode:
     examples: tuple[str, ...]
     about: tuple[str, ...]
     rows: tuple[tuple[str, str, str], ...]
+    machine: MachineCode | None
 
 
 def worker_code(component: Component, called: Called, middleware: str) -> WorkerCode:
@@ -88,7 +90,14 @@ def worker_code(component: Component, called: Called, middleware: str) -> Worker
         examples=tuple(_example(p, called) for p in proxies if p.interface.operations),
         about=("", *about) if (about := literals.lines(component.doc)) else (),
         rows=tuple(_row(p, called) for p in component.ports),
+        machine=machine_of(component),
     )
+
+
+def machine_of(component: Component) -> MachineCode | None:
+    """Its state machine, if it has one."""
+    given = component.statemachine
+    return machine_code(given.machine) if given and given.machine else None
 
 
 def _spec(component: Component, called: Called, middleware: str) -> Group:
@@ -101,6 +110,7 @@ def _spec(component: Component, called: Called, middleware: str) -> Group:
         f"middleware={literals.quoted(middleware)}",
         *(layout.tuple_of(*ports[role], head=f"{key}=") for role, key in _LISTS.items()),
         f"parameters={called.params}",
+        *(["machine=MACHINE"] if component.statemachine else []),
     )
 
 

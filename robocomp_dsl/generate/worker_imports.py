@@ -41,6 +41,8 @@ def generic_imports(component: Component, called: Called) -> Iterator[str]:
     yield ""
     if used:
         yield _import("generated.interfaces", used)
+    if component.statemachine:
+        yield "from generated.machine import MACHINE"
     yield _import("generated.params", {called.params})
 
 

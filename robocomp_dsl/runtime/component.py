@@ -10,6 +10,7 @@ import logging
 from typing import TYPE_CHECKING, ClassVar
 
 from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.spec import ComponentSpec
 
@@ -21,7 +22,8 @@ class Component:
     """One component. Handlers, `compute` and the other hooks run one at a time (`threads 1`).
 
     `name` is that of this instance, `params` are its parameters, `log` is its logger. They and the
-    proxies are there from `initialize` on, not in `__init__`.
+    proxies are there from `initialize` on, not in `__init__`. A component with a state machine has
+    `machine` too, which begins behind `initialize`.
     """
 
     SPEC: ClassVar[ComponentSpec]
@@ -29,6 +31,7 @@ class Component:
     params: Parameters
     log: logging.Logger
     clock: Clock
+    machine: Machine
     _runner: Runner
 
     def initialize(self) -> None:

@@ -66,6 +66,7 @@ class ComponentInfo(rt.Struct):
     component: The name of the component as its CDSL file has it.
     reason: Why it is in an emergency; empty otherwise.
     uptime [s]
+    states: The active states of its state machine, outer ones first; empty without one.
     """
 
     __slots__ = (
@@ -77,6 +78,7 @@ class ComponentInfo(rt.Struct):
         "ports",
         "reason",
         "state",
+        "states",
         "uptime",
         "version",
     )
@@ -91,6 +93,7 @@ class ComponentInfo(rt.Struct):
         ("reason", rt.STRING),
         ("uptime", rt.DOUBLE),
         ("ports", _Ports),
+        ("states", _Names),
     )
 
     def __init__(
@@ -105,6 +108,7 @@ class ComponentInfo(rt.Struct):
         reason: str = "",
         uptime: float = 0.0,
         ports: Ports | None = None,
+        states: Names | None = None,
     ) -> None:
         self.name = name
         self.component = component
@@ -116,6 +120,7 @@ class ComponentInfo(rt.Struct):
         self.reason = reason
         self.uptime = uptime
         self.ports = [] if ports is None else ports
+        self.states = [] if states is None else states
 
 
 class ParameterInfo(rt.Struct):

@@ -71,6 +71,7 @@ class Introspection:
             reason=runner.lifecycle.reason,
             uptime=time.time() - runner.started,
             ports=self._ports(),
+            states=list(runner.lifecycle.machine.states) if runner.lifecycle.machine else [],
         )
 
     def _ports(self) -> list[PortInfo]:

@@ -17,6 +17,7 @@ from typing import Protocol
 
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe
 from robocomp_dsl.runtime.statistics import Statistics
 
@@ -72,6 +73,7 @@ class Lifecycle:
         self._execution = execution
         self._statistics = statistics
         self._announce = announce
+        self.machine: Machine | None = None
         self._wake = threading.Event()
         self._stopping = threading.Event()
         self.state = State.INITIALIZE
@@ -82,7 +84,9 @@ class Lifecycle:
     def begin(self) -> bool:
         """Initialize; whether that went well."""
         self._become(State.INITIALIZE)
-        return self._tried(self._hooks.initialize, "initialize")
+        if not self._tried(self._hooks.initialize, "initialize"):
+            return False
+        return self.machine is None or self._tried(self.machine.start, "the state machine")
 
     def loop(self) -> None:
         """Compute, until `stop`."""
@@ -132,8 +136,10 @@ class Lifecycle:
                 last = begun
                 self._cycle()
                 self._statistics.computes.add(time.perf_counter_ns() - begun)
+            elif self.machine:
+                self._attempt(self._move)
             due = self._next(due, period)
-            self._clock.wait_until(due if period is not None else None, self._wake)
+            self._clock.wait_until(due if period is not None else self._timer(), self._wake)
             if self._wake.is_set() and not self._stopping.is_set():
                 self._wake.clear()
                 due, last = self._clock.now(), 0
@@ -163,8 +169,26 @@ class Lifecycle:
             self._attempt(self._recover)
 
     def _compute(self) -> None:
+        self._move()
         if self.period_ms:
             self._hooks.compute()
+            if self.machine:
+                self.machine.beat()
+
+    def _move(self) -> None:
+        """Let the state machine do what its time has come for; with its end all ends."""
+        if self.machine:
+            self.machine.fire_due()
+            if self.machine.ended:
+                log.info("the state machine has come to its end")
+                self.stop()
+
+    def _timer(self) -> float | None:
+        return self.machine.due() if self.machine else None
+
+    def wake(self) -> None:
+        """Something is to be done at another time than before."""
+        self._wake.set()
 
     def _recover(self) -> None:
         self._hooks.emergency()

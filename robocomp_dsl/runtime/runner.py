@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.interface import Interface
 from robocomp_dsl.runtime.introspection import Introspection
 from robocomp_dsl.runtime.lifecycle import Lifecycle, State
+from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host, Qos
 from robocomp_dsl.runtime.parameters import Parameters
@@ -67,6 +68,10 @@ class Runner:
             self.statistics,
             lambda state: self.middleware.announce(state.value),
         )
+        if self.spec.machine:
+            self.worker.machine = self.lifecycle.machine = Machine(
+                self.spec.machine, self.worker, self.worker.clock, self.lifecycle.wake
+            )
         self._asked: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
         self._well = False

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from robocomp_dsl.runtime.interface import Interface
+from robocomp_dsl.runtime.machine.spec import MachineSpec
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.proxy import Proxy
 
@@ -44,3 +45,4 @@ class ComponentSpec:
     subscribes: tuple[ServedPort, ...] = ()
     parameters: type[Parameters] = Parameters
     version: str = ""
+    machine: MachineSpec | None = None

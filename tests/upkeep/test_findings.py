@@ -130,3 +130,19 @@ def test_a_damaged_record(talker: Talker) -> None:
     (talker.folder / ".rcgen" / "methods.json").write_text("<<<<<<<")
     assert [d.code.id for d in talker.generate()] == ["RC620"]
     assert talker.generate() == []
+
+
+def test_states_come_and_go(talker: Talker) -> None:
+    machine = "m {{ states a{0}; initial_state b; transitions {{ b => a{0}; }}; }};\n"
+    (talker.folder / "m.smdsl").write_text(machine.format(1))
+    talker.describe("int say(Word w);")
+    cdsl = talker.folder / "talker.cdsl"
+    cdsl.write_text(cdsl.read_text().replace("language", 'statemachine "m.smdsl"; language'))
+    assert [d.span.text for d in talker.generate()] == ["state_b", "state_a1"]
+    text = talker.worker.read_text() + "\n    def on_exit_a1(self): ...\n"
+    talker.worker.write_text(text)
+    assert talker.generate() == []
+    (talker.folder / "m.smdsl").write_text(machine.format(2))
+    found = {d.span.text: d.code.id for d in talker.generate()}
+    assert found == {"state_a2": "RC611", "state_a1": "RC614", "on_exit_a1": "RC614"}
+    talker.imports()

@@ -28,7 +28,7 @@ def keep_up(
 ) -> list[OutputFile]:
     """`files` as they are to be written over what `folder` holds; `report` gets the findings."""
     called = names_of(component)
-    methods = methods_of(called)
+    methods = methods_of(component, called)
     known = record.read(folder, report)
     others = [one for one in files if one.path != WORKER]
     made = [one for one in files if one.path == WORKER]

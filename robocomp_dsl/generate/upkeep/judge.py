@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator, Mapping, Sequence
 
-from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.upkeep.methods import Method, Signature
 from robocomp_dsl.generate.upkeep.user_module import BASE, CLASS, Function, UserModule
@@ -34,7 +34,8 @@ def judge(
         return
     for name, method in methods.items():
         if name not in has:
-            yield method
+            if not method.optional:
+                yield method
         elif (function := has[name]) is not None:
             _judge_signature(user, function, method, known.get(name), report)
     for name in known.keys() - methods.keys() & has.keys():
@@ -52,15 +53,14 @@ def report_missing(user: UserModule, missing: Sequence[Method], report: Report) 
             where,
             f"`{CLASS}` has no method `{one.name}`, and the file is a link, so none is added",
             label=f"did you mean `{guess}`?" if guess else "",
-            notes=[_origin(one)],
+            notes=[one.origin],
             help=f"`{BASE}` in generated/genericworker.py has its signature",
         )
 
 
 def near(user: UserModule, one: Method) -> str | None:
     """A method of the user's that is most likely meant to be `one`."""
-    prefix = f"{one.port.name}_"
-    return nearest(one.name, (n for n in user.members or () if n.startswith(prefix)))
+    return nearest(one.name, (n for n in user.members or () if n.startswith(one.prefix)))
 
 
 def follows(function: Function, old: Signature, new: Signature) -> bool:
@@ -82,7 +82,7 @@ def _judge_signature(
         user.span_of(function),
         f"`{function.name}` is called in another way now",
         label=", ".join(_differences(function, old or new, new)),
-        notes=[_origin(method)],
+        notes=[method.origin],
         help=f"old: {mine}\n      new: def {function.name}{_with_self(new)}",
     )
 
@@ -96,14 +96,9 @@ def _report_stale(
     report.add(
         codes.STALE_METHOD,
         user.span_of(function),
-        f"nobody calls `{function.name}` any more: the component has no such operation now",
+        f"nobody calls `{function.name}` any more: what it was for is gone",
         help=f"{renamed}move what you need of it elsewhere and delete it; rcgen never does",
     )
-
-
-def _origin(method: Method) -> Note:
-    qualified = method.port.interface.qualified
-    return Note(method.operation.span, f"`{qualified}` has this operation")
 
 
 def _callable_with(function: Function, given: int) -> bool:

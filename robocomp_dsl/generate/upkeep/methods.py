@@ -1,18 +1,19 @@
 """The methods that the user's class should have: names, signatures, and the text of a stub.
 
-In: the names of a component. Out: `Method`s in the order of the ports.
+In: a component and its names. Out: `Method`s in the order of the ports.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.generate import layout
 from robocomp_dsl.generate.component_names import Called
-from robocomp_dsl.generate.worker import HandlerCode, handler_code
+from robocomp_dsl.generate.machine_code import StateMethod
+from robocomp_dsl.generate.worker import HandlerCode, handler_code, machine_of
 from robocomp_dsl.generate.worker_imports import mentioned
-from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.interface import Operation
+from robocomp_dsl.model.component import Component
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,19 +30,26 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """One method. `types` are the names of `generated.interfaces` that its signature mentions."""
+    """One method: that of an operation, or of a state.
+
+    `types` are the names of `generated.interfaces` that its signature mentions; `origin` says
+    where it comes from; methods of the same `prefix` may be meant for it. One that is `optional`
+    needs no stub.
+    """
 
     name: str
     signature: Signature
     types: tuple[str, ...]
     code: HandlerCode
-    port: Port
-    operation: Operation
+    what: str
+    origin: Note
+    prefix: str
+    optional: bool = False
 
 
-def methods_of(called: Called) -> dict[str, Method]:
-    """All methods that others call, by name."""
-    return {
+def methods_of(component: Component, called: Called) -> dict[str, Method]:
+    """All methods that others or the state machine call, by name."""
+    operations = {
         name: Method(
             name,
             Signature(
@@ -50,8 +58,24 @@ def methods_of(called: Called) -> dict[str, Method]:
             ),
             tuple(dict.fromkeys(mentioned(operation, called.types))),
             handler_code(port, operation, called),
-            port,
-            operation,
+            f"the operation `{operation.name}`",
+            Note(operation.span, f"`{port.interface.qualified}` has this operation"),
+            f"{port.name}_",
         )
         for (port, operation), name in called.handlers.items()
     }
+    machine = machine_of(component)
+    return operations | {m.name: _of_state(m) for m in (machine.methods if machine else ())}
+
+
+def _of_state(one: StateMethod) -> Method:
+    return Method(
+        one.name,
+        Signature((), "None"),
+        (),
+        HandlerCode(layout.definition(one.name, ("self",), "None"), one.doc, "", ""),
+        f"the state `{one.state.name}`",
+        Note(one.state.span, "this is the state"),
+        f"{one.verb}_",
+        optional=one.verb != "state",
+    )

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.layout import STEP
 from robocomp_dsl.generate.upkeep.judge import near
@@ -65,12 +65,11 @@ def report_added(user: UserModule, text: str, missing: Sequence[Method], report:
         report.add(
             codes.MISSING_METHOD,
             source.span(at, at + len(one.name)),
-            f"`{CLASS}` had no method for `{one.operation.name}`; this stub is added",
+            f"`{CLASS}` had no method for {one.what}; this stub is added",
             label=f"is `{guess}` meant for it?" if (guess := near(user, one)) else "",
-            notes=[Note(one.operation.span, f"`{one.port.interface.qualified}` has it")],
-            help="put your code into it; until then a caller is told that there is none"
-            if one.code.call
-            else "put your code into it; until then what arrives is dropped",
+            notes=[one.origin],
+            help="put your code into it"
+            + ("; until then a caller is told that there is none" if one.code.call else ""),
         )
 
 

@@ -1,0 +1,96 @@
+"""A machine's description as a class of python-statemachine.
+
+In: a `MachineSpec`. Out: a `StateChart` class whose delayed events are handed to somebody who
+waits for them: the library would sleep until they are due, and with it the component.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from types import new_class
+from typing import Any
+
+from statemachine import StateChart
+from statemachine.event_data import TriggerData
+from statemachine.io import create_machine_class_from_definition, load
+
+from robocomp_dsl.runtime.machine.spec import MachineSpec, StateSpec, TransitionSpec
+
+
+class Timed(StateChart[Any]):
+    """What machines of both languages have.
+
+    `later` takes an event and the seconds until it is due, `cancel` the id of those to forget,
+    `begun` the machine itself before anything happens.
+    """
+
+    catch_errors_as_events = False
+
+    def __init__(
+        self,
+        later: Callable[[TriggerData, float], None],
+        cancel: Callable[[str], None],
+        begun: Callable[[Timed], None],
+        listeners: list[object],
+    ) -> None:
+        self._later = later
+        self._cancel = cancel
+        begun(self)  # its first states are entered now, and their methods may use it
+        super().__init__(listeners=listeners)
+
+    def _put_nonblocking(self, trigger_data: TriggerData, internal: bool = False) -> None:
+        delay = getattr(trigger_data.event, "delay", 0)
+        if delay:
+            self._later(trigger_data, delay / 1000)
+        else:
+            super()._put_nonblocking(trigger_data, internal=internal)
+
+    def put_due(self, trigger_data: TriggerData) -> None:
+        """An event that was delayed, and is due now."""
+        trigger_data.execution_time = 0.0
+        super()._put_nonblocking(trigger_data)
+        self._engine.processing_loop()
+
+    def cancel_event(self, send_id: str) -> None:
+        """Forget the delayed events of this id (the library's name for it)."""
+        self._cancel(send_id)
+        super().cancel_event(send_id)
+
+
+def chart_of(spec: MachineSpec) -> type[Timed]:
+    """The class. Raises what the library raises for a document that it does not support."""
+    # Expressions of a document can only read and write its data: no code of it is run.
+    made = load(spec.scxml, format="scxml", trusted=False) if spec.scxml else _from_states(spec)
+    both: type[Timed] = new_class(spec.name, (Timed, made))
+    return both
+
+
+def timer_event(number: int) -> str:
+    """The event of the transition with this number, when its time has come."""
+    return f"after_{number}_s"
+
+
+def _from_states(spec: MachineSpec) -> type[StateChart[Any]]:
+    states = {one.name: _definition(one, spec.transitions) for one in spec.states}
+    return create_machine_class_from_definition(
+        spec.name,
+        states,
+        validate_disconnected_states=False,
+        validate_trap_states=False,
+        validate_final_reachability=False,
+    )
+
+
+def _definition(one: StateSpec, transitions: Iterable[TransitionSpec]) -> Any:
+    all_ = tuple(transitions)
+    events: dict[str | None, list[dict[str, str]]] = {}
+    for number, transition in enumerate(all_):
+        if transition.source == one.name:
+            named = [transition.event] if transition.event else []
+            timed = [timer_event(number)] if transition.after is not None else []
+            for event in (*named, *timed):
+                events.setdefault(event, []).append({"target": transition.target})
+    made: dict[str, Any] = {"initial": one.initial, "final": one.final, "parallel": one.parallel}
+    made["states"] = {inner.name: _definition(inner, all_) for inner in one.inside}
+    made["on"] = events
+    return made
