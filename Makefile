@@ -12,7 +12,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: demo test test-slow lint format bench golden clean test-editors vsix
+.PHONY: highlight demo test test-slow lint format bench golden clean test-editors vsix
 
 demo: $(READY)
 	$(BIN)/python components/wander/demo.py
@@ -23,6 +23,10 @@ test: $(READY)
 # Many random rounds: minutes, not seconds.
 test-slow: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow $(TESTS)
+
+# The words that editors colour, from the grammars.
+highlight: $(READY)
+	$(BIN)/python -m editors.highlight
 
 test-editors: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python

@@ -1,11 +1,110 @@
 ;;; robocomp-words.el --- Words of RoboComp's languages  -*- lexical-binding: t; -*-
+;;; Commentary:
+;; Written by `python -m editors.highlight' from the grammars; do not edit.
 ;;; Code:
 (defconst robocomp-words
-  '((idsl nil "module" "interface")
-    (cdsl t "component")
-    (pdsl nil "int")
-    (ddsl nil "component")
-    (smdsl nil "states"))
+  '((idsl nil
+     "bool"
+     "byte"
+     "command"
+     "dictionary"
+     "double"
+     "enum"
+     "exception"
+     "extends"
+     "false"
+     "float"
+     "idempotent"
+     "import"
+     "int"
+     "interface"
+     "long"
+     "module"
+     "out"
+     "publish"
+     "query"
+     "sequence"
+     "short"
+     "string"
+     "struct"
+     "throws"
+     "true"
+     "void")
+    (cdsl t
+     "Communications"
+     "Component"
+     "RoboCompClasses"
+     "RoboCompModules"
+     "as"
+     "gui"
+     "implements"
+     "import"
+     "language"
+     "middleware"
+     "no_gui"
+     "options"
+     "parameters"
+     "period"
+     "publishes"
+     "qtversion"
+     "requires"
+     "statemachine"
+     "subscribesTo"
+     "threads"
+     "useQt"
+     "visual"
+     "worker")
+    (pdsl t
+     "ComponentParams"
+     "bool"
+     "false"
+     "float"
+     "int"
+     "live"
+     "string"
+     "true")
+    (ddsl t
+     "Deployment"
+     "address"
+     "after"
+     "as"
+     "best_effort"
+     "component"
+     "config"
+     "connect"
+     "deadline"
+     "depth"
+     "env"
+     "executable"
+     "export"
+     "false"
+     "from"
+     "group"
+     "host"
+     "import"
+     "in"
+     "labels"
+     "max"
+     "middleware"
+     "on"
+     "port"
+     "priority"
+     "ready"
+     "reliable"
+     "restart"
+     "set"
+     "true"
+     "user"
+     "within")
+    (smdsl t
+     "after"
+     "end_state"
+     "initial_state"
+     "on"
+     "parallel"
+     "states"
+     "transition"
+     "transitions"))
   "For each language: whether the case of letters plays no part, and its words.")
 (provide 'robocomp-words)
 ;;; robocomp-words.el ends here

@@ -1,0 +1,157 @@
+"""From the grammars to the words of each language and where they stand.
+
+In: the Lark grammars, and the vocabularies that the checks know. Out: plain data, kept as
+`grammars/words.json`; `robocomp_dsl.highlight.table` says what its parts mean.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from lark import Lark
+from lark.grammar import Symbol, Terminal
+
+from robocomp_dsl.check.qos import PRIORITIES
+from robocomp_dsl.check.units import KNOWN
+from robocomp_dsl.check.workspace import MIDDLEWARES
+from robocomp_dsl.model.types import PRIMITIVES
+from robocomp_dsl.syntax.cdsl_settings import LANGUAGES, OPTIONS, WIDGETS
+from robocomp_dsl.syntax.ddsl_instances import POLICIES, UNITS
+from robocomp_dsl.syntax.idsl_operations import PATTERNS
+from robocomp_dsl.syntax.tabulate import LANGUAGES as NAMES
+from robocomp_dsl.syntax.tabulate import lark, tabulate
+
+VALUES = {
+    "language": LANGUAGES,
+    "gui": ("Qt", *WIDGETS),
+    "middleware": MIDDLEWARES,
+    "options": OPTIONS,
+    "priority": PRIORITIES,
+    "restart": POLICIES,
+}
+"""What checks accept behind a keyword where the grammar has just a name."""
+
+_TRUTH = {"idsl": ("false", "true"), "pdsl": ("false", "true"), "ddsl": ("false", "true")}
+_FOLLOWING = {
+    "ID": "name",
+    "STRING": "string",
+    "NUMBER": "number",
+    "LBRACE": "{",
+    "LESSTHAN": "<",
+    "LPAR": "(",
+    "BRACKETED": "[",
+    "COMMA": ",",
+    "_SEMI": ";",
+    "COLON": ":",
+    "MINUS": "-",
+    "EQUAL": "=",
+}
+Start = tuple[str, tuple[Symbol, ...], bool]
+
+
+class Grammar:
+    """The rules of one language, asked for statements."""
+
+    def __init__(self, language: str) -> None:
+        made: Lark = lark(language)
+        tables = tabulate(language)
+        self.any_case: bool = tables["any_case"]
+        self.terminals: dict[str, str] = {t: w for w, t in self._spelling(made, tables).items()}
+        self._actions: list[dict[str, int]] = tables["actions"]
+        self._rules: dict[str, list[tuple[tuple[Symbol, ...], str]]] = defaultdict(list)
+        for rule in made.rules:
+            self._rules[rule.origin.name].append((tuple(rule.expansion), rule.alias or ""))
+
+    @staticmethod
+    def _spelling(made: Lark, tables: dict[str, Any]) -> dict[str, str]:
+        """The words as the grammar spells them, to the names of their terminals."""
+        known = set(tables["keywords"].values())
+        return {t.pattern.value: t.name for t in made.terminals if t.name in known}
+
+    def statements(self) -> dict[str, tuple[set[str], bool, bool]]:
+        """By the first keyword (or none): the keywords behind it, whether a block opens, legacy."""
+        found: dict[str, tuple[set[str], bool, bool]] = {}
+        items = [name for name in self._rules if name.endswith("_item")]
+        for name in items:
+            for first, rest, legacy in self._starts(name, (), False, ()):
+                words, opens, old = found.get(first, (set(), False, True))
+                words = words | self._reached(rest)
+                opens = opens or any(symbol.name == "LBRACE" for symbol in rest)
+                found[first] = (words, opens, old and legacy)
+        return found
+
+    def following(self, terminal: str) -> list[str]:
+        """What may stand behind a keyword: `name`, `string`, `number` or a sign."""
+        after = {row[terminal] for row in self._actions if row.get(terminal, -1) >= 0}
+        kinds = {kind for state in after for kind in self._actions[state]}
+        kinds = {"ID" if kind in self.terminals else kind for kind in kinds}
+        return sorted(_FOLLOWING[kind] for kind in kinds if kind in _FOLLOWING)
+
+    def _starts(
+        self, name: str, rest: tuple[Symbol, ...], legacy: bool, seen: tuple[str, ...]
+    ) -> Iterator[Start]:
+        if name in seen:
+            return
+        for expansion, alias in self._rules[name]:
+            old = legacy or (alias or name).startswith(("ignored_", "no_gui", "OLD_"))
+            if not expansion:
+                continue
+            first, behind = expansion[0], (*expansion[1:], *rest)
+            if not isinstance(first, Terminal):
+                yield from self._starts(first.name, behind, old, (*seen, name))
+            elif first.name in self.terminals:
+                yield first.name, behind, old or first.name.startswith("OLD_")
+            elif first.name in ("ID", "BRACKETED", "COLON"):
+                yield "", behind, old
+
+    def _reached(self, symbols: Sequence[Symbol]) -> set[str]:
+        """The keywords in what follows, up to the items of a block."""
+        words: set[str] = set()
+        seen: set[str] = set()
+        todo = list(symbols)
+        while todo:
+            name = todo.pop().name
+            if name in self.terminals:
+                words.add(name)
+            if name in seen or name.endswith("_item"):
+                continue
+            seen.add(name)
+            todo += [symbol for expansion, _ in self._rules.get(name, ()) for symbol in expansion]
+        return words
+
+
+def words(language: str) -> dict[str, Any]:
+    """The table of one language."""
+    grammar = Grammar(language)
+    found = grammar.statements()
+    plain = found.pop("", (set(), False, False))
+    spelt = grammar.terminals
+    types = [spelt[name] for name in spelt if name.endswith("_TYPE")]
+    if language == "idsl":
+        types = [*PRIMITIVES, "void"]
+    return {
+        "any_case": grammar.any_case,
+        "keywords": {spelt[t]: grammar.following(t) for t in sorted(spelt, key=spelt.__getitem__)},
+        "statements": {
+            spelt[terminal]: {
+                "opens": opens,
+                "legacy": legacy,
+                "inner": sorted(spelt[one] for one in inner),
+                "values": list(VALUES.get(spelt[terminal], ())),
+            }
+            for terminal, (inner, opens, legacy) in sorted(found.items(), key=lambda i: spelt[i[0]])
+        },
+        "plain": sorted(spelt[one] for one in plain[0] if spelt[one] not in types),
+        "types": sorted(types),
+        "truth": list(_TRUTH.get(language, ())),
+        "patterns": list(PATTERNS) if language == "idsl" else [],
+        "durations": list(UNITS) if language in ("ddsl", "smdsl") else [],
+        "units": sorted(KNOWN) if language in ("idsl", "pdsl") else [],
+    }
+
+
+def table() -> dict[str, Any]:
+    """The tables of all languages."""
+    return {language: words(language) for language in NAMES}
