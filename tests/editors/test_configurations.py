@@ -1,4 +1,4 @@
-"""The configurations of editors that cannot be run here: they are well formed, and name what exists."""
+"""Configurations of editors that cannot be run here are well formed, and name what exists."""
 
 from __future__ import annotations
 
