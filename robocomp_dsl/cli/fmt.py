@@ -17,7 +17,7 @@ from robocomp_dsl.cli.rewriting import BOM, difference, rewrite
 from robocomp_dsl.diagnostics import Report, Severity
 from robocomp_dsl.format import CannotFormat, formatted
 from robocomp_dsl.generate.write import CannotWrite
-from robocomp_dsl.source import Source, UnreadableSource, decode
+from robocomp_dsl.source import Source, UnreadableSource, declared_as_utf8, decode
 
 STDIN = Path("-")
 
@@ -124,7 +124,7 @@ class _Run:
         self._sum_up("would be formatted", quiet)
 
     def print_stdin(self, name: Path) -> None:
-        text = self._mark + self.new.get(name, "")
+        text = self._mark + declared_as_utf8(self.new.get(name, ""))
         sys.stdout.buffer.write(text.encode())
 
     def write(self, quiet: bool) -> None:

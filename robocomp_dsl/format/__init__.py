@@ -4,7 +4,7 @@ In: a source and what the parser found in it. Out: the new text. Only what stand
 comments changes, so a text says the same before and after; that is checked each time.
 
     pieces    tokens and comments, in order: what stays
-    scan      text to pieces: the languages with braces     xml_scan   InnerModel
+    scan      text to pieces: the languages with braces     xml_scan   those in XML
     items     pieces to statements and blocks
     style     the look of each language, as a table
     layout    statements to lines                           xml        tags to lines
@@ -27,9 +27,13 @@ from robocomp_dsl.format.style import STYLES
 from robocomp_dsl.format.xml import lay_out_xml
 from robocomp_dsl.format.xml_scan import scan_xml
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import LANGUAGES, codes, parse_innermodel
+from robocomp_dsl.syntax import LANGUAGES, codes, parse_innermodel, parse_scxml
 
-PARSERS: dict[str, Callable[[Source, Report], object]] = {**LANGUAGES, ".xml": parse_innermodel}
+XML: dict[str, Callable[[Source, Report], object]] = {
+    ".xml": parse_innermodel,
+    ".scxml": parse_scxml,
+}
+PARSERS: dict[str, Callable[[Source, Report], object]] = {**LANGUAGES, **XML}
 """File suffix (lower case) to parser, for every language that can be formatted."""
 
 
@@ -71,7 +75,7 @@ def changes(source: Source, new: str) -> list[Change]:
 
 
 def _scan(text: str, suffix: str, missing: Collection[int] = ()) -> list[Piece]:
-    return scan_xml(text) if suffix == ".xml" else scan(text, suffix[1:], missing)
+    return scan_xml(text) if suffix in XML else scan(text, suffix[1:], missing)
 
 
 def _formatted(old: Sequence[Piece], suffix: str, text: str) -> str:
@@ -81,7 +85,7 @@ def _formatted(old: Sequence[Piece], suffix: str, text: str) -> str:
 
 
 def _lines(old: Sequence[Piece], suffix: str) -> list[Line]:
-    if suffix == ".xml":
+    if suffix in XML:
         return lay_out_xml(old)
     style = STYLES[suffix[1:]]
     return lay_out(items.read(old, inline_braces=style.inline_braces), style)

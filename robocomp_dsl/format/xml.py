@@ -1,4 +1,4 @@
-"""Where everything goes in an InnerModel file: tags to lines.
+"""Where everything goes in an InnerModel or SCXML file: tags to lines.
 
 In: the pieces of a text. Out: lines, with one tag on each. The attributes of a tag that is too long
 stand below each other. Texts and what XML has besides tags are kept to the letter.
@@ -49,8 +49,12 @@ class _Tags:
         if one.comment and behind and not one.breaks:
             self.lines[-1].note = one.text
             return
-        text = reindented(one, indent) if one.comment else one.text
-        self.lines.append(Line(indent + text))
+        if one.comment:
+            self.lines.append(Line(indent + reindented(one, indent)))
+        elif "\n" in one.text and one.margin is not None:
+            self.lines.append(Line(one.margin + one.text))  # its lines may be aligned
+        else:
+            self.lines.append(Line(indent + one.text))
         self.blank = True
 
     def _tag(self, indent: str) -> None:

@@ -1,4 +1,4 @@
-"""The pieces of an InnerModel text.
+"""The pieces of an InnerModel or SCXML text.
 
 In: a text that the parser found well-formed. Out: pieces. A tag is several: its name with the `<`,
 its attributes, its end. Blanks around the `=` of an attribute and in a closing tag are no part.

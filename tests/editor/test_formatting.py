@@ -107,6 +107,28 @@ async def test_errors_of_form_leave_the_file_alone(editor: Editor) -> None:
     assert await whole(editor, "face.cdsl", MESSY.replace("Component", "Component {")) == []
 
 
+STRUCTS = """\
+module M
+{
+    struct S { int a; };
+    struct T { int a }
+    struct U { int  b; };
+};
+"""
+
+
+async def test_after_changes(editor: Editor) -> None:
+    await whole(editor, "a.idsl", STRUCTS)
+    here = lsp.Range(lsp.Position(2, 4), lsp.Position(2, 4))
+    added = "enum E { x };\n\n\n"
+    editor.change("a.idsl", lsp.TextDocumentContentChangePartial(here, added))
+    params = lsp.DocumentFormattingParams(lsp.TextDocumentIdentifier(editor.uri("a.idsl")), OPTIONS)
+    edits = await editor.client.text_document_formatting_async(params)
+    made = apply(STRUCTS.replace("struct S", added + "struct S"), list(edits or ()))
+    neat = "enum E { x };\n\n    struct S"
+    assert made == STRUCTS.replace("int  b", "int b").replace("struct S", neat)
+
+
 async def test_a_range(editor: Editor) -> None:
     two = "Component a\n{\n  period   50;\n  threads   2;\n  language   Python;\n};\n"
     assert await lines(editor, "a.cdsl", two, 3, 4) == two.replace("  threads   2", "    threads 2")

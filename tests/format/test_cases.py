@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 from formats import CASES, fmt
 
+from robocomp_dsl.check import CHECKS
+from robocomp_dsl.format import PARSERS
+
 CASE_FILES = sorted(path for path in CASES.iterdir() if path.suffix != ".out")
 
 
@@ -20,7 +23,5 @@ def test_case(case: Path, update_golden: bool) -> None:
     assert made == beside.read_text(encoding="utf-8")
 
 
-def test_every_language_has_a_case() -> None:
-    assert {case.suffix for case in CASE_FILES} == {
-        ".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl", ".xml",
-    }  # fmt: skip
+def test_every_language_is_formatted_and_has_a_case() -> None:
+    assert {case.suffix for case in CASE_FILES} == set(PARSERS) == set(CHECKS)
