@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from typing import Protocol, TypeVar
 
 from robocomp_dsl.check.files import Parsed
@@ -57,10 +58,23 @@ class Visible:
     def find(self, name: QualifiedName, kind: type[Kind]) -> list[Kind]:
         """What `name` can mean; direct imports hide what only they import."""
         module = name.module.text if name.module else None
-        found = _named(self._modules, name.name.text, module, kind)
-        if module is None and len(found) > 1:
-            return _named(self.direct, name.name.text, module, kind) or found
-        return found
+        found = [
+            (one, declaration)
+            for one, declaration in self._by_name.get(name.name.text, ())
+            if module in (None, one.name) and isinstance(declaration, kind)
+        ]
+        direct = [declaration for one, declaration in found if one in self.direct]
+        if module is None and len(found) > 1 and direct:
+            return direct
+        return [declaration for _, declaration in found]
+
+    @cached_property
+    def _by_name(self) -> dict[str, list[tuple[Module, Declaration]]]:
+        made: dict[str, list[tuple[Module, Declaration]]] = {}
+        for one in self._modules:
+            for declaration in one.declarations:
+                made.setdefault(declaration.name, []).append((one, declaration))
+        return made
 
     def declarations(self, kind: type[Kind], module: str | None = None) -> list[Kind]:
         """All visible declarations of a kind, or those of one module."""
@@ -83,15 +97,3 @@ class Visible:
         if any(declared.search(source.text) for source in self._broken):
             return True
         return self._missing and guess is None
-
-
-def _named(
-    modules: Iterable[Module], name: str, module: str | None, kind: type[Kind]
-) -> list[Kind]:
-    return [
-        declaration
-        for one in modules
-        if module is None or one.name == module
-        for declaration in one.declarations
-        if declaration.name == name and isinstance(declaration, kind)
-    ]
