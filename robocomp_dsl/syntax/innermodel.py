@@ -1,35 +1,27 @@
 """InnerModel and SCXML, from text to tree.
 
-In: a source. Out: its elements, nested. Lark cuts the text into tags and pieces of tags; this
-module matches the tags, and reports everything that XML forbids where it stands. It takes no help
-from an XML library: those stop at the first mistake, and every tenth of the files that people have
-repeats an attribute.
+In: a source. Out: its elements, nested. `xml_tokens` cuts the text into tags and pieces of tags;
+this module matches the tags, and reports everything that XML forbids where it stands. It takes no
+help from an XML library: those stop at the first mistake, and every tenth of the files that people
+have repeats an attribute.
 """
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from functools import cache
-
-from lark import Lark, Token, Tree
 
 from robocomp_dsl.diagnostics import Note, Report, nearest
-from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import codes_xml as codes
 from robocomp_dsl.syntax.ast_base import Name, Text
 from robocomp_dsl.syntax.ast_innermodel import Attribute, Element, File
 from robocomp_dsl.syntax.findings import Findings
 from robocomp_dsl.syntax.innermodel_attributes import decoded, ends, read_attributes
+from robocomp_dsl.syntax.lexer import Token
+from robocomp_dsl.syntax.xml_tokens import ENDS, items
 
 _CLOSED = re.compile(r"</\s*([^\s<>]*)\s*([^<>]*)(>?)")
-
-
-@cache
-def _lark() -> Lark:
-    grammar = (GRAMMARS / "innermodel.lark").read_text(encoding="utf-8")
-    return Lark(grammar, parser="lalr", lexer="contextual", maybe_placeholders=False)
 
 
 def parse(source: Source, report: Report) -> File:
@@ -43,14 +35,13 @@ def parse_machine(source: Source, report: Report) -> File:
 
 
 def _parse(builder: _Builder) -> File:
-    source = builder.source
-    for item in _lark().parse(source.text).children:
+    for item in items(builder.source.text):
         if builder.findings.full:
             break
-        if isinstance(item, Tree):
-            builder.tag([part for part in item.children if isinstance(part, Token)])
+        if item[0].kind == "OPEN":
+            builder.tag(item)
         else:
-            builder.outside(item)
+            builder.outside(item[0])
     return builder.file()
 
 
@@ -106,8 +97,8 @@ class _Builder:
     def tag(self, parts: list[Token]) -> None:
         """`<name attribute … >` or `… />`, from its tokens."""
         (start, name_end), (_, end) = ends(parts[0]), ends(parts[-1])
-        ended = parts[-1].type in ("ENDED", "ENDED_EMPTY")
-        tag = Name(self.source.span(start + 1, name_end), str(parts[0])[1:])
+        ended = parts[-1].kind in ENDS
+        tag = Name(self.source.span(start + 1, name_end), parts[0].text[1:])
         written = parts[1:-1] if ended else parts[1:]
         attributes = read_attributes(written, self.source, self.findings)
         self.path.append(_Open(start, tag, attributes, told=not ended))
@@ -120,7 +111,7 @@ class _Builder:
                 said,
                 fix=self.findings.fix("close the tag", (end, end, "/>")),
             )
-        if parts[-1].type == "ENDED_EMPTY":
+        if parts[-1].kind == "ENDED_EMPTY":
             self._pop(end)
 
     def _pop(self, end: int) -> None:
@@ -131,7 +122,7 @@ class _Builder:
         (self.path[-1].children if self.path else self.roots).append(made)
 
     def _close(self, token: Token) -> None:
-        found = _CLOSED.match(token)
+        found = _CLOSED.match(token.text)
         name, rest, ended = found.groups() if found else ("", "", "")
         start, end = ends(token)
         if rest or not ended:
@@ -189,7 +180,7 @@ class _Builder:
     def outside(self, token: Token) -> None:
         """A closing tag, or something that is no tag at all."""
         start, end = ends(token)
-        match token.type:
+        match token.kind:
             case "CLOSE":
                 self._close(token)
             case "LONE":
@@ -205,7 +196,7 @@ class _Builder:
                 self._text(token, start)
 
     def _text(self, token: Token, start: int) -> None:
-        words = str(token).rstrip()
+        words = token.text.rstrip()
         end = start + len(words)
         if self.path and self.keeps_text:
             self.path[-1].texts.append(self._kept(token, words, start))
@@ -221,6 +212,6 @@ class _Builder:
     def _kept(self, token: Token, words: str, start: int) -> Text:
         """A text, or what stands in a CDATA section, as it is meant."""
         span = self.source.span(start, start + len(words))
-        if token.type == "CDATA":
+        if token.kind == "CDATA":
             return Text(span, words[len("<![CDATA[") : -len("]]>")])
         return Text(span, decoded(words, start, self.findings))

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import re
 
-from lark import Token
-
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax import codes_xml as codes
 from robocomp_dsl.syntax.ast_base import Name, Text
 from robocomp_dsl.syntax.ast_innermodel import Attribute
 from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.lexer import Token
 
 _ENTITIES = {"amp": "&", "lt": "<", "gt": ">", "quot": '"', "apos": "'"}
 _REFERENCE = re.compile(r"&(?:(\w+);|#(\d{1,7});|#[xX]([0-9a-fA-F]{1,6});)?")
@@ -24,7 +23,7 @@ _PIECES = re.compile(r"([A-Za-z_][\w:.-]*)(\s*=\s*)?")
 
 def ends(token: Token) -> tuple[int, int]:
     """Where a token begins and ends."""
-    return token.start_pos or 0, token.end_pos or 0
+    return token.start, token.end
 
 
 def read_attributes(
@@ -35,13 +34,13 @@ def read_attributes(
     behind = -1
     for token in tokens:
         start, end = ends(token)
-        if token.type != "JUNK":
+        if token.kind != "JUNK":
             made = _attribute(token, source, findings)
             if start == behind:
                 _no_space(made, findings)
             _keep(made, kept, findings)
             behind = end
-    _junk([token for token in tokens if token.type == "JUNK"], source, findings)
+    _junk([token for token in tokens if token.kind == "JUNK"], source, findings)
     return tuple(kept.values())
 
 
@@ -75,11 +74,11 @@ def _keep(made: Attribute, kept: dict[str, Attribute], findings: Findings) -> No
 
 def _attribute(token: Token, source: Source, findings: Findings) -> Attribute:
     start, end = ends(token)
-    found = _PIECES.match(token)
-    name = found[1] if found else str(token)
-    written = str(token)[found.end() :] if found else ""
+    found = _PIECES.match(token.text)
+    name = found[1] if found else token.text
+    written = token.text[found.end() :] if found else ""
     at = end - len(written)
-    if token.type == "ATTRIBUTE":
+    if token.kind == "ATTRIBUTE":
         value = decoded(written[1:-1], at + 1, findings)
     else:
         value = _misspelt(token, name, written, findings)
@@ -94,12 +93,12 @@ def _misspelt(token: Token, name: str, written: str, findings: Findings) -> str:
     """The value that is meant where the quotes are not as they should be."""
     start, end = ends(token)
     at = end - len(written)
-    if token.type == "OPEN_VALUE":
+    if token.kind == "OPEN_VALUE":
         said = f"the value of `{name}` has no closing quote"
         fix = findings.fix("add the quote", (end, end, written[0]))
         findings.add(codes.XML_TAG, at, end, said, fix=fix)
         return written[1:]
-    if token.type == "BARE_VALUE":
+    if token.kind == "BARE_VALUE":
         said = f"the value of `{name}` must stand in quotes"
         fix = findings.fix("add quotes", (at, end, f'"{written}"'))
         findings.add(codes.XML_TAG, at, end, said, fix=fix)

@@ -21,6 +21,7 @@ from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.syntax.tables import END, fingerprint
 
 LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
+XML = "innermodel"
 START = "start"
 _WORD = re.compile(r"[A-Za-z_]\w*")
 
@@ -144,12 +145,34 @@ def _picks(rule: Rule) -> Iterator[list[Any]]:
         index += 1
 
 
+def tabulate_xml() -> dict[str, Any]:
+    """The terminals of the XML grammar outside and inside of tags: see `xml_tokens`."""
+    made = lark(XML)
+    contextual: Any = made.parser.lexer
+    table = made.parser.parser._parse_table
+    outside = table.start_states[START]
+    inside = table.states[outside]["OPEN"][1]
+    return {
+        "language": XML,
+        "fingerprint": fingerprint(XML),
+        "outside": _alternatives(contextual.lexers[outside].terminals),
+        "inside": _alternatives(contextual.lexers[inside].terminals),
+        "ignored": sorted(made.ignore_tokens),
+    }
+
+
+def _alternatives(terminals: list[TerminalDef]) -> str:
+    """One expression for terminals that are in the order in which Lark tries them."""
+    return "|".join(f"(?P<{one.name}>{one.pattern.to_regexp()})" for one in terminals)
+
+
 def main() -> None:
     """Write the tables of all grammars."""
     folder = GRAMMARS / "tables"
     folder.mkdir(exist_ok=True)
-    for language in LANGUAGES:
-        text = json.dumps(tabulate(language), indent=None, separators=(",", ":"))
+    made = {language: tabulate(language) for language in LANGUAGES} | {XML: tabulate_xml()}
+    for language, tables in made.items():
+        text = json.dumps(tables, indent=None, separators=(",", ":"))
         (folder / f"{language}.json").write_text(text + "\n", encoding="utf-8")
 
 

@@ -1,15 +1,20 @@
 """The form of InnerModel files: what is wrong is told where it is, and the rest stands."""
 
+import json
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import parse_innermodel
+from robocomp_dsl.syntax import parse_innermodel, tabulate
 from robocomp_dsl.syntax.ast_innermodel import Element, File
+from robocomp_dsl.syntax.xml_tokens import tokens
 
 
 def parsed(text: str) -> tuple[File, Report]:
@@ -121,3 +126,21 @@ def test_anything_is_read(text: str) -> None:
     assert tree.complete == (not report.failed)
     for finding in report:
         assert 0 <= finding.span.start <= finding.span.end <= len(text)
+
+
+@cache
+def lark() -> Any:
+    return tabulate.lark(tabulate.XML)
+
+
+@settings(max_examples=300, deadline=None)
+@given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
+def test_tokens_are_those_of_lark(text: str) -> None:
+    read = lark().parse_interactive(text).exhaust_lexer()
+    wanted = [(t.type, t.start_pos, t.end_pos) for t in read]
+    assert [(t.kind, t.start, t.end) for t in tokens(text)] == wanted
+
+
+def test_the_kept_terminals_are_fresh() -> None:
+    kept = json.loads((GRAMMARS / "tables" / "innermodel.json").read_text())
+    assert kept == tabulate.tabulate_xml()
