@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from os.path import relpath
 
 from markupsafe import Markup, escape
 
@@ -67,8 +66,12 @@ def address(page: str, target: Target, suffix: str) -> str:
     anchor = f"#{target.anchor}" if target.anchor else ""
     if not target.page or (target.page == page and anchor):
         return anchor
-    way = relpath(f"{target.page}{suffix}", page.rpartition("/")[0] or ".").replace("\\", "/")
-    return way + anchor
+    folder, name = page.rpartition("/")[0], target.page
+    if name.rpartition("/")[0] == folder:
+        way = name.rpartition("/")[2]
+    else:
+        way = "../" * page.count("/") + name
+    return f"{way}{suffix}{anchor}"
 
 
 def html_page(page: Page, pages: Sequence[Page], title: str) -> str:

@@ -48,7 +48,9 @@ def crossings(columns: Columns) -> int:
     total = 0
     for left, right in zip(columns.order, columns.order[1:], strict=False):
         place = {one: i for i, one in enumerate(right)}
-        ends = [e for one in left for e in sorted(place[a] for a in columns.items[one].after)]
+        ends: list[int] = []
+        for one in left:
+            ends += sorted([place[after] for after in columns.items[one].after])
         total += _inversions(ends, len(right))
     return total
 

@@ -39,6 +39,8 @@ def _pull(
     beside = item.before if forth else item.after
     if not beside:
         return None
+    if len(beside) == 1:  # as of every place where a line only passes
+        return at[beside[0]], 1.0 + 3.0 * (item.node < 0) + 3.0 * (items[beside[0]].node < 0)
     weights = [1.0 + 3.0 * (item.node < 0) + 3.0 * (items[b].node < 0) for b in beside]
     total = sum(weights)
     return sum(w * at[b] for w, b in zip(weights, beside, strict=True)) / total, total
