@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from editors.highlight import emacs, textmate, words
+from editors.highlight import emacs, textmate, vim, words
 from robocomp_dsl.highlight.table import LANGUAGES
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,6 +24,7 @@ def files() -> dict[str, str]:
         made[f"editors/vscode/syntaxes/{language}.tmLanguage.json"] = _json(
             textmate.grammar(language)
         )
+        made[f"editors/vim/syntax/{language}.vim"] = vim.syntax(language)
     return made
 
 

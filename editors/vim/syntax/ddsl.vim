@@ -1,0 +1,184 @@
+" Vim syntax file: DDSL of RoboComp
+" Written by `python -m editors.highlight` from the grammars; do not edit.
+
+if exists("b:current_syntax")
+  finish
+endif
+let s:cpo_save = &cpo
+set cpo&vim
+
+syn case ignore
+syn match ddslOperator contained /->\|=>\|::\|[=:<>+.-]/
+syn match ddslText contained /\h\w*/
+syn match ddslNumber contained /\%(\<0[xX]\x\+\|[-+]\=\%(\<\d\+\.\=\d*\|\.\d\+\)\%([eE][-+]\=\d\+\)\=\)\>\=/
+syn match ddslTruth contained /\<\%(false\|true\)\>/
+syn match ddslUnit contained /\%(\<\d\+\.\=\d*\s*\)\@<=\<\%(min\|ms\|s\|h\)\>/
+syn region ddslString start=/"/ skip=/\\./ end=/"/ end=/$/
+syn cluster ddslAny contains=ddslOperator,ddslFunction,ddslText,ddslNumber,ddslType,ddslTruth,ddslUnit,ddslPattern,ddslValue,ddslString
+hi def link ddsl_plain_inner ddslModifier
+hi def link ddsl_plain_value ddslValue
+hi def link ddsl_plain_name ddslName
+hi def link ddsl_plain_field ddslField
+syn region ddsl_plain start=/\ze[A-Za-z_[:]/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_plain_inner,ddsl_plain_value,ddsl_plain_name,ddsl_plain_field
+syn match ddsl_Deployment_name contained /\%(\<Deployment\s\+\)\@<=\h\w*/
+hi def link ddsl_Deployment_inner ddslModifier
+hi def link ddsl_Deployment_value ddslValue
+hi def link ddsl_Deployment_name ddslName
+hi def link ddsl_Deployment_field ddslField
+syn region ddsl_Deployment matchgroup=ddslDeclaration start=/\<Deployment\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_Deployment_inner,ddsl_Deployment_value,ddsl_Deployment_name,ddsl_Deployment_field
+hi def link ddsl_address_inner ddslModifier
+hi def link ddsl_address_value ddslValue
+hi def link ddsl_address_name ddslName
+hi def link ddsl_address_field ddslField
+syn region ddsl_address matchgroup=ddslKeyword start=/\<address\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_address_inner,ddsl_address_value,ddsl_address_name,ddsl_address_field
+hi def link ddsl_after_inner ddslModifier
+hi def link ddsl_after_value ddslValue
+hi def link ddsl_after_name ddslName
+hi def link ddsl_after_field ddslField
+syn region ddsl_after matchgroup=ddslKeyword start=/\<after\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_after_inner,ddsl_after_value,ddsl_after_name,ddsl_after_field
+hi def link ddsl_best_effort_inner ddslModifier
+hi def link ddsl_best_effort_value ddslValue
+hi def link ddsl_best_effort_name ddslName
+hi def link ddsl_best_effort_field ddslField
+syn region ddsl_best_effort matchgroup=ddslKeyword start=/\<best_effort\>\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_best_effort_inner,ddsl_best_effort_value,ddsl_best_effort_name,ddsl_best_effort_field
+syn match ddsl_component_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_component_name contained /\%(\<component\s\+\)\@<=\h\w*/
+hi def link ddsl_component_inner ddslModifier
+hi def link ddsl_component_value ddslValue
+hi def link ddsl_component_name ddslName
+hi def link ddsl_component_field ddslField
+syn region ddsl_component matchgroup=ddslDeclaration start=/\<component\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_component_inner,ddsl_component_value,ddsl_component_name,ddsl_component_field
+hi def link ddsl_config_inner ddslModifier
+hi def link ddsl_config_value ddslValue
+hi def link ddsl_config_name ddslName
+hi def link ddsl_config_field ddslField
+syn region ddsl_config matchgroup=ddslKeyword start=/\<config\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_config_inner,ddsl_config_value,ddsl_config_name,ddsl_config_field
+hi def link ddsl_connect_inner ddslModifier
+hi def link ddsl_connect_value ddslValue
+hi def link ddsl_connect_name ddslName
+hi def link ddsl_connect_field ddslField
+syn region ddsl_connect matchgroup=ddslDeclaration start=/\<connect\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_connect_inner,ddsl_connect_value,ddsl_connect_name,ddsl_connect_field
+hi def link ddsl_deadline_inner ddslModifier
+hi def link ddsl_deadline_value ddslValue
+hi def link ddsl_deadline_name ddslName
+hi def link ddsl_deadline_field ddslField
+syn region ddsl_deadline matchgroup=ddslKeyword start=/\<deadline\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_deadline_inner,ddsl_deadline_value,ddsl_deadline_name,ddsl_deadline_field
+hi def link ddsl_depth_inner ddslModifier
+hi def link ddsl_depth_value ddslValue
+hi def link ddsl_depth_name ddslName
+hi def link ddsl_depth_field ddslField
+syn region ddsl_depth matchgroup=ddslKeyword start=/\<depth\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_depth_inner,ddsl_depth_value,ddsl_depth_name,ddsl_depth_field
+hi def link ddsl_env_inner ddslModifier
+hi def link ddsl_env_value ddslValue
+hi def link ddsl_env_name ddslName
+hi def link ddsl_env_field ddslField
+syn region ddsl_env matchgroup=ddslKeyword start=/\<env\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_env_inner,ddsl_env_value,ddsl_env_name,ddsl_env_field
+hi def link ddsl_executable_inner ddslModifier
+hi def link ddsl_executable_value ddslValue
+hi def link ddsl_executable_name ddslName
+hi def link ddsl_executable_field ddslField
+syn region ddsl_executable matchgroup=ddslKeyword start=/\<executable\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_executable_inner,ddsl_executable_value,ddsl_executable_name,ddsl_executable_field
+syn match ddsl_export_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_export_inner contained /\.\@<!\<from\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_export_inner ddslModifier
+hi def link ddsl_export_value ddslValue
+hi def link ddsl_export_name ddslName
+hi def link ddsl_export_field ddslField
+syn region ddsl_export matchgroup=ddslKeyword start=/\<export\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_export_inner,ddsl_export_value,ddsl_export_name,ddsl_export_field
+syn match ddsl_group_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_group_name contained /\%(\<group\s\+\)\@<=\h\w*/
+hi def link ddsl_group_inner ddslModifier
+hi def link ddsl_group_value ddslValue
+hi def link ddsl_group_name ddslName
+hi def link ddsl_group_field ddslField
+syn region ddsl_group matchgroup=ddslDeclaration start=/\<group\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_group_inner,ddsl_group_value,ddsl_group_name,ddsl_group_field
+syn match ddsl_host_name contained /\%(\<host\s\+\)\@<=\h\w*/
+hi def link ddsl_host_inner ddslModifier
+hi def link ddsl_host_value ddslValue
+hi def link ddsl_host_name ddslName
+hi def link ddsl_host_field ddslField
+syn region ddsl_host matchgroup=ddslDeclaration start=/\<host\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_host_inner,ddsl_host_value,ddsl_host_name,ddsl_host_field
+hi def link ddsl_import_inner ddslModifier
+hi def link ddsl_import_value ddslValue
+hi def link ddsl_import_name ddslName
+hi def link ddsl_import_field ddslField
+syn region ddsl_import matchgroup=ddslKeyword start=/\<import\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_import_inner,ddsl_import_value,ddsl_import_name,ddsl_import_field
+hi def link ddsl_labels_inner ddslModifier
+hi def link ddsl_labels_value ddslValue
+hi def link ddsl_labels_name ddslName
+hi def link ddsl_labels_field ddslField
+syn region ddsl_labels matchgroup=ddslKeyword start=/\<labels\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_labels_inner,ddsl_labels_value,ddsl_labels_name,ddsl_labels_field
+syn match ddsl_middleware_value contained /\.\@<!\<\%(inproc\|zenoh\)\>/
+hi def link ddsl_middleware_inner ddslModifier
+hi def link ddsl_middleware_value ddslValue
+hi def link ddsl_middleware_name ddslName
+hi def link ddsl_middleware_field ddslField
+syn region ddsl_middleware matchgroup=ddslKeyword start=/\<middleware\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_middleware_inner,ddsl_middleware_value,ddsl_middleware_name,ddsl_middleware_field
+hi def link ddsl_port_inner ddslModifier
+hi def link ddsl_port_value ddslValue
+hi def link ddsl_port_name ddslName
+hi def link ddsl_port_field ddslField
+syn region ddsl_port matchgroup=ddslKeyword start=/\<port\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_port_inner,ddsl_port_value,ddsl_port_name,ddsl_port_field
+syn match ddsl_priority_value contained /\.\@<!\<\%(background\|realtime\|normal\|high\|low\)\>/
+hi def link ddsl_priority_inner ddslModifier
+hi def link ddsl_priority_value ddslValue
+hi def link ddsl_priority_name ddslName
+hi def link ddsl_priority_field ddslField
+syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
+syn match ddsl_ready_inner contained /\.\@<!\<within\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_ready_inner ddslModifier
+hi def link ddsl_ready_value ddslValue
+hi def link ddsl_ready_name ddslName
+hi def link ddsl_ready_field ddslField
+syn region ddsl_ready matchgroup=ddslKeyword start=/\<ready\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_ready_inner,ddsl_ready_value,ddsl_ready_name,ddsl_ready_field
+hi def link ddsl_reliable_inner ddslModifier
+hi def link ddsl_reliable_value ddslValue
+hi def link ddsl_reliable_name ddslName
+hi def link ddsl_reliable_field ddslField
+syn region ddsl_reliable matchgroup=ddslKeyword start=/\<reliable\>\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_reliable_inner,ddsl_reliable_value,ddsl_reliable_name,ddsl_reliable_field
+syn match ddsl_restart_inner contained /\.\@<!\<in\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_restart_inner contained /\.\@<!\<max\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_restart_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_restart_value contained /\.\@<!\<\%(on-failure\|always\|never\)\>/
+hi def link ddsl_restart_inner ddslModifier
+hi def link ddsl_restart_value ddslValue
+hi def link ddsl_restart_name ddslName
+hi def link ddsl_restart_field ddslField
+syn region ddsl_restart matchgroup=ddslKeyword start=/\<restart\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_restart_inner,ddsl_restart_value,ddsl_restart_name,ddsl_restart_field
+hi def link ddsl_set_inner ddslModifier
+hi def link ddsl_set_value ddslValue
+hi def link ddsl_set_name ddslName
+hi def link ddsl_set_field ddslField
+syn region ddsl_set matchgroup=ddslKeyword start=/\<set\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_set_inner,ddsl_set_value,ddsl_set_name,ddsl_set_field
+hi def link ddsl_user_inner ddslModifier
+hi def link ddsl_user_value ddslValue
+hi def link ddsl_user_name ddslName
+hi def link ddsl_user_field ddslField
+syn region ddsl_user matchgroup=ddslKeyword start=/\<user\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_user_inner,ddsl_user_value,ddsl_user_name,ddsl_user_field
+syn match ddslComment ,//.*,
+syn match ddslComment /#.*/
+syn match ddslDoc ,///[/<]\@!.*,
+syn region ddslComment start=,/\*, end=,\*/,
+syn region ddslDoc start=,/\*\*[*/<]\@!, end=,\*/,
+hi def link ddslKeyword Statement
+hi def link ddslDeclaration Structure
+hi def link ddslModifier Keyword
+hi def link ddslLegacy Todo
+hi def link ddslValue Constant
+hi def link ddslTruth Boolean
+hi def link ddslType Type
+hi def link ddslPattern PreProc
+hi def link ddslNumber Number
+hi def link ddslUnit Special
+hi def link ddslString String
+hi def link ddslComment Comment
+hi def link ddslDoc SpecialComment
+hi def link ddslOperator Operator
+hi def link ddslName Identifier
+hi def link ddslField Identifier
+hi def link ddslFunction Function
+
+syn sync minlines=200
+let b:current_syntax = "ddsl"
+let &cpo = s:cpo_save
+unlet s:cpo_save
