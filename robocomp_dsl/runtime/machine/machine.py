@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import partial
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import Any
 
@@ -26,7 +26,7 @@ class UnknownEvent(Exception):
     """The machine has no event of this name; the message offers the nearest."""
 
 
-@dataclass(order=True, slots=True)
+@dataclass(frozen=True, order=True, slots=True)
 class _Due:
     """An event that waits for its moment."""
 
@@ -34,7 +34,6 @@ class _Due:
     number: int
     fire: Callable[[], None]
     id: str
-    cancelled: bool = False
 
 
 class Machine:
@@ -102,9 +101,20 @@ class Machine:
         if event not in self._events and not self._is_pattern(event):
             raise UnknownEvent(f"there is no event `{event}`{_near(event, self._events)}")
         before = self._entries
-        self._chart.send(event, **data)
-        self._settle()
+        self._take(partial(self._chart.send, event, **data))
         return self._entries != before
+
+    def _take(self, fire: Callable[[], None]) -> None:
+        """Let something happen; where a method of the worker raises, it has not happened."""
+        waiting = list(self._due)
+        try:
+            fire()
+        except BaseException:
+            with self._lock:
+                self._due = waiting
+            raise
+        finally:
+            self._settle()
 
     def due(self) -> float | None:
         """When the next event comes by itself; None: none does."""
@@ -114,8 +124,7 @@ class Machine:
     def fire_due(self) -> None:
         """Take the events whose time has come."""
         while (one := self._next_due()) is not None:
-            one.fire()
-            self._settle()
+            self._take(one.fire)
 
     def beat(self) -> None:
         """Call the `state_…` methods of the active states, outer ones first."""
@@ -163,19 +172,14 @@ class Machine:
 
     def _cancel(self, id_: str) -> None:
         with self._lock:
-            for one in self._due:
-                one.cancelled = one.cancelled or one.id == id_
-            while self._due and self._due[0].cancelled:
-                heappop(self._due)
+            self._due = [one for one in self._due if one.id != id_]
+            heapify(self._due)
 
     def _next_due(self) -> _Due | None:
         now = self._clock.now()
         with self._lock:
-            while self._due and self._due[0].moment <= now:
-                one = heappop(self._due)
-                if not one.cancelled:
-                    return one
-        return None
+            ready = self._due and self._due[0].moment <= now
+            return heappop(self._due) if ready else None
 
     def _settle(self) -> None:
         self._settle_names()

@@ -1,0 +1,201 @@
+"""State machines: the way through the states, time, and what the worker's methods see."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass, field
+
+import pytest
+
+from robocomp_dsl.runtime.machine import (
+    Machine,
+    MachineSpec,
+    StateSpec,
+    TransitionSpec,
+    UnknownEvent,
+)
+
+GAME = MachineSpec(
+    "game",
+    (
+        StateSpec("waiting", initial=True),
+        StateSpec(
+            "playing",
+            parallel=True,
+            inside=(
+                StateSpec("music", inside=(StateSpec("loud", initial=True), StateSpec("soft"))),
+                StateSpec("moves"),
+            ),
+        ),
+        StateSpec("paused"),
+        StateSpec("over", final=True),
+    ),
+    (
+        TransitionSpec("waiting", "playing", "start"),
+        TransitionSpec("loud", "soft", "hush"),
+        TransitionSpec("playing", "paused", "pause", after=60.0),
+        TransitionSpec("paused", "playing", "start"),
+        TransitionSpec("paused", "over", after=10.0),
+    ),
+)
+
+
+@dataclass
+class HandClock:
+    """A clock that a test turns."""
+
+    moment: float = 0.0
+
+    def now(self) -> float:
+        return self.moment
+
+    def wait_until(self, moment: float | None, wake: threading.Event) -> None:
+        raise NotImplementedError
+
+
+@dataclass
+class Worker:
+    """Writes down what is called."""
+
+    said: list[str] = field(default_factory=list)
+    machine: Machine | None = None
+
+    def __getattr__(self, name: str) -> object:
+        if name.startswith(("state_", "on_enter_", "on_exit_")):
+            return lambda: self.said.append(name)
+        raise AttributeError(name)
+
+
+@pytest.fixture
+def clock() -> HandClock:
+    return HandClock()
+
+
+@pytest.fixture
+def worker() -> Worker:
+    return Worker()
+
+
+def made(spec: MachineSpec, worker: object, clock: HandClock) -> Machine:
+    machine = Machine(spec, worker, clock, lambda: None)
+    machine.start()
+    return machine
+
+
+def test_the_way(worker: Worker, clock: HandClock) -> None:
+    machine = made(GAME, worker, clock)
+    assert machine.states == ("waiting",)
+    assert machine.go("start") is True
+    assert machine.states == ("playing", "music", "loud", "moves")
+    assert machine.go("start") is False, "nobody waits for it here"
+    assert machine.go("hush") is True
+    assert machine.states == ("playing", "music", "soft", "moves")
+    assert machine.is_in("music")
+    assert not machine.is_in("loud")
+    assert machine.go("pause") is True
+    assert machine.states == ("paused",)
+    entered = [s for s in worker.said if s.startswith("on_enter")]
+    assert entered[:2] == ["on_enter_waiting", "on_enter_playing"]
+    assert worker.said.index("on_exit_waiting") < worker.said.index("on_enter_playing")
+    assert worker.said[-1] == "on_enter_paused"
+
+
+def test_the_methods_of_the_active_states(worker: Worker, clock: HandClock) -> None:
+    machine = made(GAME, worker, clock)
+    machine.go("start")
+    worker.said.clear()
+    machine.beat()
+    assert worker.said == ["state_playing", "state_music", "state_loud", "state_moves"]
+
+
+def test_a_state_that_is_left_meanwhile_is_not_called(clock: HandClock) -> None:
+    said = []
+
+    class Leaving:
+        def state_playing(self) -> None:
+            said.append("playing")
+            machine.go("pause")
+
+        def state_moves(self) -> None:
+            said.append("moves")
+
+        def state_paused(self) -> None:
+            said.append("paused")
+
+    machine = made(GAME, Leaving(), clock)
+    machine.go("start")
+    machine.beat()
+    assert said == ["playing"]
+
+
+def test_by_time(worker: Worker, clock: HandClock) -> None:
+    machine = made(GAME, worker, clock)
+    assert machine.due() is None
+    machine.go("start")
+    assert machine.due() == 60.0
+    clock.moment = 59.9
+    machine.fire_due()
+    assert machine.is_in("playing")
+    clock.moment = 60.0
+    machine.fire_due()
+    assert machine.states == ("paused",)
+    assert machine.due() == 70.0
+    machine.go("start")
+    assert machine.due() == 120.0, "a state that is entered again waits from the beginning"
+    clock.moment = 130.0
+    machine.fire_due()
+    clock.moment = 140.0
+    machine.fire_due()
+    assert machine.ended
+    assert machine.due() is None
+
+
+def test_events_in_methods_come_behind_them(clock: HandClock) -> None:
+    seen: list[tuple[str, ...]] = []
+
+    class Eager:
+        def on_enter_waiting(self) -> None:
+            machine.go("start")
+
+        def on_enter_playing(self) -> None:
+            machine.go("pause")
+            seen.append(machine.states)
+
+    machine = Machine(GAME, Eager(), clock, lambda: None)
+    machine.start()
+    assert machine.states == ("paused",)
+    assert seen
+    assert "paused" not in seen[0]
+
+
+def test_failures_reach_the_caller(clock: HandClock) -> None:
+    class Failing:
+        def on_enter_playing(self) -> None:
+            raise ZeroDivisionError
+
+    machine = made(GAME, Failing(), clock)
+    assert machine.due() is None
+    with pytest.raises(ZeroDivisionError):
+        machine.go("start")
+    assert machine.states == ("waiting",)
+    assert machine.due() is None
+
+
+def test_unknown_names(worker: Worker, clock: HandClock) -> None:
+    machine = Machine(GAME, worker, clock, lambda: None)
+    with pytest.raises(UnknownEvent, match="begins behind `initialize`"):
+        machine.go("start")
+    machine.start()
+    with pytest.raises(UnknownEvent, match="no event `strat`; did you mean `start`"):
+        machine.go("strat")
+    with pytest.raises(UnknownEvent, match="no state `pausd`; did you mean `paused`"):
+        machine.is_in("pausd")
+
+
+def test_somebody_is_told(worker: Worker, clock: HandClock) -> None:
+    told: list[int] = []
+    machine = Machine(GAME, worker, clock, lambda: told.append(1))
+    machine.start()
+    assert not told
+    machine.go("start")
+    assert told
