@@ -120,14 +120,31 @@ class Report:
         )
 
 
+_NEAR = 0.7
+_MOST_COMPARED = 500
+
+
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known name that `word` most likely means, or None; a wrong case always counts as near."""
     by_letters: dict[str, str] = {}
     for name in known:
         by_letters.setdefault(name.lower(), name)
     letters = word.lower()
-    found = [letters] if letters in by_letters else get_close_matches(letters, by_letters, 1, 0.7)
+    if letters in by_letters:
+        return by_letters[letters]
+    found = get_close_matches(letters, _plausible(letters, by_letters), 1, _NEAR)
     return by_letters[found[0]] if found else None
+
+
+def _plausible(word: str, known: Iterable[str]) -> list[str]:
+    """Those of `known` that can be near by their lengths; of very many, the most similar."""
+    # The measure is 2 * (letters in common) / (letters of both).
+    half = _NEAR / 2
+    fitting = [k for k in known if min(len(k), len(word)) >= half * (len(k) + len(word))]
+    if len(fitting) > _MOST_COMPARED:
+        letters = set(word)
+        fitting.sort(key=lambda k: len(letters.symmetric_difference(k)))
+    return fitting[:_MOST_COMPARED]
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

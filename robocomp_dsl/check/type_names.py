@@ -36,6 +36,10 @@ _FOREIGN = {
 }
 """What other languages call our built-in types."""
 
+MOST_GUESSES = 50
+"""How many different unknown names of a module get a suggestion: each costs a search, and who has
+more of them has another problem than spelling."""
+
 
 class TypeNames:
     """The names that one module can use. `own` gives a declaration of the module itself."""
@@ -48,6 +52,7 @@ class TypeNames:
         self._own = own
         self._visible = visible
         self._report = report
+        self._guesses: dict[str, str | None] = {}
 
     def data(self, name: QualifiedName) -> types.Type | None:
         """The data type called `name`."""
@@ -123,7 +128,8 @@ class TypeNames:
         fix: Fix | None = replace(name.span, guess) if guess else None
         same_letters = guess is not None and guess.lower() == name.text.lower()
         own = name.module is not None and name.module.text == self._module
-        offer = None if same_letters or own else self._visible.importable(name)
+        searched = not (same_letters or own) and name.text in self._guesses
+        offer = self._visible.importable(name) if searched else None
         if offer is not None:
             guess, fix = None, offer.fix
             way_out = f"{offer.help}, but {offer.is_not} imported"
@@ -137,6 +143,14 @@ class TypeNames:
         )
 
     def _guess(self, name: QualifiedName) -> str | None:
+        """What was meant, most likely; the same for the same name, and nothing beyond a number."""
+        if name.text not in self._guesses:
+            if len(self._guesses) >= MOST_GUESSES:
+                return None
+            self._guesses[name.text] = self._nearest(name)
+        return self._guesses[name.text]
+
+    def _nearest(self, name: QualifiedName) -> str | None:
         word = name.name.text
         if name.module is None:
             if word.lower() in _FOREIGN:

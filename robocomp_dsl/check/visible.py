@@ -19,6 +19,7 @@ from robocomp_dsl.model.types import Declaration
 from robocomp_dsl.syntax.ast_base import QualifiedName
 
 Kind = TypeVar("Kind", bound=Declaration)
+_DECLARED = re.compile(r"\b(?:struct|enum|exception|interface)\s+(\w+)|>\s*(\w+)\s*;")
 
 
 class Tree(Protocol):
@@ -92,8 +93,12 @@ class Visible:
 
     def is_excused(self, name: QualifiedName, guess: str | None) -> bool:
         """Whether an unknown `name` is but the echo of an error that was reported already."""
-        word = re.escape(name.name.text)
-        declared = re.compile(rf"\b(?:struct|enum|exception|interface)\s+{word}\b|>\s*{word}\s*;")
-        if any(declared.search(source.text) for source in self._broken):
+        if name.name.text in self._declared_in_broken:
             return True
         return self._missing and guess is None
+
+    @cached_property
+    def _declared_in_broken(self) -> frozenset[str]:
+        """What texts that were not understood seem to declare."""
+        found = (pair for source in self._broken for pair in _DECLARED.findall(source.text))
+        return frozenset(a or b for a, b in found)

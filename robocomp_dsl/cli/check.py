@@ -12,6 +12,7 @@ import click
 from robocomp_dsl.check import CHECKS, check_file, check_syntax
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
+from robocomp_dsl.cli.listing import listed
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
 
@@ -62,9 +63,12 @@ def command(
     for path in paths:
         judge(path, workspace, report)
     findings = report.sorted()
-    options.show(findings, form, sys.stdout)
+    shown, unlisted = listed(findings) if form in options.FOR_PEOPLE else (findings, [])
+    options.show(shown, form, sys.stdout)
+    sys.stdout.flush()
+    for line in unlisted:
+        print(line, file=sys.stderr)
     if form == "full" and not quiet:
-        sys.stdout.flush()
         count = f"{len(paths)} file{'s' if len(paths) != 1 else ''}"
         print(f"{count} checked: {options.summary(findings)}", file=sys.stderr)
     sys.exit(FINDINGS if report.failed else 0)

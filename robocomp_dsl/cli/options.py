@@ -13,6 +13,8 @@ import click
 from robocomp_dsl.diagnostics import Diagnostic, Severity
 
 FORMATS = ("full", "concise", "json", "github", "sarif")
+FOR_PEOPLE = ("full", "concise")
+"""Forms that list only the first of very many findings."""
 WHOLE = ("json", "sarif")
 """Forms that are one document, also when there is nothing in it."""
 

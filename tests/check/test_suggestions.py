@@ -1,0 +1,51 @@
+"""Suggestions are for a handful of names: what they cost does not grow with the file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl import diagnostics
+from robocomp_dsl.check import check_idsl
+from robocomp_dsl.check.type_names import MOST_GUESSES
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report, nearest
+
+
+def test_only_the_first_unknown_names_are_compared(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    compared: list[str] = []
+    real = diagnostics.get_close_matches
+
+    def counted(word: str, *rest: object) -> list[str]:
+        compared.append(word)
+        return real(word, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(diagnostics, "get_close_matches", counted)
+    unknown = "".join(f"Nonsense{n} f{n}; Flaot g{n};" for n in range(400))
+    path = tmp_path / "a.idsl"
+    path.write_text(f"module M {{ struct S {{ {unknown} }}; }};")
+    report = Report()
+    check_idsl(path, Workspace(environ={}), report)
+    assert len(report) == 800
+    assert len(compared) <= MOST_GUESSES
+    labels = [one.label for one in report if "Flaot" in one.message]
+    assert labels == ["did you mean `float`?"] * 400
+
+
+@pytest.mark.parametrize(
+    ("word", "known", "meant"),
+    [
+        ("LASER", ["Laser"], "Laser"),
+        ("Lasr", ["Laser", "Lidar"], "Laser"),
+        ("Lasr", ["Velocity"], None),
+        ("Lasr", [f"Lamp{n}" for n in range(2000)] + ["Laser"], "Laser"),
+        ("Lasr", [f"Xyz{n}" for n in range(2000)] + ["Laser"], "Laser"),
+        ("x", [], None),
+    ],
+    ids=["case", "near", "far", "very many of one kind", "very many", "none"],
+)
+def test_nearest(word: str, known: list[str], meant: str | None) -> None:
+    assert nearest(word, known) == meant
