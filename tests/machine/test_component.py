@@ -1,0 +1,105 @@
+"""A component with a state machine, from its start to the machine's end."""
+
+from __future__ import annotations
+
+import threading
+import time
+import uuid
+from collections.abc import Callable, Iterator
+
+import pytest
+from test_machine import GAME
+
+from robocomp_dsl.runtime import Component, ComponentSpec
+from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.parameters import Parameters
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.runtime.statistics import Statistics
+
+DEADLINE = 10.0
+
+
+class Player(Component):
+    """Plays until it is told to stop."""
+
+    SPEC = ComponentSpec(name="player", period=1, middleware="inproc", machine=GAME)
+
+    def __init__(self) -> None:
+        self.happened: list[str] = []
+        self.stop_playing = threading.Event()
+
+    def initialize(self) -> None:
+        self.happened.append("initialize")
+
+    def compute(self) -> None:
+        if self.happened[-1] != "compute":
+            self.happened.append("compute")
+
+    def on_enter_waiting(self) -> None:
+        self.happened.append("enter waiting")
+
+    def state_waiting(self) -> None:
+        self.machine.go("start")
+
+    def state_moves(self) -> None:
+        if self.stop_playing.is_set():
+            self.machine.go("pause")
+
+    def finalize(self) -> None:
+        self.happened.append("finalize")
+
+
+class Waiter(Component):
+    """Only reacts; time ends it."""
+
+    MACHINE = MachineSpec(
+        "waiter",
+        (StateSpec("a", initial=True), StateSpec("z", final=True)),
+        (TransitionSpec("a", "z", after=0.05),),
+    )
+    SPEC = ComponentSpec(name="waiter", period=0, middleware="inproc", machine=MACHINE)
+
+
+def wait_for(condition: Callable[[], object]) -> None:
+    until = time.monotonic() + DEADLINE
+    turn = threading.Event()
+    while not condition():
+        assert time.monotonic() < until, "it did not come true in time"
+        turn.wait(0.002)
+
+
+@pytest.fixture
+def runner() -> Iterator[Runner]:
+    made = Runner(Player, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    made.start()
+    yield made
+    made.stop()
+    made.wait()
+
+
+def test_the_machine_lives_with_the_component(runner: Runner) -> None:
+    player = runner.worker
+    assert isinstance(player, Player)
+    wait_for(lambda: runner.worker.machine.is_in("playing"))
+    assert player.happened[:3] == ["initialize", "enter waiting", "compute"]
+    host = Host("looker", runner.settings.domain, Execution(), Statistics())
+    middleware = open_middleware("inproc", host)
+    about = ComponentProxy(
+        middleware.proxy(Endpoint(COMPONENT, "looker", "Component", ("player",)))
+    )
+    assert about.getInfo().states == ["playing", "music", "loud", "moves"]
+    player.stop_playing.set()
+    wait_for(lambda: about.getInfo().states == ["paused"])
+    middleware.close()
+
+
+def test_the_end_of_the_machine_is_that_of_the_component() -> None:
+    made = Runner(Waiter, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    made.start()
+    assert made.wait()
+    assert made.worker.machine.ended
