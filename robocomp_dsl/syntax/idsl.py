@@ -75,6 +75,15 @@ class IdslBuilder(Operations):
         """An operation beside the interfaces."""
         self.say(codes.MISPLACED, self._head(span), "an operation belongs into an interface")
 
+    def outside_struct(self, span: Span, *_parts: Any) -> None:
+        """A field beside the structs."""
+        self.say(
+            codes.MISPLACED,
+            span,
+            f"the field `{span.text.rstrip('; ')}` belongs into a struct",
+            help="IDSL has no variables; write `struct Name { … };` around it",
+        )
+
     def _head(self, span: Span) -> Span:
         """The first line of it."""
         return span.part(span.start, span.start + len(span.text.partition("\n")[0]))

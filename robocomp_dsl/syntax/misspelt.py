@@ -87,10 +87,10 @@ def _merge_mark(findings: Findings, start: int, end: int) -> Read:
     return "", "", last.end() if last else end
 
 
-def _stray(findings: Findings, start: int, _end: int) -> Read:
+def _stray(findings: Findings, start: int, end: int) -> Read:
     """Any other character, with the ones behind it that mean as little; told by the parser."""
     text = findings.source.text
-    follows = _MEANINGFUL.search(text, start + 1)
+    follows = _MEANINGFUL.search(text, max(end, start + 1))
     end = follows.start() if follows else len(text)
     return "STRAY", text[start:end], end
 

@@ -15,7 +15,9 @@ from robocomp_dsl.syntax.situation import Situation, quote
 from robocomp_dsl.syntax.tables import END
 
 _PUNCTUATION = re.compile(r"\W+")
-_MISSED = (",", ")", "(", "{", ">", "<", ":", "->", ".", "=")
+_MISSED = (",", ")", "(", "{", ">", "<", ":", "->", "=>", ".", "=")
+_ARROWS = ("->", "=>")
+_CLOSING = {")": "(", "]": "[", ">": "<"}
 
 
 def semicolon(situation: Situation) -> Iterator[Repair]:
@@ -58,13 +60,33 @@ def _signs(situation: Situation, accepted: list[str]) -> list[tuple[str, str]]:
     return [(texts[t], t) for t in _MISSED if t in texts and not (t == "=" and optional)]
 
 
+def other_bracket(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """The end of a block that was also begun with another bracket than `{`."""
+    token = situation.ahead[0]
+    if "RBRACE" not in accepted or token.text not in _CLOSING or not situation.opened:
+        return
+    if situation.source.text[situation.opened[-1].start] != _CLOSING[token.text]:
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        token.start,
+        token.end,
+        f"a block ends with `}}`, not with {quote(token)}",
+        title="write `}`",
+        edits=((token.start, token.end, "}"),),
+        put=(Token("RBRACE", "}", token.start, token.end),),
+        skip=1,
+        need=1,
+    )
+
+
 def other_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     """One punctuation mark for another."""
     token = situation.ahead[0]
     if not _PUNCTUATION.fullmatch(token.text) or token.kind == "RBRACE":
         return
     for kind, text in [*_signs(situation, accepted), ("_SEMI", ";")]:
-        if token.kind == "STRAY" and token.text not in text:
+        if token.kind == "STRAY" and token.text not in text and {text, token.text} - {*_ARROWS}:
             continue
         yield Repair(
             codes.UNEXPECTED,
@@ -82,6 +104,8 @@ def surplus(situation: Situation) -> Iterator[Repair]:
     token = situation.ahead[0]
     if token.kind in (END, "_SEMI", "RBRACE"):
         return
+    if situation.states[-1] in situation.tables.restarts and situation.ahead[1].kind == "_SEMI":
+        return  # a whole statement too many, and not a word
     stray = token.kind == "STRAY"
     shown = quote(token) if token.text.isprintable() else f"U+{ord(token.text[0]):04X}"
     yield Repair(

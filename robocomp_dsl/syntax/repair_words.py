@@ -17,6 +17,7 @@ from robocomp_dsl.syntax.tables import END
 
 WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _BARE_TEXT = re.compile(r"[^\s;{}\",]{1,400}")
+_OPEN_BRACKET = re.compile(r"\[[^\s\[\]{};,\"]+")
 _BARE_NAME = re.compile(r"[^\s;{}()<>\[\],:=\"'/#.]{1,400}")
 
 
@@ -61,6 +62,48 @@ def bare_text(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         edits=((token.start, run.end(), right),),
         put=(Token("STRING", right, token.start, run.end()),),
         skip=_tokens_before(situation, run.end()),
+        need=1,
+    )
+
+
+def open_bracket(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """`[mm` without its `]`."""
+    token = situation.ahead[0]
+    run = _OPEN_BRACKET.match(situation.source.text, token.start)
+    if "BRACKETED" not in accepted or not run or token.kind != "STRAY":
+        return
+    text = f"{run.group()}]"
+    yield Repair(
+        codes.MISSING_SIGN,
+        run.end(),
+        run.end(),
+        f"`]` is missing behind `{run.group()}`",
+        title="add `]`",
+        edits=((run.end(), run.end(), "]"),),
+        put=(Token("BRACKETED", text, token.start, run.end()),),
+        skip=_tokens_before(situation, run.end()),
+        need=1,
+    )
+
+
+def type_first(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """`int a` where the name stands in front of its type."""
+    token = situation.ahead[0]
+    if "ID" not in accepted or not token.kind.endswith("_TYPE"):
+        return
+    name = situation.ahead[1]
+    if name.kind != "ID":
+        return
+    right = f"{name.text} {token.text}"
+    yield Repair(
+        codes.UNEXPECTED,
+        token.start,
+        name.end,
+        f"the name stands in front of the type: `{right}`",
+        title=f"write `{right}`",
+        edits=((token.start, name.end, right),),
+        put=(Token("ID", name.text, name.start, name.end), token),
+        skip=2,
         need=1,
     )
 
