@@ -11,14 +11,16 @@ from collections.abc import Iterator, Sequence
 from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.doc.words import Bullets, Code, Paragraph, Prose, Text, Words
 
-_TICKED = re.compile(r"`([^`]+)`")
+_TICKED = re.compile(r"((?:`[^`]+`)+)")
 _BULLET = re.compile(r"[-*+] +(\S.*)")
 
 
 def inline(said: str) -> Words:
     """A line of a doc comment: what stands in backticks is code."""
     return tuple(
-        Code(part) if i % 2 else Text(part) for i, part in enumerate(_TICKED.split(said)) if part
+        Code(part.replace("`", "")) if i % 2 else Text(part)
+        for i, part in enumerate(_TICKED.split(said))
+        if part
     )
 
 
@@ -30,7 +32,12 @@ def prose(doc: str) -> tuple[Prose, ...]:
         if lines[:at]:
             parts.append(Paragraph(inline(" ".join(line.strip() for line in lines[:at]))))
         if lines[at:]:
-            parts.append(Bullets(tuple(map(inline, _items(lines[at:])))))
+            items = tuple(map(inline, _items(lines[at:])))
+            last = parts[-1] if parts else None
+            if isinstance(last, Bullets):  # they would be one list in Markdown
+                items = (*last.items, *items)
+                parts.pop()
+            parts.append(Bullets(items))
     return (Prose(tuple(parts)),) if parts else ()
 
 
