@@ -86,3 +86,15 @@ def test_rename_goes_through_all_open_files(seen: dict[str, Any]) -> None:
 )
 def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
     assert "\n".join(seen["formatted"]) + "\n" == FILES["reader.cdsl"]
+
+
+@pytest.mark.parametrize("new", [False, True], ids=["before 0.11", "0.11 or later"])
+def test_without_a_server_the_user_is_told_what_to_do(
+    new: bool, home: Path, tmp_path: Path
+) -> None:
+    fitting = [one for version, one in neovims().items() if (version >= NEWER) == new]
+    nvim = fitting[0] if fitting else missing("this Neovim")
+    config = f"set runtimepath^={EDITORS / 'neovim'} noswapfile"
+    command = [nvim, "--headless", "-i", "NONE", "-u", "NORC", "--cmd", config, "a.idsl", "+qall!"]
+    bare = {"PATH": str(tmp_path)}
+    assert "pip install 'robocomp_dsl[editor]'" in run(command, tmp_path, home, bare)
