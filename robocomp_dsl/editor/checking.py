@@ -14,6 +14,7 @@ from time import perf_counter
 from lsprotocol import types as lsp
 
 from robocomp_dsl.check.files import identity
+from robocomp_dsl.editor.aside import Aside
 from robocomp_dsl.editor.diagnostics import diagnostics_of
 from robocomp_dsl.editor.session import Document, Session
 from robocomp_dsl.source import UnreadableSource
@@ -36,12 +37,14 @@ class Checking:
         self._waiting: dict[str, Document] = {}
         self._took: dict[str, float] = {}
         self._timer: asyncio.Handle | None = None
+        self._aside = Aside(session)
 
     def changed(self, document: Document) -> None:
         """Check `document` and what depends on it, as soon as no key waits for it."""
         key = identity(document.path)
         dependants = _stale(self._dependants(key))
         self._waiting = {key: document, **dependants, **self._waiting}
+        document.pending = self._aside.is_huge(document)
         took = self._took.get(key, 0.0)
         self._schedule(min(took, LONGEST_WAIT_S) if took > SLOW_S else 0.0)
 
@@ -78,6 +81,10 @@ class Checking:
         document = self._waiting.pop(key)
         if self._waiting:
             self._schedule(0.0)
+        if self._aside.is_huge(document):
+            document.pending = True
+            self._aside.check(document, self._checked_aside)
+            return
         begin = perf_counter()
         try:
             checked = self._session.check(document.path)
@@ -93,6 +100,17 @@ class Checking:
         self._took[key] = perf_counter() - begin
         version = document.version
         self._publish(lsp.PublishDiagnosticsParams(document.uri, found, version))
+
+    def _checked_aside(
+        self, document: Document, found: list[lsp.Diagnostic] | None, took: float
+    ) -> None:
+        key = identity(document.path)
+        self._took[key] = took
+        if found is not None:
+            self._publish(lsp.PublishDiagnosticsParams(document.uri, found, document.version))
+        elif self._session.documents.get(key) is document:
+            self._waiting.setdefault(key, document)
+            self._schedule(min(took, LONGEST_WAIT_S))
 
 
 def _stale(documents: dict[str, Document]) -> dict[str, Document]:

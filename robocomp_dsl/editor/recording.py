@@ -30,6 +30,12 @@ class RecordingFiles(Files):
         finally:
             self._asked = None
 
+    def adopt(self, path: Path, other: Files) -> None:
+        """Take over the buffer at `path` and its tree from other files."""
+        key = identity(path)
+        self._buffers[key] = other._buffers[key]
+        self._parsed.update({k: kept for k, kept in other._parsed.items() if k[0] == key})
+
     def exists(self, path: Path) -> bool:
         """As in `Files`."""
         self._note(path)

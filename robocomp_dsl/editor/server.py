@@ -17,7 +17,12 @@ from typing import Any
 
 from lsprotocol import types as lsp
 from pygls.capabilities import ServerCapabilitiesBuilder
-from pygls.exceptions import JsonRpcException, JsonRpcInternalError, JsonRpcInvalidParams
+from pygls.exceptions import (
+    JsonRpcContentModified,
+    JsonRpcException,
+    JsonRpcInternalError,
+    JsonRpcInvalidParams,
+)
 from pygls.lsp.server import LanguageServer
 from pygls.uris import to_fs_path
 
@@ -46,7 +51,7 @@ from robocomp_dsl.editor.checking import Checking
 from robocomp_dsl.editor.commands import COMMANDS
 from robocomp_dsl.editor.positions import WrongPosition, agree
 from robocomp_dsl.editor.protocol import Protocol
-from robocomp_dsl.editor.session import Document, NoDescription, Session
+from robocomp_dsl.editor.session import Document, NoDescription, Session, StillChecking
 
 Feature = Callable[[Session, Any], Any]
 
@@ -230,6 +235,9 @@ def _explained(method: str) -> Iterator[None]:
         yield
     except JsonRpcException:
         raise
+    except StillChecking as error:
+        # Clients ask again after this answer, and show nothing.
+        raise JsonRpcContentModified(str(error)) from None
     except (WrongPosition, NoDescription) as error:
         raise JsonRpcInvalidParams(str(error)) from None
     except Exception as error:

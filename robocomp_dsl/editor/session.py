@@ -27,12 +27,18 @@ if TYPE_CHECKING:
     from robocomp_dsl.check import Model
 
 SKIPPED = ("__pycache__", "build", "node_modules")
+HUGE = 300_000
+"""Characters from which on a file is checked aside: some ten thousand lines, half a second."""
 MOST_FILES = 5000
 """Files of the workspace folders that are looked at; more is not a robot's software any more."""
 
 
 class NoDescription(Exception):
     """The client asked about a file that this server cannot know anything of."""
+
+
+class StillChecking(UnreadableSource):
+    """A huge file is being checked; until then nothing is said about it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,7 +61,8 @@ class Checked:
 class Document:
     """A file that the client has open. `good` is the last check of it without form errors.
 
-    `stale`: a file that the check looked at has changed since.
+    `stale`: a file that the check looked at has changed since. `pending`: it is huge and its check
+    has not come back; then its `index` comes along.
     """
 
     uri: str
@@ -64,6 +71,8 @@ class Document:
     checked: Checked | None = None
     good: Checked | None = None
     stale: bool = False
+    pending: bool = False
+    index: Index | None = None
 
 
 @dataclass(slots=True)
@@ -112,9 +121,11 @@ class Session:
         return found
 
     def source(self, uri: str) -> Source:
-        """The text of a file, open or not. Raises `NoDescription`."""
+        """The text of a file, open or not. Raises `NoDescription` and `StillChecking`."""
+        path = self.path_of(uri)
+        self._refuse_pending(path)
         try:
-            return self.files.read(self.path_of(uri))
+            return self.files.read(path)
         except UnreadableSource as error:
             raise NoDescription(f"cannot read `{uri}`: {error}") from None
 
@@ -134,7 +145,11 @@ class Session:
         return made
 
     def checked(self, path: Path) -> Checked:
-        """The last check of an open file; one that is not open is checked again."""
+        """The last check of an open file; one that is not open is checked again.
+
+        Raises `UnreadableSource`.
+        """
+        self._refuse_pending(path)
         document = self.documents.get(identity(path))
         kept = document.checked if document and not document.stale else None
         if kept and kept.source is self.files.read(path):
@@ -157,7 +172,33 @@ class Session:
 
     def index(self, path: Path) -> Index:
         """What the names in a file mean. Raises `UnreadableSource`."""
+        self._refuse_pending(path)
+        document = self.documents.get(identity(path))
+        kept = document.index if document and not document.stale else None
+        if kept and kept.source is self.files.read(path):
+            return kept
         return make_index(path, self.workspace)
+
+    def twin(self) -> Session:
+        """A session with the same texts and nothing else in common, for another thread."""
+        made = Session(list(self.folders), self.environ)
+        for document in self.documents.values():
+            text = self.files.read(document.path).text
+            made.open(document.uri, text, document.version)
+        return made
+
+    def adopt(self, document: Document, twin: Session) -> None:
+        """Take over what `twin` found out about a document, whose text is the same in both."""
+        theirs = twin.documents[identity(document.path)]
+        self.files.adopt(document.path, twin.files)
+        document.checked, document.index = theirs.checked, theirs.index
+        document.good = theirs.good or document.good
+        document.stale = document.pending = False
+
+    def _refuse_pending(self, path: Path) -> None:
+        document = self.documents.get(identity(path))
+        if document and document.pending:
+            raise StillChecking(f"`{path.name}` is still being checked")
 
     def index_or_nothing(self, path: Path) -> tuple[Mention, ...]:
         """The names in a file, or none where it cannot be read: one broken file hides no others."""

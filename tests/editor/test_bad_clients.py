@@ -85,6 +85,45 @@ async def test_fifty_thousand_lines(editor: Editor) -> None:
     await is_alive(editor)
 
 
+def many_lines(number: int) -> str:
+    lines = "".join(f"    rate{each} float 1;\n" for each in range(number))
+    return f"ComponentParams a\n{{\n{lines}    last flaot 1;\n}};\n"
+
+
+async def test_others_are_answered_while_a_huge_file_is_checked(editor: Editor) -> None:
+    project.write(editor)
+    big = lsp.TextDocumentIdentifier(editor.open("big.pdsl", many_lines(50_000)))
+    place = editor.at("app.ddsl", project.marked("app.ddsl", "eye"))
+    assert await editor.client.text_document_hover_async(lsp.HoverParams(**place)) is not None
+    assert editor.uri("big.pdsl") not in editor.client.diagnostics
+    with pytest.raises(JsonRpcException, match=r"`big.pdsl` is still being checked") as refused:
+        await editor.client.text_document_folding_range_async(lsp.FoldingRangeParams(big))
+    assert refused.value.code == lsp.LSPErrorCodes.ContentModified
+    symbols = await editor.client.workspace_symbol_async(lsp.WorkspaceSymbolParams("eye"))
+    assert [one.name for one in symbols or ()] == ["eye"]
+    await editor.until("big.pdsl", bool)
+    at = lsp.HoverParams(big, lsp.Position(2, 6))
+    hover = await editor.client.text_document_hover_async(at)
+    assert hover is not None
+    assert "rate0 float" in str(hover.contents)
+
+
+async def test_huge_file_that_is_changed_and_closed_while_it_is_checked(editor: Editor) -> None:
+    editor.open("big.pdsl", many_lines(20_000))
+    word = lsp.Range(lsp.Position(20_002, 9), lsp.Position(20_002, 14))
+    editor.change("big.pdsl", lsp.TextDocumentContentChangePartial(word, "intt"))
+    (found,) = await editor.until("big.pdsl", bool)
+    assert "intt" in found.message
+    editor.replace("big.pdsl", many_lines(20_001))
+    editor.replace("big.pdsl", many_lines(1))
+    (found,) = await editor.until("big.pdsl", lambda found: found and found[0].range.start.line < 9)
+    editor.replace("big.pdsl", many_lines(20_002))
+    editor.close("big.pdsl")
+    await is_alive(editor)
+    editor.open("big.pdsl", many_lines(20_003))
+    await editor.until("big.pdsl", lambda found: found and found[0].range.start.line == 20_005)
+
+
 async def test_feature_that_crashes(start, tmp_path, monkeypatch) -> None:  # type: ignore[no-untyped-def]
     crash = (
         "from robocomp_dsl.editor import server as s\n"
