@@ -19,6 +19,9 @@ from robocomp_dsl.diagnostics import Diagnostic, Report
 app = click.argument("app", metavar="APP.ddsl", type=click.Path(readable=False, path_type=Path))
 
 
+group = click.option("--group", metavar="NAME", help="Only what is in this group.")
+
+
 @dataclass(frozen=True, slots=True)
 class Checked:
     """`plan` is None when the text has errors; `ready`: nothing keeps it from running here."""
@@ -29,20 +32,33 @@ class Checked:
 
 
 def check(
-    path: Path, folders: Iterable[Path], name: str | None = None, domain: str | None = None
+    path: Path,
+    folders: Iterable[Path],
+    name: str | None = None,
+    domain: str | None = None,
+    group: str | None = None,
 ) -> Checked:
-    """Judge a deployment: first the text and all it imports, then what this machine has."""
+    """Judge a deployment: first the text and all it imports, then what this machine has.
+
+    With `group` it is about that group alone. Raises `click.BadParameter` where there is none.
+    """
     from robocomp_dsl.check import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace import Workspace  # noqa: PLC0415
     from robocomp_dsl.deploy.freshness import outdated  # noqa: PLC0415
     from robocomp_dsl.deploy.preflight import preflight  # noqa: PLC0415
+    from robocomp_dsl.deploy.selection import NoSuchGroup, only  # noqa: PLC0415
 
     report = Report()
     workspace = Workspace(folders)
     deployment = check_ddsl(path, workspace, report)
     if deployment is None or report.failed:
         return Checked(report.sorted(), None, ready=False)
-    running = name or deployment.name
+    if group:
+        try:
+            deployment = only(deployment, group)
+        except NoSuchGroup as error:
+            raise click.BadParameter(str(error), param_hint="--group") from None
+    running = name or (f"{deployment.name}-{group}" if group else deployment.name)
     made = plan(
         deployment,
         name=running,

@@ -21,17 +21,23 @@ from robocomp_dsl.deploy.preflight import short
 @click.command()
 @rcdeploy_app.app
 @options.folders
+@rcdeploy_app.group
 @click.option("--name", metavar="NAME", help="Run under this name; default: that of the file.")
 @click.option("--domain", metavar="NAME", help="Isolate it under this name; default: a new one.")
 @click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
 def command(
-    app: Path, folders: tuple[Path, ...], name: str | None, domain: str | None, form: str
+    app: Path,
+    folders: tuple[Path, ...],
+    group: str | None,
+    name: str | None,
+    domain: str | None,
+    form: str,
 ) -> None:
     """Show what `up` would start, in which order, with which wiring; start nothing.
 
     Exit code 1: it could not be started now; why is told on standard error.
     """
-    checked = rcdeploy_app.check(app, folders, name, domain)
+    checked = rcdeploy_app.check(app, folders, name, domain, group)
     options.show(checked.findings, "full", sys.stderr)
     if checked.plan is None:
         sys.exit(FINDINGS)

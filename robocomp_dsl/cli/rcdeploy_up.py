@@ -18,6 +18,7 @@ from robocomp_dsl.deploy.plan import Plan
 @click.command()
 @rcdeploy_app.app
 @options.folders
+@rcdeploy_app.group
 @click.option("--name", metavar="NAME", help="Run under this name; default: that of the file.")
 @click.option("--domain", metavar="NAME", help="Isolate it under this name; default: a new one.")
 @click.option(
@@ -49,13 +50,18 @@ from robocomp_dsl.deploy.plan import Plan
     help="The status below the lines; default: on a terminal.",
 )
 def command(
-    app: Path, folders: tuple[Path, ...], name: str | None, domain: str | None, **how: Any
+    app: Path,
+    folders: tuple[Path, ...],
+    group: str | None,
+    name: str | None,
+    domain: str | None,
+    **how: Any,
 ) -> None:
     """Check everything, start the components in order, and care for them until they are stopped.
 
     Exit code 0: stopped on request, or all ended well; 1: findings, or a component failed.
     """
-    checked = rcdeploy_app.check(app, folders, name, domain)
+    checked = rcdeploy_app.check(app, folders, name, domain, group)
     options.show(checked.findings, "full", sys.stderr)
     if checked.plan is None or not checked.ready:
         options.complain(f"{app}: nothing was started ({options.summary(checked.findings)})")

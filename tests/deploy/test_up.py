@@ -126,6 +126,51 @@ def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> N
         assert app.end() == 0
 
 
+GROUPED = """
+import "arm/arm.cdsl";
+import "eye/eye.cdsl";
+Deployment app
+{
+    host desk { address "127.0.0.1"; };
+    group left on desk
+    {
+        component arm { set serial = "abc"; ready within 40 s; };
+        component eye { after arm; ready within 40 s; };
+        export Laser from arm;
+    };
+    component eye on localhost { after left; ready within 40 s; };
+};
+"""
+
+
+def test_groups_run(folder: Path) -> None:
+    (folder / "app.ddsl").write_text(GROUPED)
+    with up() as app:
+        app.until("all 3 components are ready")
+        while sum("eye sees a new arm" in line for line in app.lines) < 2:
+            app.until("eye sees a new arm")
+        rows = status()["components"]
+        assert [c["name"] for c in rows] == ["left-arm", "left-eye", "eye"]
+        app.process.send_signal(signal.SIGINT)
+        assert app.end() == 0
+    seen = [pid_in(line) for line in app.lines if "eye sees a new arm" in line]
+    assert seen == [rows[0]["pid"]] * 2
+
+
+def test_one_group_runs_alone(folder: Path) -> None:
+    (folder / "app.ddsl").write_text(GROUPED)
+    with up("--group", "left") as app:
+        app.until("all 2 components are ready", "eye sees a new arm")
+        rows = status("app-left")["components"]
+        assert [c["name"] for c in rows] == ["left-arm", "left-eye"]
+        stopped = rcdeploy("stop", "app-left")
+        assert stopped.returncode == 0
+        assert app.end() == 0
+    unknown = rcdeploy("plan", "app.ddsl", "--group", "right")
+    assert unknown.returncode == 2
+    assert "`app` has no group `right`; it has left" in unknown.stderr
+
+
 def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as free:
         port = free.getsockname()[1]
