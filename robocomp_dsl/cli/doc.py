@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from robocomp_dsl.generate.output import OutputFile
 
 FORMATS = {"html": ("html",), "markdown": ("markdown",), "both": ("html", "markdown")}
+FOLDERS = ("components", "deployments", "interfaces", "modules", "parameters", "statemachines")
+"""Where pages go, beside the first one."""
+BEGINNING = 1000
+"""The mark of our files is in the first bytes of each."""
 
 
 @click.command()
@@ -121,15 +125,20 @@ def _write(output: Path, files: Sequence[OutputFile]) -> str:
 def _left(output: Path, made: set[str]) -> list[str]:
     """Files of an earlier run, in the formats of this one, to which nothing leads any more."""
     kinds = {Path(path).suffix for path in made}
-    others = (p for p in output.glob("*/*") if p.relative_to(output).as_posix() not in made)
-    return sorted(
-        path.relative_to(output).as_posix()
-        for path in others
-        if path.suffix in kinds and path.is_file() and _is_ours(path.read_bytes())
-    )
+    found = [p for folder in FOLDERS for p in output.glob(f"{folder}/*") if p.suffix in kinds]
+    names = {path.relative_to(output).as_posix(): path for path in found}
+    return sorted(name for name, path in names.items() if name not in made and _was_ours(path))
+
+
+def _was_ours(path: Path) -> bool:
+    try:
+        with path.open("rb") as stream:
+            return _is_ours(stream.read(BEGINNING))
+    except OSError:  # a folder, or a file that may not be read, is not a page of ours
+        return False
 
 
 def _is_ours(data: bytes) -> bool:
     from robocomp_dsl.generate.doc import MARK  # noqa: PLC0415
 
-    return MARK.encode() in data
+    return MARK.encode() in data[:BEGINNING]
