@@ -121,7 +121,7 @@ class Report:
 
 
 _NEAR = 0.7
-_MOST_COMPARED = 500
+_MOST_COMPARED = 100
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

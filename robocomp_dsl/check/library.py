@@ -46,6 +46,7 @@ class Library:
         All files behind one root see the same file for the same name, wherever they are.
         """
         self._root = root
+        self._search.begin()
         self._fresh.clear()
         for key in self._in_cycle:
             self._kept.pop(key, None)

@@ -38,6 +38,7 @@ class Search:
         listed = (Path(one) for one in environ.get(VARIABLE, "").split(os.pathsep) if one)
         self._everywhere = (*folders, *listed, shipped)
         self._declared: dict[Path, tuple[Source, frozenset[str]]] = {}
+        self._importable: tuple[Path, list[Path]] | None = None
 
     def folders(self, root: Path) -> Sequence[Path]:
         """Where an import in the checked file `root` is looked for, first to last, none twice."""
@@ -67,8 +68,14 @@ class Search:
 
         Files are only scanned for words, comments included, not parsed: see `suggest`.
         """
-        paths = (self.find(known, root) for known in self.known(root))
-        return [path for path in paths if path is not None and name in self._words_of(path)]
+        if self._importable is None or self._importable[0] != root:
+            paths = (self.find(known, root) for known in self.known(root))
+            self._importable = (root, [path for path in paths if path is not None])
+        return [path for path in self._importable[1] if name in self._words_of(path)]
+
+    def begin(self) -> None:
+        """Look into the folders again; within one run they are taken to stay as they are."""
+        self._importable = None
 
     def _words_of(self, path: Path) -> frozenset[str]:
         try:

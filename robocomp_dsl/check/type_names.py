@@ -36,7 +36,7 @@ _FOREIGN = {
 }
 """What other languages call our built-in types."""
 
-MOST_GUESSES = 50
+MOST_GUESSES = 20
 """How many different unknown names of a module get a suggestion: each costs a search, and who has
 more of them has another problem than spelling."""
 
