@@ -18,6 +18,8 @@ from robocomp_dsl.generate import ros2_names
 from robocomp_dsl.generate.export import export
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.resources import INTERFACES
+from robocomp_dsl.runtime import component_interface as rt
+from robocomp_dsl.runtime.codec import compile_decoder, decode, encode
 
 # The rules of rosidl_adapter's parser.
 PACKAGE = MEMBER = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*")
@@ -102,3 +104,29 @@ def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
 )
 def test_names(name: str, member: str, message: str) -> None:
     assert (ros2_names.member(name), ros2_names.camel(name)) == (member, message)
+
+
+def test_the_bytes_are_those_of_the_runtime() -> None:
+    """Enum, sequences of texts and structs, long and double: written by either, read by both."""
+    made = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
+    store = registered(parsed(made.files))
+    ports = [rt.PortInfo("implements", "Laser", "M::Laser", "zenoh", ["a", "b"])]
+    ours = rt.ComponentInfo(
+        name="é", pid=-7, state=rt.LifeState.Emergency, uptime=0.5, ports=ports, reason="x"
+    )
+    kind = "robocomp_component/msg/ComponentInfo"
+    theirs = store.deserialize_cdr(encode(ours), kind)
+    assert (theirs.name, theirs.pid, theirs.uptime, theirs.reason) == ("é", -7, 0.5, "x")
+    assert theirs.state.value == rt.LifeState.Emergency == theirs.state.EMERGENCY
+    assert (theirs.ports[0].declared, theirs.ports[0].peers) == ("M::Laser", ["a", "b"])
+    assert decode(rt.ComponentInfo, bytes(store.serialize_cdr(theirs, kind))) == ours
+
+
+def test_a_dictionary_has_the_bytes_of_its_entries() -> None:
+    made = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
+    store = registered(parsed(made.files))
+    entry = store.types["robocomp_component/msg/ValuesEntry"]
+    values = store.types["robocomp_component/msg/Values"](entries=[entry("a", "1"), entry("b", "")])
+    written = bytes(store.serialize_cdr(values, values.__msgtype__))
+    read = compile_decoder((("", rt._Values),), result=True)(written)
+    assert read == {"a": "1", "b": ""}
