@@ -12,6 +12,8 @@ debian=(
   "emacs:emacs-nox"
   "node:nodejs"
   "npm:npm"
+  "vim:vim"
+  "kate-syntax-highlighter:libkf5syntaxhighlighting-tools"
   "g++:g++"
   "chromium:chromium"
 )

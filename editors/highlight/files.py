@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from editors.highlight import emacs, textmate, vim, words
+from editors.highlight import emacs, kate, textmate, vim, words
 from robocomp_dsl.highlight.table import LANGUAGES
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,6 +25,7 @@ def files() -> dict[str, str]:
             textmate.grammar(language)
         )
         made[f"editors/vim/syntax/{language}.vim"] = vim.syntax(language)
+        made[f"editors/kate/syntax/{language}.xml"] = kate.definition(language)
     return made
 
 
