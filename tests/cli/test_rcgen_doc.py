@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -46,6 +49,20 @@ def test_again_there_is_nothing_to_write(rcgen: Rcgen, here: Path) -> None:
     assert _tree(here) == before
     assert ": 0 of " in run.out
     assert rcgen("doc", ".", "-q").out == ""
+
+
+def test_the_same_bytes_whatever_the_hash_seed(here: Path) -> None:
+    (here / "a.cdsl").write_text(GOOD)
+    (here / "b.cdsl").write_text(GOOD.replace("t a", "t b").replace("requires", "implements"))
+    code = "from robocomp_dsl.cli.rcgen import main; main()"
+    trees = []
+    for seed in ("1", "2"):
+        command = [sys.executable, "-c", code, "doc", ".", "--title", "t", "--format", "both"]
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        subprocess.run([*command, "-q", "-o", seed], env=environment, check=True)
+        trees.append(_tree(here / seed))
+    assert trees[0] == trees[1]
+    assert len(trees[0]) > 10
 
 
 def test_an_error_is_shown_in_place_and_nothing_is_written(rcgen: Rcgen, here: Path) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals, params
 from robocomp_dsl.generate.doc.graphs import component_figure
-from robocomp_dsl.generate.doc.interface_page import badge
+from robocomp_dsl.generate.doc.interface_page import badge, operations
 from robocomp_dsl.generate.doc.machine_blocks import machine_blocks
 from robocomp_dsl.generate.doc.prose import inline_doc, prose
 from robocomp_dsl.generate.doc.site import Names, Site
@@ -22,7 +22,6 @@ from robocomp_dsl.generate.doc.words import (
     Heading,
     Page,
     Row,
-    Target,
     Text,
     Words,
     code,
@@ -102,17 +101,14 @@ def _facts(component: Component, site: Site) -> Iterator[tuple[str, Words]]:
 
 
 def _port(port: Port, site: Site) -> Row:
-    page = site.target(port.interface).page
-    names = Names()
     groups: dict[Pattern, list[Words]] = {}
-    for one in port.interface.operations:
-        target = Target(page, names.claim(f"operation.{one.name}"))
-        groups.setdefault(port.pattern(one), []).append(code(one.name, target))
-    operations = joined(
+    for one, words in operations(port.interface, site):
+        groups.setdefault(port.pattern(one), []).append(words)
+    spoken = joined(
         ((*badge(pattern), BLANK, *joined(ones)) for pattern, ones in groups.items()), BLANK
     )
     front = (code(port.name), text(ROLES[port.role]), site.declared(port.interface))
-    return Row((*front, operations, code(port.middleware)))
+    return Row((*front, spoken, code(port.middleware)))
 
 
 def parameter_table(one: ParameterSet) -> Iterator[Block]:

@@ -17,6 +17,7 @@ from robocomp_dsl.generate.doc.words import (
     Page,
     Row,
     Signature,
+    Target,
     Words,
     code,
     joined,
@@ -57,12 +58,12 @@ def _interface(interface: Interface, module: Module, site: Site) -> Iterator[Blo
     yield from prose(interface.doc or module.doc)
     if interface.operations:
         yield Heading(2, text("Operations"), "operations")
-    for operation in interface.operations:
-        yield from _operation(operation, names.claim(f"operation.{operation.name}"), here)
+    for one, anchor in zip(interface.operations, operation_anchors(interface), strict=True):
+        yield from _operation(one, anchor, here)
     if used:
         yield Heading(2, text("Types"), "types")
-    for one in used:
-        yield from type_blocks(one, anchors[id(one)], here)
+    for type_ in used:
+        yield from type_blocks(type_, anchors[id(type_)], here)
     yield Heading(2, text("Who uses it"), "users")
     yield from _users(interface, site)
 
@@ -109,6 +110,22 @@ def _param(one: Param, site: Site) -> Words:
     return (*site.type(one.type), Code(f" {one.name}{unit}"))
 
 
+def operations(interface: Interface, site: Site) -> list[tuple[Operation, Words]]:
+    """Its operations, and their names as links."""
+    page = site.target(interface).page
+    anchors = operation_anchors(interface)
+    return [
+        (one, code(one.name, Target(page, anchor)))
+        for one, anchor in zip(interface.operations, anchors, strict=True)
+    ]
+
+
+def operation_anchors(interface: Interface) -> list[str]:
+    """The places of its operations in its page."""
+    names = Names()
+    return [names.claim(f"operation.{one.name}") for one in interface.operations]
+
+
 def patterns(one: Operation) -> tuple[Pattern, ...]:
     """Its pattern, or both that an unmarked operation may have."""
     if one.pattern is Pattern.UNMARKED:
@@ -125,10 +142,15 @@ def _module(module: Module, site: Site) -> Iterator[Block]:
     imports = joined(map(site.link, module.imports))
     yield Facts((("File", code(module.path.name)), *((("Imports", imports),) if imports else ())))
     yield from prose(module.doc)
-    rows = [Row((site.declared(one), sentence(one.doc))) for one in module.interfaces]
+    rows = [
+        Row((site.declared(one), joined(w for _, w in operations(one, site)), sentence(one.doc)))
+        for one in module.interfaces
+    ]
     if rows:
         yield Heading(2, text("Interfaces"), "interfaces")
-        yield from table(f"Interfaces of {module.name}", ("interface", "what it is"), rows)
+        yield from table(
+            f"Interfaces of {module.name}", ("interface", "operations", "what it is"), rows
+        )
     types = [one for one in module.declarations if not isinstance(one, Interface)]
     if types:
         yield Heading(2, text("Types"), "types")
