@@ -1,0 +1,41 @@
+"""Scopes of whole files of the project, as VS Code's engine gives them, against kept ones.
+
+`pytest -m editors --update-golden tests/editors/textmate` rewrites them; read the diff then.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.editors
+HERE = Path(__file__).parent
+ROOT = HERE.parents[2]
+FILES = (
+    "interfaces/Component.idsl",
+    "components/wander/wander.cdsl",
+    "components/wander/wander.ddsl",
+    "components/mobile_base/mobile_base.pdsl",
+    "tests/cases/smdsl/sem_clean.smdsl",
+)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_scopes_are_those_that_are_kept(
+    tester: Path, name: str, tmp_path: Path, update_golden: bool
+) -> None:
+    file = Path(shutil.copy(ROOT / name, tmp_path))
+    kept = HERE / "snapshots" / f"{file.name}.snap"
+    made = file.with_name(kept.name)
+    grammar = ROOT / "editors/vscode/syntaxes" / f"{file.suffix[1:]}.tmLanguage.json"
+    program = tester.with_name("vscode-tmgrammar-snap")
+    subprocess.run(
+        [program, "-u", "-g", grammar, file], capture_output=True, timeout=120, check=True
+    )
+    if update_golden:
+        kept.parent.mkdir(exist_ok=True)
+        shutil.copy(made, kept)
+    assert made.read_text(encoding="utf-8") == kept.read_text(encoding="utf-8")
