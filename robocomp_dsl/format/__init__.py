@@ -15,6 +15,7 @@ Legacy forms are formatted and not changed: `rcgen check --fix` changes them.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Sequence
 
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
@@ -35,6 +36,10 @@ XML: dict[str, Callable[[Source, Report], object]] = {
 }
 PARSERS: dict[str, Callable[[Source, Report], object]] = {**LANGUAGES, **XML}
 """File suffix (lower case) to parser, for every language that can be formatted."""
+
+
+_LINE_END = re.compile(r"(?: |\\t|\\r)+(?=\\n)")
+"""Blanks in front of a line feed, as `repr` shows them."""
 
 
 class CannotFormat(Exception):
@@ -93,6 +98,6 @@ def _lines(old: Sequence[Piece], suffix: str) -> list[Line]:
 
 def _same_tree(source: Source, new: str, parser: Callable[[Source, Report], object]) -> bool:
     trees = (parser(one, Report()) for one in (source, Source(source.path, new)))
-    # Without spans; line ends in comments are those of the whole file then.
-    old, made = (repr(tree).replace(r"\r\n", r"\n") for tree in trees)
+    # Without spans; the ends of lines in comments are those of the whole file then.
+    old, made = (_LINE_END.sub("", repr(tree)) for tree in trees)
     return old == made
