@@ -31,9 +31,13 @@ def test_scopes_are_those_that_are_kept(
     kept = HERE / "snapshots" / f"{file.name}.snap"
     made = file.with_name(kept.name)
     grammar = ROOT / "editors/vscode/syntaxes" / f"{file.suffix[1:]}.tmLanguage.json"
+    scope = f"source.{file.suffix[1:]}"
     program = tester.with_name("vscode-tmgrammar-snap")
     subprocess.run(
-        [program, "-u", "-g", grammar, file], capture_output=True, timeout=120, check=True
+        [program, "-u", "-g", grammar, "-s", scope, file],
+        capture_output=True,
+        timeout=120,
+        check=True,
     )
     if update_golden:
         kept.parent.mkdir(exist_ok=True)
