@@ -30,12 +30,12 @@ def offers(session: Session, cursor: XmlCursor) -> Iterator[Offer]:
     match cursor.place:
         case Place.CONTENT:
             yield from _tags(cursor, "<")
-            yield from _ends(cursor, "</")
+            yield from ends(cursor, "</")
         case Place.TAG:
             yield from _tags(cursor, "")
-            yield from _ends(cursor, "/")
+            yield from ends(cursor, "/")
         case Place.CLOSING:
-            yield from _ends(cursor, "")
+            yield from ends(cursor, "")
         case Place.ATTRIBUTE:
             yield from _attributes(cursor)
         case Place.VALUE:
@@ -49,7 +49,8 @@ def _tags(cursor: XmlCursor, before: str) -> Iterator[Offer]:
         yield Offer(before + name, kind, about.split("\n", 1)[0], about=about)
 
 
-def _ends(cursor: XmlCursor, before: str) -> Iterator[Offer]:
+def ends(cursor: XmlCursor, before: str) -> Iterator[Offer]:
+    """The closing tag of what is open."""
     if cursor.around:
         end = "" if cursor.source.text[cursor.offset : cursor.offset + 1] == ">" else ">"
         label = f"{before}{cursor.around[-1]}{end}"

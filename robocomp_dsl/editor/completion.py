@@ -18,6 +18,7 @@ from robocomp_dsl.editor import (
     complete_innermodel,
     complete_paths,
     complete_pdsl,
+    complete_scxml,
     complete_smdsl,
 )
 from robocomp_dsl.editor.asked import place
@@ -64,6 +65,11 @@ _NAMES: dict[str, Callable[[Session, Cursor], Iterator[Offer]]] = {
     "smdsl": complete_smdsl.names,
 }
 
+_XML: dict[str, Callable[[Session, XmlCursor], Iterator[Offer]]] = {
+    ".scxml": complete_scxml.offers,
+    ".xml": complete_innermodel.offers,
+}
+
 
 def completion(session: Session, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
     """What can be typed at the place."""
@@ -71,9 +77,9 @@ def completion(session: Session, params: lsp.CompletionParams) -> list[lsp.Compl
     source = session.source(params.text_document.uri)
     cursor: Cursor | XmlCursor | None = None
     found: Iterator[Offer] = iter(())
-    if path.suffix.lower() == ".xml":
+    if path.suffix.lower() in _XML:
         if cursor := xml_cursor_at(path, source, offset):
-            found = complete_innermodel.offers(session, cursor)
+            found = _XML[path.suffix.lower()](session, cursor)
     elif path.suffix[1:].lower() in _NAMES and (cursor := cursor_at(path, source, offset)):
         found = _offers(session, cursor)
     if cursor is None:

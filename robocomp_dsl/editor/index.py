@@ -77,6 +77,7 @@ def readers() -> Mapping[str, Reader]:
         names_idsl,
         names_innermodel,
         names_pdsl,
+        names_scxml,
         names_smdsl,
     )
 
@@ -86,6 +87,7 @@ def readers() -> Mapping[str, Reader]:
         ".pdsl": names_pdsl.read,
         ".ddsl": names_ddsl.read,
         ".smdsl": names_smdsl.read,
+        ".scxml": names_scxml.read,
         ".xml": names_innermodel.read,
     }
 

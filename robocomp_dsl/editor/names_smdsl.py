@@ -57,7 +57,7 @@ class _Names:
         self._blocks = blocks
         self._machine = machine
         self._events: dict[str, Symbol] = {}
-        things = {one.span.start: one for one in _every(machine.states)} if machine else {}
+        things = {one.span.start: one for one in every_state(machine.states)} if machine else {}
         self._states: dict[str, Symbol] = {}
         for block in blocks:
             for name in block.all_states:
@@ -105,7 +105,8 @@ class _Names:
         return Mention(name.span, first)
 
 
-def _every(states: tuple[State, ...]) -> Iterator[State]:
+def every_state(states: tuple[State, ...]) -> Iterator[State]:
+    """The states and all that are inside of them."""
     for one in states:
         yield one
-        yield from _every(one.inside)
+        yield from every_state(one.inside)

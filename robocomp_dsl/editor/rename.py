@@ -24,6 +24,7 @@ from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.syntax.tables import load
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_WORD = re.compile(r"[^\W\d][\w.:-]*")
 _ID = re.compile(r"""[^\s"'<>&\x00-\x1f](?:[^"'<>&\x00-\x1f]*[^\s"'<>&\x00-\x1f])?""")
 
 
@@ -45,7 +46,10 @@ def rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | No
         return None
     symbol, name = one.symbol, params.new_name
     _refuse_shipped(symbol)
-    if symbol.kind == "node":
+    suffix = symbol.span.source.path.suffix.lower()
+    if suffix == ".scxml":
+        _refuse_word(name)
+    elif symbol.kind == "node":
         _refuse_id(name)
     else:
         _refuse_name(name, symbol)
@@ -81,6 +85,13 @@ def _refuse_name(name: str, symbol: Symbol) -> None:
     word = name.lower() if tables.any_case else name
     if word in tables.keywords:
         raise JsonRpcInvalidParams(f"`{name}` is a keyword here")
+
+
+def _refuse_word(name: str) -> None:
+    if not _WORD.fullmatch(name):
+        raise JsonRpcInvalidParams(
+            f"`{name}` is no name: letters, digits, `_`, `-`, `.` and `:`, and no digit first"
+        )
 
 
 def _refuse_id(name: str) -> None:
