@@ -6,13 +6,14 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 WORKERS ?= 2
+MINUTES ?= 10
 
 # Without bytecode every start of a command would compile this project again.
 unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: highlight demo test test-slow lint format bench golden clean test-editors vsix
+.PHONY: fuzz highlight demo test test-slow lint format bench golden clean test-editors vsix
 
 demo: $(READY)
 	$(BIN)/python components/wander/demo.py
@@ -23,6 +24,11 @@ test: $(READY)
 # Many random rounds: minutes, not seconds.
 test-slow: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow $(TESTS)
+
+# MINUTES shared by all languages; what breaks a rule is kept in build/fuzz/found.
+fuzz: $(READY)
+	$(BIN)/pip install -q --disable-pip-version-check -e '.[fuzz]' || echo "atheris is not to be had here"
+	$(BIN)/python -m tests.fuzz $(MINUTES)
 
 # The words that editors colour, from the grammars.
 highlight: $(READY)

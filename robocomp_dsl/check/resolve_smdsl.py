@@ -145,12 +145,13 @@ def _known(name: Name, allowed: set[str], blocks: Blocks, report: Report) -> boo
     if home is None:
         _unknown(name, dict.fromkeys(blocks.home, name), report)
         return False
+    block = blocks.inside.get(home)  # not there for a block that belongs to no state
     where = f"inside `{home}`" if home else "outside of this block"
     report.add(
         codes.UNKNOWN_STATE,
         name.span,
         f"the state `{name.text}` is {where}",
-        notes=[Note(blocks.inside[home].name.span, "it belongs to this block")],
+        notes=[Note(block.name.span, "it belongs to this block")] if block else [],
         help=f"write the transition in the block of `{home}`" if home else "",
     )
     return False

@@ -55,7 +55,9 @@ class IdslBuilder(Operations):
         strays = tuple(item for item in items if isinstance(item, _DECLARATIONS))
         if strays and modules:
             last = modules[-1]
-            joined = ast.Module(last.span, last.name, last.declarations + strays, last.doc)
+            spans = [last.span, *(one.span for one in strays)]
+            around = last.span.part(min(s.start for s in spans), max(s.end for s in spans))
+            joined = ast.Module(around, last.name, last.declarations + strays, last.doc)
             modules = (*modules[:-1], joined)
         return ast.File(span, only(Import, items), modules, self.finished("module"))
 

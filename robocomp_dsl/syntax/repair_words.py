@@ -102,7 +102,7 @@ def type_first(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         f"the name stands in front of the type: `{right}`",
         title=f"write `{right}`",
         edits=((token.start, name.end, right),),
-        put=(Token("ID", name.text, name.start, name.end), token),
+        put=(name, Token(token.kind, token.text, name.end, name.end)),
         skip=2,
         need=1,
     )

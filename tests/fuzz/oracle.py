@@ -1,0 +1,121 @@
+"""What must hold for whatever stands in a file.
+
+In: a file name's suffix and a text. Out: nothing, or an `AssertionError` that says what is wrong.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from robocomp_dsl.check import CHECKS, PARSERS
+from robocomp_dsl.check.files import Files
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Diagnostic, Report
+from robocomp_dsl.source import Source, Span
+from robocomp_dsl.syntax.findings import Findings
+from robocomp_dsl.syntax.lexer import Lexer
+from robocomp_dsl.syntax.node import Node
+from robocomp_dsl.syntax.tables import END, load
+
+HOME = Path("/nonexistent/workspace")
+SECONDS = 2.0
+"""Of the processor, for an input of some thousand characters: a hundred times what it needs."""
+MEANINGLESS = ("void", "T")
+"""Words that a tree has no place for: no result, and a flag that says what is so anyway."""
+NEIGHBOURS = {
+    "Base.idsl": "module RoboCompBase { struct Pose { float x; float y = 0 [mm]; }; };\n",
+    "Near.idsl": 'import "Base.idsl";\nmodule Near { interface Near { RoboCompBase::Pose get(); }; };\n',
+    "part.cdsl": 'import "Near.idsl";\nComponent part { Communications { implements Near; }; };\n',
+    "part.pdsl": "ComponentParams part { rate float 50 [Hz] 1:1000; };\n",
+    "part.smdsl": "part { states a, b; initial_state a; end_state b; transitions { a => b; }; };\n",
+}
+
+
+def judge(suffix: str, text: str) -> None:
+    """Parse `text`, and check it in a workspace where it has neighbours."""
+    begin = time.process_time()
+    judge_tree(suffix, text)
+    judge_check(suffix, text)
+    took = time.process_time() - begin
+    assert took < SECONDS + len(text) / 20_000, f"{took:.1f} s for {len(text)} characters"
+
+
+def judge_tree(suffix: str, text: str) -> None:
+    """A tree whose spans are nested, findings within the text, and nothing left out in silence."""
+    source, report = Source(Path(f"x{suffix}"), text), Report()
+    tree = PARSERS[suffix](source, report)
+    assert isinstance(tree, Node)
+    judge_findings(report, {source.path: text})
+    outer = {id(tree): (0, len(text))}
+    for node in _nodes(tree):
+        low, high = outer[id(node)]
+        assert low <= node.span.start <= node.span.end <= high, f"{node!r} is not in its parent"
+        outer |= {id(child): (node.span.start, node.span.end) for child in _children(node)}
+    if not len(report) and suffix in (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl"):
+        _nothing_lost(source, tree)
+
+
+def judge_check(suffix: str, text: str) -> None:
+    """All checks of a file among others end without an exception, with findings in place."""
+    files = Files()
+    texts = {HOME / name: other for name, other in NEIGHBOURS.items()}
+    here = HOME / f"x{suffix}"
+    texts[here] = text
+    for path, one in texts.items():
+        files.open_buffer(path, one)
+    report = Report()
+    CHECKS[suffix](here, Workspace((), {}, files=files), report)
+    judge_findings(report, texts)
+
+
+def judge_findings(report: Report, texts: dict[Path, str]) -> None:
+    """Every finding has words, and every place of it is in its file."""
+    for one in report:
+        assert one.message.strip()
+        for span in _places(one):
+            size = len(texts.get(span.source.path, span.source.text))
+            assert 0 <= span.start <= span.end <= size, f"{one.message}: {span!r}"
+            assert span.begin <= span.finish
+
+
+def _places(one: Diagnostic) -> Iterator[Span]:
+    yield one.span
+    yield from (note.span for note in one.notes)
+    yield from (edit.span for edit in one.fix.edits) if one.fix else ()
+
+
+def _nothing_lost(source: Source, tree: Node) -> None:
+    """Every word of the user that is no keyword is in a leaf of the tree."""
+    leaves = [n.span for n in _nodes(tree) if n is not tree and not any(_children(n))]
+    covered = {at for span in leaves for at in range(span.start, span.end)}
+    lexer = Lexer(source, load(source.path.suffix[1:]), Findings(source, Report()))
+    for token in lexer.tokens():
+        if token.kind == END:
+            return
+        if token.kind == "ID" and token.text not in MEANINGLESS:
+            assert token.start in covered, f"`{token.text}` at {token.start} is lost in silence"
+
+
+def _nodes(tree: Node) -> Iterator[Node]:
+    todo = [tree]
+    while todo:
+        node = todo.pop()
+        yield node
+        todo.extend(_children(node))
+
+
+def _children(node: Node) -> Iterator[Node]:
+    fields: tuple[str, ...] = type(node).__match_args__
+    for name in fields:
+        yield from _within(getattr(node, name))
+
+
+def _within(value: Any) -> Iterator[Node]:
+    if isinstance(value, Node):
+        yield value
+    elif isinstance(value, tuple):
+        for one in value:
+            yield from _within(one)
