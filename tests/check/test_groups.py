@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from robocomp_dsl.check import check_file
 from robocomp_dsl.check.workspace import Workspace
@@ -131,3 +133,46 @@ def test_exports_carry_over_two_groups(tmp_path: Path) -> None:
 )
 def test_which_host_is_here(address: str, here: bool) -> None:
     assert Host("robot", address).is_here is here
+
+
+NAMES = st.sampled_from(["a", "b", "c", "body", "reflex", "self"])
+HOSTS = st.sampled_from(["", " on localhost", " on robot", " on nowhere"])
+
+
+@st.composite
+def _blocks(draw: st.DrawFn, depth: int = 0) -> str:
+    """What may stand in a deployment or a group, names and order left to chance."""
+    made = []
+    for _ in range(draw(st.integers(0, 4))):
+        name, other, host = draw(NAMES), draw(NAMES), draw(HOSTS)
+        kind = draw(st.integers(0, 4 if depth else 2))
+        if kind == 0:
+            made.append(f"component {name} : {draw(NAMES)}{host} {{ after {other}; }};")
+        elif kind == 1:
+            made.append(f"connect {name}.Laser -> {other}.Laser;")
+        elif kind == 2 and depth < 3:
+            made.append(f"group {name}{host} {{ {draw(_blocks(depth + 1))} }};")
+        elif kind == 3:
+            made.append(f"export Laser from {name} as {other};")
+        elif kind == 4:
+            made.append(f"after {name}, {other};")
+    return " ".join(made)
+
+
+@settings(max_examples=200, deadline=None)
+@given(_blocks())
+def test_any_groups_are_judged(text: str) -> None:
+    imports = "".join(f'import "{PARTS}/{n}.cdsl";\n' for n in ("body", "reflex"))
+    path = Path("main.ddsl")
+    workspace = Workspace(environ={}, shipped=CASES / "interfaces")
+    whole = f'{imports}Deployment d {{ host robot {{ address "10.0.0.2"; }}; {text} }};'
+    workspace.files.open_buffer(path, whole)
+    report = Report()
+    found = check_file(path, workspace, report)
+    assert isinstance(found, Deployment)
+    names = [one.name for one in found.instances]
+    assert len(set(names)) == len(names)
+    if not report.failed:
+        place = {name: i for i, name in enumerate(names)}
+        for one in found.instances:
+            assert all(place[name] < place[one.name] for name in one.after)
