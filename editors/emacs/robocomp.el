@@ -6,13 +6,14 @@
 
 ;;; Commentary:
 
-;; Modes for IDSL, CDSL, PDSL, DDSL, SMDSL and InnerModel files, and their language server for
+;; Modes for IDSL, CDSL, PDSL, DDSL, SMDSL, SCXML and InnerModel files, and their language server for
 ;; eglot.  In your init file:
 ;;
 ;;   (add-to-list 'load-path "/path/to/editors/emacs")
 ;;   (require 'robocomp)
 ;;   (add-hook 'robocomp-mode-hook #'eglot-ensure)
 ;;   (add-hook 'robocomp-innermodel-mode-hook #'eglot-ensure)
+;;   (add-hook 'robocomp-scxml-mode-hook #'eglot-ensure)
 
 ;;; Code:
 
@@ -114,23 +115,28 @@
   "Bodies of robots.")
 
 ;;;###autoload
+(define-derived-mode robocomp-scxml-mode nxml-mode "SCXML"
+  "State machines of components, as the W3C writes them.")
+
+;;;###autoload
 (progn
   (add-to-list 'auto-mode-alist '("\\.idsl\\'" . robocomp-idsl-mode))
   (add-to-list 'auto-mode-alist '("\\.cdsl\\'" . robocomp-cdsl-mode))
   (add-to-list 'auto-mode-alist '("\\.pdsl\\'" . robocomp-pdsl-mode))
   (add-to-list 'auto-mode-alist '("\\.ddsl\\'" . robocomp-ddsl-mode))
   (add-to-list 'auto-mode-alist '("\\.smdsl\\'" . robocomp-smdsl-mode))
+  (add-to-list 'auto-mode-alist '("\\.scxml\\'" . robocomp-scxml-mode))
   ;; An XML file may be anything; it is ours when its root element is that of InnerModel.
   (add-to-list 'magic-mode-alist
                '("\\(?:<\\?xml[^>]*>\\|<!--[^>]*-->\\|[ \t\r\n]\\)*<innerModel[ \t\r\n/>]"
                  . robocomp-innermodel-mode)))
 
-(dolist (language '("idsl" "cdsl" "pdsl" "ddsl" "smdsl" "innermodel"))
+(dolist (language '("idsl" "cdsl" "pdsl" "ddsl" "smdsl" "innermodel" "scxml"))
   (put (intern (format "robocomp-%s-mode" language)) 'eglot-language-id language))
 
 (add-to-list 'eglot-server-programs
              '((robocomp-idsl-mode robocomp-cdsl-mode robocomp-pdsl-mode robocomp-ddsl-mode
-                robocomp-smdsl-mode robocomp-innermodel-mode)
+                robocomp-smdsl-mode robocomp-innermodel-mode robocomp-scxml-mode)
                . robocomp--contact))
 
 (provide 'robocomp)

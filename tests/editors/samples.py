@@ -33,6 +33,7 @@ FILES = {
     "wrong.pdsl": "ComponentParams wrong\n{\n    rate flaot 1;\n};\n",
     "wrong.ddsl": 'import "reader.cdsl";\nDeployment wrong\n{\n    component raeder;\n};\n',
     "wrong.xml": '<innerModel>\n    <transform id="a" id="b"/>\n</innerModel>\n',
+    "wrong.scxml": '<scxml initial="a">\n    <state id="b"/>\n</scxml>\n',
     "ugly.cdsl": READER.replace("    Communications {", "Communications   {"),
 }
 
@@ -52,6 +53,7 @@ MISTAKES = (
     Mistake("wrong.idsl", 3, 31, "`floot`"),
     Mistake("wrong.pdsl", 2, 9, "`flaot`"),
     Mistake("wrong.ddsl", 3, 14, "`raeder`"),
+    Mistake("wrong.scxml", 0, 16, "state `a`"),
     Mistake("wrong.xml", 1, 22, "`id`"),
 )
 

@@ -25,7 +25,7 @@ def test_helix() -> None:
     server = read["language-server"]["robocomp"]
     assert [server["command"], *server["args"]] == COMMAND
     languages = {one["name"]: one for one in read["language"]}
-    assert set(languages) == {*BRACES, "innermodel"}
+    assert set(languages) == {*BRACES, "scxml", "innermodel"}
     for name, one in languages.items():
         assert one["language-servers"] == ["robocomp"]
         if name in BRACES:

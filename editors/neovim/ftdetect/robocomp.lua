@@ -6,3 +6,10 @@ vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
     vim.bo[event.buf].filetype = vim.fn.fnamemodify(event.match, ':e')
   end,
 })
+
+vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
+  pattern = '*.scxml',
+  callback = function(event)
+    vim.bo[event.buf].filetype = 'xml'
+  end,
+})

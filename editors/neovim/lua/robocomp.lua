@@ -13,9 +13,12 @@ local MISSING = 'RoboComp: `rcgen` was not found: neither in a .venv of this pro
   .. "Install it with `pip install 'robocomp_dsl[editor]'`, "
   .. "or say where it is: vim.g.robocomp_server = '/path/to/rcgen'"
 
--- An XML file may be anything; it is ours when its root element is that of InnerModel.
+-- An XML file may be anything; it is ours when it is SCXML, or its root element is that of InnerModel.
 local function is_ours(buffer)
   if vim.bo[buffer].filetype ~= 'xml' then
+    return true
+  end
+  if vim.api.nvim_buf_get_name(buffer):find('%.scxml$') then
     return true
   end
   local head = table.concat(vim.api.nvim_buf_get_lines(buffer, 0, 50, false), '\n')

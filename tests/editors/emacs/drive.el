@@ -131,7 +131,8 @@
   "See everything."
   (drive-open "wrong.cdsl")
   (drive-see 'findings (mapcar (lambda (name) (cons (intern name) (vconcat (drive-findings name))))
-                               '("wrong.cdsl" "wrong.idsl" "wrong.pdsl" "wrong.ddsl" "wrong.xml")))
+                               '("wrong.cdsl" "wrong.idsl" "wrong.pdsl" "wrong.ddsl" "wrong.xml"
+                                 "wrong.scxml")))
   (find-file "reader.cdsl")
   (eglot--maybe-activate-editing-mode)
   (drive-see 'hover (drive-hover))

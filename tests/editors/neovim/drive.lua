@@ -72,7 +72,7 @@ end
 
 local function all_findings()
   result.findings = {}
-  for _, name in ipairs({ 'wrong.cdsl', 'wrong.idsl', 'wrong.pdsl', 'wrong.ddsl', 'wrong.xml' }) do
+  for _, name in ipairs({ 'wrong.cdsl', 'wrong.idsl', 'wrong.pdsl', 'wrong.ddsl', 'wrong.xml', 'wrong.scxml' }) do
     result.findings[name] = findings(name)
   end
 end

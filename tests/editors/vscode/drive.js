@@ -49,7 +49,7 @@ async function findings(page) {
   await command(page, "View: Toggle Problems");
   await page.locator(".markers-panel").waitFor();
   seen.problems = {};
-  for (const name of ["wrong.cdsl", "wrong.idsl", "wrong.pdsl", "wrong.ddsl", "wrong.xml"]) {
+  for (const name of ["wrong.cdsl", "wrong.idsl", "wrong.pdsl", "wrong.ddsl", "wrong.scxml", "wrong.xml"]) {
     seen.problems[name] = await problems(page, name);
   }
   await status(page, "RoboComp body");

@@ -52,7 +52,11 @@ def test_every_language_is_contributed_whole(manifest: dict[str, Any]) -> None:
     contributed = manifest["contributes"]
     languages = {one["id"]: one.get("extensions") for one in contributed["languages"]}
     braces = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl"]
-    assert languages == {**{one: [f".{one}"] for one in braces}, "innermodel": None}
+    assert languages == {
+        **{one: [f".{one}"] for one in braces},
+        "scxml": [".scxml"],
+        "innermodel": None,
+    }
     assert {one["language"] for one in contributed["grammars"]} == set(languages)
     assert {one["language"] for one in contributed["snippets"]} == set(braces)
 
