@@ -15,8 +15,39 @@ from robocomp_dsl.syntax.tables import load
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("interfaces", "components", "tests/cases", "tests/format/cases", "tests/syntax")
 LARGEST = 8_000
-SIGNS = tuple(
-    "{ } ; , \" /* */ // /// /** < > :: -> => [ ] ( ) = # é 🤖 \\ ' 0x 1e999 - . : + &".split()
+SIGNS = (
+    "{",
+    "}",
+    ";",
+    ",",
+    '"',
+    "/*",
+    "*/",
+    "//",
+    "///",
+    "/**",
+    "<",
+    ">",
+    "::",
+    "->",
+    "=>",
+    "[",
+    "]",
+    "(",
+    ")",
+    "=",
+    "#",
+    "é",
+    "🤖",
+    "\\",
+    "'",
+    "0x",
+    "1e999",
+    "-",
+    ".",
+    ":",
+    "+",
+    "&",
 )
 SIGNS += ("\n", "\t", "\r", "\0", "\u2028", "<<<<<<< x\n", "=======\n", "};", "<a>", "</a>", "/>")
 SIGNS += (

@@ -27,7 +27,7 @@ MEANINGLESS = ("void", "T")
 """Words that a tree has no place for: no result, and a flag that says what is so anyway."""
 NEIGHBOURS = {
     "Base.idsl": "module RoboCompBase { struct Pose { float x; float y = 0 [mm]; }; };\n",
-    "Near.idsl": 'import "Base.idsl";\nmodule Near { interface Near { RoboCompBase::Pose get(); }; };\n',
+    "Near.idsl": 'import "Base.idsl"; module Near { interface Near { RoboCompBase::Pose g(); }; };',
     "part.cdsl": 'import "Near.idsl";\nComponent part { Communications { implements Near; }; };\n',
     "part.pdsl": "ComponentParams part { rate float 50 [Hz] 1:1000; };\n",
     "part.smdsl": "part { states a, b; initial_state a; end_state b; transitions { a => b; }; };\n",

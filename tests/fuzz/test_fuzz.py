@@ -1,4 +1,4 @@
-"""A few seconds of what `make fuzz` does for minutes, always the same; and all that it has found."""
+"""Some seconds of what `make fuzz` does for minutes, always alike; and all that it has found."""
 
 from __future__ import annotations
 
