@@ -10,24 +10,17 @@ import gc
 import logging
 import os
 import sys
-from collections.abc import Awaitable, Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from lsprotocol import types as lsp
 from pygls.capabilities import ServerCapabilitiesBuilder
-from pygls.exceptions import (
-    JsonRpcContentModified,
-    JsonRpcException,
-    JsonRpcInternalError,
-    JsonRpcInvalidParams,
-)
 from pygls.lsp.server import LanguageServer
 from pygls.uris import to_fs_path
 
 from robocomp_dsl import __version__
-from robocomp_dsl.check import CHECKS
 from robocomp_dsl.editor import (
     call_hierarchy,
     code_lens,
@@ -47,13 +40,13 @@ from robocomp_dsl.editor import (
     type_definition,
     workspace_symbols,
 )
+from robocomp_dsl.editor.answers import Feature, answering, explained, guarded
 from robocomp_dsl.editor.checking import Checking
 from robocomp_dsl.editor.commands import COMMANDS
-from robocomp_dsl.editor.positions import WrongPosition, agree
+from robocomp_dsl.editor.positions import agree
 from robocomp_dsl.editor.protocol import Protocol
-from robocomp_dsl.editor.session import Document, NoDescription, Session, StillChecking
-
-Feature = Callable[[Session, Any], Any]
+from robocomp_dsl.editor.session import Document, Session
+from robocomp_dsl.editor.watching import MOVED, OURS, registration
 
 FEATURES: dict[str, tuple[Feature, Any]] = {
     lsp.TEXT_DOCUMENT_DEFINITION: (definition.definition, None),
@@ -93,19 +86,6 @@ FEATURES: dict[str, tuple[Feature, Any]] = {
 }
 """Method of the protocol to the function that answers it, and what the client is told of it."""
 
-_MOVED = (
-    lsp.WORKSPACE_DID_CREATE_FILES,
-    lsp.WORKSPACE_DID_RENAME_FILES,
-    lsp.WORKSPACE_DID_DELETE_FILES,
-)
-OURS = lsp.FileOperationRegistrationOptions(
-    [
-        lsp.FileOperationFilter(lsp.FileOperationPattern(glob), scheme="file")
-        for glob in (*(f"**/*{suffix}" for suffix in sorted(CHECKS)), "**/")
-    ]
-)
-"""Files that matter here; and folders, as they may hold some."""
-
 COLLECTION = (50_000, 20, 100)
 """Thresholds of the three generations of Python's garbage collector."""
 
@@ -120,12 +100,12 @@ class Server(LanguageServer):
         self.session = Session()
         self.checking = Checking(self.session, self.text_document_publish_diagnostics)
         for method, handler in self._notifications().items():
-            self.feature(method)(_guarded(method, handler))
-        for method in _MOVED:
-            self.feature(method, OURS)(_guarded(method, self._disk_changed))
+            self.feature(method)(guarded(method, handler))
+        for method in MOVED:
+            self.feature(method, OURS)(guarded(method, self._disk_changed))
         for method, (function, options) in FEATURES.items():
-            handler = _answering(function, self.session)
-            self.feature(method, options)(_guarded(method, handler))
+            handler = answering(function, self.session)
+            self.feature(method, options)(guarded(method, handler))
         for name, command in COMMANDS.items():
             self.command(name)(self._command(name, command))
 
@@ -136,7 +116,7 @@ class Server(LanguageServer):
 
     def _command(self, name: str, command: Callable[..., Awaitable[Any]]) -> Callable[..., Any]:
         async def run(*arguments: Any) -> Any:
-            with _explained(name):
+            with explained(name):
                 return await command(self.session, self, *arguments)
 
         return run
@@ -161,14 +141,9 @@ class Server(LanguageServer):
 
     def _initialized(self, _: object) -> None:
         """Ask to be told of files that change outside of the editor."""
-        workspace = self.client_capabilities.workspace
-        can = workspace.did_change_watched_files if workspace else None
-        if can and can.dynamic_registration:
-            watched = [lsp.FileSystemWatcher(f"**/*{suffix}") for suffix in sorted(CHECKS)]
-            method = lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES
-            options = lsp.DidChangeWatchedFilesRegistrationOptions(watched)
-            asked = lsp.Registration("rcgen-files", method, options)
-            self.client_register_capability(lsp.RegistrationParams([asked]))
+        asked = registration(self.client_capabilities)
+        if asked:
+            self.client_register_capability(asked)
 
     def _opened(self, params: lsp.DidOpenTextDocumentParams) -> None:
         document = synchronize.did_open(self.session, params)
@@ -212,38 +187,6 @@ def serve_tcp(host: str, port: int) -> int:
     with suppress(SystemExit):
         server.start_tcp(host, port)
     return server.exit_code
-
-
-def _answering(function: Feature, session: Session) -> Callable[[Any], Any]:
-    return lambda params: function(session, params)
-
-
-def _guarded(method: str, handler: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """`handler` with every failure made into an answer in the words of the user."""
-
-    def guarded(params: Any) -> Any:
-        with _explained(method):
-            return handler(params)
-
-    return guarded
-
-
-@contextmanager
-def _explained(method: str) -> Iterator[None]:
-    """Make every failure inside an answer."""
-    try:
-        yield
-    except JsonRpcException:
-        raise
-    except StillChecking as error:
-        # Clients ask again after this answer, and show nothing.
-        raise JsonRpcContentModified(str(error)) from None
-    except (WrongPosition, NoDescription) as error:
-        raise JsonRpcInvalidParams(str(error)) from None
-    except Exception as error:
-        what = f"internal error in {method}: {type(error).__name__}: {error}"
-        _logger.debug("%s", what, exc_info=True)
-        raise JsonRpcInternalError(what) from None
 
 
 def _folders(uris: list[str]) -> list[Path]:
