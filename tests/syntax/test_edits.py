@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
-from robocomp_dsl.syntax import LANGUAGES
+from robocomp_dsl.syntax import LANGUAGES, parse_idsl
 from robocomp_dsl.syntax.node import Node
 from tests.syntax.test_mutated import PIECES, REAL
 
@@ -105,3 +105,24 @@ def compare(suffix: str, texts: list[str]) -> None:
         shown = "\n=====\n".join(texts[: number + 1])
         assert plain(tree) == plain(fresh), shown
         assert [plain(one) for one in kept] == [plain(one) for one in alone], shown
+
+
+def test_only_the_edited_items_are_read_again() -> None:
+    memory = dict[str, Any]()
+    text = TEXTS[".idsl"][-2]
+    first = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations
+    edited = text.replace("a20 = 20", "a20 = 2000")
+    again = parse_idsl(Source(Path("x.idsl"), edited, memory), Report()).modules[0].declarations
+    read = [new.name.text for old, new in zip(first, again, strict=True) if new is not old]
+    # The first has no mark in front of it, so it is always read.
+    assert read == ["S1", "S20"]
+    assert again[-1].span.text == "sequence<S39> L39;"
+
+
+def test_an_error_elsewhere_does_not_stop_it() -> None:
+    memory = dict[str, Any]()
+    text = TEXTS[".idsl"][-2].replace("int a5 =", "int int a5 =").replace("int a35 =", "int int =")
+    first = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations
+    edited = text.replace("a20 = 20", "a20 = ")
+    again = parse_idsl(Source(Path("x.idsl"), edited, memory), Report()).modules[0].declarations
+    assert sum(new is old for old, new in zip(first, again, strict=False)) > 30
