@@ -19,6 +19,7 @@ TABLE = {
     "check": ("rcdeploy_check", "Check everything, start nothing."),
     "status": ("rcdeploy_status", "The components of a running deployment."),
     "logs": ("rcdeploy_logs", "What the components of a running deployment said."),
+    "param": ("rcdeploy_param", "Read and change parameters of running components."),
     "stop": ("rcdeploy_stop", "Stop a running deployment and wait for its end."),
 }
 

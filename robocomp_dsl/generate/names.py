@@ -129,7 +129,7 @@ COMPONENT_MEMBERS = frozenset(
 """Public members of the base of all components; an operation or proxy never hides one."""
 
 PARAMETER_MEMBERS = frozenset(
-    ("SCHEMA", "bind", "describe", "load", "set", "set_text", "values", "Literal")
+    ("SCHEMA", "bind", "describe", "load", "save", "set", "set_text", "values", "Literal")
 )
 """Public members of the base of all parameters, and what the annotations mention."""
 

@@ -368,6 +368,14 @@ COMPONENT = rt.Interface(
             idempotent=False,
         ),
         rt.Operation(
+            "saveParameters",
+            rt.Pattern.QUERY,
+            inputs=(),
+            outputs=(("", rt.STRING),),
+            throws=(Refusal,),
+            idempotent=False,
+        ),
+        rt.Operation(
             "setPeriod",
             rt.Pattern.QUERY,
             inputs=(("period", rt.INT),),
@@ -410,6 +418,7 @@ class ComponentProxy(rt.Proxy):
         "_call_getInfo",
         "_call_getParameters",
         "_call_getStatistics",
+        "_call_saveParameters",
         "_call_setLogLevel",
         "_call_setParameters",
         "_call_setPeriod",
@@ -419,6 +428,7 @@ class ComponentProxy(rt.Proxy):
     _call_getInfo: Callable[..., ComponentInfo]
     _call_getParameters: Callable[..., ParameterList]
     _call_setParameters: Callable[..., None]
+    _call_saveParameters: Callable[..., str]
     _call_setPeriod: Callable[..., None]
     _call_setLogLevel: Callable[..., None]
     _call_getStatistics: Callable[..., Statistics]
@@ -428,10 +438,11 @@ class ComponentProxy(rt.Proxy):
         self._call_getInfo = bind(COMPONENT.operations[0])
         self._call_getParameters = bind(COMPONENT.operations[1])
         self._call_setParameters = bind(COMPONENT.operations[2])
-        self._call_setPeriod = bind(COMPONENT.operations[3])
-        self._call_setLogLevel = bind(COMPONENT.operations[4])
-        self._call_getStatistics = bind(COMPONENT.operations[5])
-        self._call_stop = bind(COMPONENT.operations[6])
+        self._call_saveParameters = bind(COMPONENT.operations[3])
+        self._call_setPeriod = bind(COMPONENT.operations[4])
+        self._call_setLogLevel = bind(COMPONENT.operations[5])
+        self._call_getStatistics = bind(COMPONENT.operations[6])
+        self._call_stop = bind(COMPONENT.operations[7])
 
     def getInfo(self) -> ComponentInfo:
         return self._call_getInfo()
@@ -445,6 +456,13 @@ class ComponentProxy(rt.Proxy):
         May raise Refusal.
         """
         self._call_setParameters(changes)
+
+    def saveParameters(self) -> str:
+        """Keep the live values that were changed for the next start; says in which file.
+
+        May raise Refusal.
+        """
+        return self._call_saveParameters()
 
     def setPeriod(self, period: int) -> None:
         """Another period; 0: only events.

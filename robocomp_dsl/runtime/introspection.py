@@ -51,6 +51,7 @@ class Introspection:
             "getInfo": self.get_info,
             "getParameters": self.get_parameters,
             "setParameters": self.set_parameters,
+            "saveParameters": self.save_parameters,
             "setPeriod": self.set_period,
             "setLogLevel": self.set_log_level,
             "getStatistics": self.get_statistics,
@@ -110,6 +111,13 @@ class Introspection:
                 self._runner.params.set_text(changes)
             except Refused as error:
                 raise Refusal(str(error)) from None
+
+    def save_parameters(self) -> str:
+        """The file in which they are kept."""
+        try:
+            return str(self._runner.params.save().resolve())
+        except Refused as error:
+            raise Refusal(str(error)) from None
 
     def set_period(self, period: int) -> None:
         """In ms."""

@@ -44,7 +44,9 @@ def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
         parser.error(str(error))
     logs.set_up(settings.name or component.SPEC.name, said.log_level, said.log_format)
     try:
-        params = component.SPEC.parameters.load(settings.config, settings.overrides)
+        params = component.SPEC.parameters.load(
+            settings.config, settings.overrides, keeps=settings.config or CONFIG
+        )
     except ConfigError as error:
         print(error, file=sys.stderr)  # noqa: T201 - located findings, not a record
         return 1

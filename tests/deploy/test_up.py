@@ -112,6 +112,36 @@ def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
     assert list((sockets / ".deployments").iterdir()) == []
 
 
+def test_parameters_of_running_components(folder: Path) -> None:
+    with up() as app:
+        app.until("all 2 components are ready")
+        listed = rcdeploy("param", "list", "app.ddsl").stdout.splitlines()
+        row = ["arm", "rate", "20.0", "float", "1.0:1000.0", "[Hz]", "live"]
+        assert listed[1].split() == row
+        assert listed[-1] == "eye has no parameters"
+        assert rcdeploy("param", "get", "app", "arm", "rate", "serial").stdout == "20.0\nabc\n"
+        refused = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "serial=x")
+        assert refused.returncode == 1
+        assert "`arm` refuses: `serial` is not live" in refused.stderr
+        assert rcdeploy("param", "get", "app.ddsl", "arm", "rate").stdout == "20.0\n"
+        done = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "--save")
+        kept = folder / "arm" / "etc" / "config.saved.yaml"
+        assert done.stdout == f"arm: rate = 30\nkept in {kept.resolve()}\n"
+        assert '"rate": 30.0\n' in kept.read_text()
+        data = json.loads(rcdeploy("param", "list", "app", "arm", "--format", "json").stdout)
+        assert data["arm"][0]["value"] == "30.0"
+        for wrong, hint in (
+            (("get", "app", "arm", "rat"), "did you mean `rate`?"),
+            (("get", "app", "amr", "rate"), "it has arm, eye"),
+            (("get", "nothing", "arm", "rate"), "is not running"),
+        ):
+            run = rcdeploy("param", *wrong)
+            assert (run.returncode, hint in run.stderr) == (1, True), run.stderr
+        assert rcdeploy("param", "set", "app", "arm", "rate").returncode == 2
+        app.process.send_signal(signal.SIGINT)
+        assert app.end() == 0
+
+
 def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:
     with up() as app:
         first = pid_in(app.until("eye sees a new arm"))

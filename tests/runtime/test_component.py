@@ -286,6 +286,7 @@ class C(Component):
         self.log.info("started with %s", self.params.rate)
     def compute(self):
         if "--hang" in EXTRA:
+            self.log.info("hanging")
             while True: pass
     def finalize(self):
         self.log.info("finalized")
@@ -344,7 +345,7 @@ def test_a_signal_ends_it_in_order(program: Program, middleware: str, number: in
 
 def test_a_compute_that_never_ends_is_left_behind(program: Program) -> None:
     with program.start("--hang", "--middleware", "inproc") as process:
-        until(process, "started")
+        until(process, "hanging")
         process.terminate()
         _, err = process.communicate(timeout=DEADLINE)
     assert process.returncode == 1

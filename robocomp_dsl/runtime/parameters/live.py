@@ -43,13 +43,14 @@ class _Change:
 
 def change(
     root: ParameterGroup, worker: object, given: Mapping[str, Any], interpret: Interpret
-) -> None:
-    """Check all, ask the worker about all, assign all, tell the worker."""
+) -> list[str]:
+    """Check all, ask the worker about all, assign all, tell the worker; what has changed."""
     changes = _checked(root, given, interpret)
     _ask(worker, changes)
     for one in changes:
         object.__setattr__(one.owner, one.parameter.attribute, one.new)
     _tell(worker, changes)
+    return [dotted(one.path) for one in changes]
 
 
 def _checked(root: ParameterGroup, given: Mapping[str, Any], interpret: Interpret) -> list[_Change]:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.runtime.parameters import overrides as command_line
+from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters.check import check
 from robocomp_dsl.runtime.parameters.findings import ConfigError, Finding, Place, Text
 from robocomp_dsl.runtime.parameters.schema import Schema
@@ -20,10 +21,18 @@ MAX_BYTES = 1024 * 1024
 """Larger files are refused; a configuration of a component has a few kilobytes."""
 
 
-def load_values(schema: Schema, path: Path | None, overrides: Iterable[str]) -> dict[str, Any]:
-    """The values that `path` and `overrides` give to `schema`. Raises `ConfigError`."""
+def load_values(
+    schema: Schema, path: Path | None, overrides: Iterable[str], kept: Path | None = None
+) -> dict[str, Any]:
+    """The values that `path` and `overrides` give to `schema`. Raises `ConfigError`.
+
+    `kept` is the file of live values that were saved; it need not be there.
+    """
     findings: list[Finding] = []
     root = _read(path, findings)
+    if root is not None and kept is not None and kept.exists():
+        values_kept = _read(kept, findings)
+        root = saved.apply(root, values_kept, findings) if values_kept else None
     if root is not None:  # else every required parameter would be told missing, too
         root = command_line.apply(root, overrides, findings)
         values = check(root, schema, findings)

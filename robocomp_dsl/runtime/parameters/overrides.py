@@ -52,14 +52,21 @@ def apply(root: Mapping, overrides: Iterable[str], findings: list[Finding]) -> M
             findings.append(Finding(key, said, help="write for instance `--set motors[2].min=-1`"))
             continue
         leaf = Scalar(Place(text, 1, len(path) + 2, max(1, len(value))), value, Style.RAW)
-        try:
-            changed = _with(root, found, 0, key, leaf)
-        except _Misplaced as error:
-            findings.append(Finding(key, str(error)))
-        else:
-            assert isinstance(changed, Mapping)  # noqa: S101 - a root stays what it is
-            root = changed
+        root = put(root, found, key, leaf, findings)
     return root
+
+
+def put(
+    root: Mapping, path: list[str | int], key: Place, leaf: Scalar, findings: list[Finding]
+) -> Mapping:
+    """`root` with `leaf` at `path`; a finding at `key` where the path leads nowhere."""
+    try:
+        changed = _with(root, path, 0, key, leaf)
+    except _Misplaced as error:
+        findings.append(Finding(key, str(error)))
+        return root
+    assert isinstance(changed, Mapping)  # noqa: S101 - a root stays what it is
+    return changed
 
 
 class _Misplaced(Exception):

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters import scalar as scalars
-from robocomp_dsl.runtime.parameters.findings import Place, Text
+from robocomp_dsl.runtime.parameters.findings import Place, Refused, Text
 from robocomp_dsl.runtime.parameters.group import ParameterGroup, filled, walk
 from robocomp_dsl.runtime.parameters.live import change
 from robocomp_dsl.runtime.parameters.load import load_values
@@ -43,20 +44,33 @@ class Parameters(ParameterGroup):
     never sees half of a change.
     """
 
-    __slots__ = ("_lock", "_worker")
+    __slots__ = ("_changed", "_kept", "_lock", "_worker")
     _lock: threading.RLock
     _worker: object
+    _kept: tuple[Path, Path] | None
+    _changed: set[str]
 
     @classmethod
-    def load(cls, path: Path | str | None = None, overrides: Iterable[str] = ()) -> Self:
+    def load(
+        cls,
+        path: Path | str | None = None,
+        overrides: Iterable[str] = (),
+        *,
+        keeps: Path | None = None,
+    ) -> Self:
         """What the YAML or TOML file at `path` says, `overrides` (`motors[2].min=-1`) above it.
 
-        Raises `ConfigError` with every problem of both.
+        `keeps` is the configuration beside which `save` keeps live values; what it kept is read,
+        too. Raises `ConfigError` with every problem of all.
         """
-        values = load_values(cls.SCHEMA, None if path is None else Path(path), overrides)
+        kept = (keeps, saved.beside(keeps)) if keeps else None
+        values = load_values(
+            cls.SCHEMA, None if path is None else Path(path), overrides, kept and kept[1]
+        )
         made = filled(cls, values)
-        object.__setattr__(made, "_lock", threading.RLock())
-        object.__setattr__(made, "_worker", None)
+        for name, value in (("_lock", threading.RLock()), ("_worker", None), ("_kept", kept)):
+            object.__setattr__(made, name, value)
+        object.__setattr__(made, "_changed", set(saved.paths(kept[1])) if kept else set())
         return made
 
     def bind(self, worker: object) -> None:
@@ -76,12 +90,28 @@ class Parameters(ParameterGroup):
         hook says.
         """
         with self._lock:
-            change(self, self._worker, changes, scalars.of_python)
+            self._changed.update(change(self, self._worker, changes, scalars.of_python))
 
     def set_text(self, changes: Mapping[str, str]) -> None:
         """As `set`, with values as one types them on a command line."""
         with self._lock:
-            change(self, self._worker, changes, _of_text)
+            self._changed.update(change(self, self._worker, changes, _of_text))
+
+    def save(self) -> Path:
+        """Keep the live values that were changed for the next start; says where.
+
+        Raises `Refused` where there is no place for them.
+        """
+        with self._lock:
+            if self._kept is None:
+                raise Refused("this component was started without a place to keep values in")
+            config, file = self._kept
+            current = self.values()
+            try:
+                saved.write(file, config, {p: current[p] for p in self._changed if p in current})
+            except OSError as error:
+                raise Refused(f"`{file}` cannot be written: {error.strerror or error}") from None
+            return file
 
     def values(self) -> dict[str, Value]:
         """Every value by its path."""

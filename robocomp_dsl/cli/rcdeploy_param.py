@@ -1,0 +1,187 @@
+"""`rcdeploy param`: parameters of running components, read and changed while they run.
+
+In: a running deployment, a component of it, parameters. Out: a table or values; exit code 1 where
+a component refuses, and then nothing has changed.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Never, TypeAlias
+
+import click
+
+from robocomp_dsl.cli import rcdeploy_running
+from robocomp_dsl.deploy import control, folder
+from robocomp_dsl.diagnostics import did_you_mean
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.component_interface import ComponentProxy, ParameterInfo
+
+    ProxyOf: TypeAlias = Callable[[str], ComponentProxy]
+
+PATIENCE_S = 5.0
+
+which = click.argument("which", metavar="APP.ddsl|NAME")
+form = click.option("--format", "form", type=click.Choice(["text", "json"]), default="text")
+
+
+@click.group()
+def command() -> None:
+    """Read and change the parameters of running components."""
+
+
+@command.command("list")
+@which
+@click.argument("components", nargs=-1, metavar="[COMPONENT]...")
+@form
+def list_(which: str, components: tuple[str, ...], form: str) -> None:
+    """All parameters, of all components or of those named."""
+    one = rcdeploy_running.find(which)
+    known = _names(one)
+    wanted = [_known(name, known) for name in components] or known
+    found = {}
+    with _proxies(one) as proxy_of:
+        for name in wanted:
+            found[name] = _parameters(proxy_of, name)
+    if form == "json":
+        data = {name: [_data(p) for p in parameters] for name, parameters in found.items()}
+        print(json.dumps(data, indent=1))
+    else:
+        print("\n".join(_table(found)))
+
+
+@command.command()
+@which
+@click.argument("component")
+@click.argument("names", nargs=-1, required=True, metavar="PARAMETER...")
+def get(which: str, component: str, names: tuple[str, ...]) -> None:
+    """The values of parameters, a line each."""
+    one = rcdeploy_running.find(which)
+    with _proxies(one) as proxy_of:
+        parameters = {p.name: p for p in _parameters(proxy_of, _known(component, _names(one)))}
+    for name in names:
+        if name not in parameters:
+            hint = did_you_mean(name, parameters)
+            _fail(f"`{component}` has no parameter `{name}`", hint)
+        print(parameters[name].value)
+
+
+@command.command("set")
+@which
+@click.argument("component")
+@click.argument("changes", nargs=-1, required=True, metavar="PARAMETER=VALUE...")
+@click.option("--save", is_flag=True, help="Keep what was changed live for the next start.")
+def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool) -> None:
+    """Change live parameters, all of them or none."""
+    from robocomp_dsl.runtime.component_interface import Refusal  # noqa: PLC0415 - loads numpy
+
+    values = dict(map(_change, changes))
+    one = rcdeploy_running.find(which)
+    name = _known(component, _names(one))
+    with _proxies(one) as proxy_of:
+        proxy = _reached(proxy_of, name)
+        try:
+            proxy.setParameters(values)
+            where = proxy.saveParameters() if save else ""
+        except Refusal as refusal:
+            _fail(f"`{name}` refuses: {refusal.reason}")
+    print(f"{name}: {', '.join(f'{k} = {v}' for k, v in values.items())}")
+    if where:
+        print(f"kept in {where}")
+
+
+def _change(text: str) -> tuple[str, str]:
+    name, sign, value = text.partition("=")
+    if not sign or not name:
+        raise click.UsageError(f"`{text}` is no change; write PARAMETER=VALUE, as in rate=20")
+    return name.strip(), value
+
+
+def _names(one: folder.Running) -> list[str]:
+    """The components of a running deployment."""
+    try:
+        answer = next(control.ask(one.name, {"verb": "status"}))
+    except (folder.Unavailable, StopIteration):
+        _fail(f"`{one.name}` does not answer; it may be ending")
+    return [str(row["name"]) for row in answer["rows"]]
+
+
+def _known(name: str, known: Sequence[str]) -> str:
+    if name not in known:
+        hint = did_you_mean(name, known) or f"it has {', '.join(known)}"
+        _fail(f"there is no component `{name}` in the deployment", hint)
+    return name
+
+
+@contextmanager
+def _proxies(one: folder.Running) -> Iterator[ProxyOf]:
+    """Calls the `Component` interface of the components of a deployment."""
+    from robocomp_dsl.runtime.component_interface import (  # noqa: PLC0415 - load a middleware
+        COMPONENT,
+        ComponentProxy,
+    )
+    from robocomp_dsl.runtime.execution import Execution  # noqa: PLC0415
+    from robocomp_dsl.runtime.middleware import open_middleware  # noqa: PLC0415
+    from robocomp_dsl.runtime.middleware.base import Endpoint, Host  # noqa: PLC0415
+    from robocomp_dsl.runtime.statistics import Statistics  # noqa: PLC0415
+
+    host = Host("rcdeploy-param", one.domain, Execution(), Statistics())
+    middleware = open_middleware("zenoh", host)
+
+    def proxy_of(name: str) -> ComponentProxy:
+        at = Endpoint(COMPONENT, "rcdeploy-param", "Component", (name,))
+        return ComponentProxy(middleware.proxy(at))
+
+    try:
+        yield proxy_of
+    finally:
+        middleware.close()
+
+
+def _reached(proxy_of: ProxyOf, name: str) -> ComponentProxy:
+    proxy = proxy_of(name)
+    if not proxy.wait_for_server(PATIENCE_S):
+        _fail(f"`{name}` does not answer; is it running? (rcdeploy status)")
+    return proxy
+
+
+def _parameters(proxy_of: ProxyOf, name: str) -> list[ParameterInfo]:
+    return list(_reached(proxy_of, name).getParameters())
+
+
+def _table(found: dict[str, list[ParameterInfo]]) -> Iterator[str]:
+    """A line for each parameter: component, name, value, what it takes, what it is."""
+    rows = [
+        (name, one.name, one.value, _takes(one), "live" if one.live else "", one.doc)
+        for name, parameters in found.items()
+        for one in parameters
+    ]
+    heads = ("COMPONENT", "PARAMETER", "VALUE", "TAKES", "", "")
+    lines = [heads, *rows]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(heads))]
+    for line in lines:
+        cells = (text.ljust(width) for text, width in zip(line, widths, strict=True))
+        yield "  ".join(cells).rstrip()
+    yield from (f"{name} has no parameters" for name, parameters in found.items() if not parameters)
+
+
+def _takes(one: ParameterInfo) -> str:
+    unit = f" [{one.unit}]" if one.unit else ""
+    if one.choices:
+        return " | ".join(one.choices)
+    bounds = f" {one.low}:{one.high}" if one.low or one.high else ""
+    return f"{one.type}{bounds}{unit}"
+
+
+def _data(one: ParameterInfo) -> dict[str, object]:
+    return {
+        key: getattr(one, key)
+        for key in ("name", "value", "type", "unit", "live", "low", "high", "choices", "doc")
+    }
+
+
+def _fail(message: str, hint: str = "") -> Never:
+    rcdeploy_running.fail(f"{message}; {hint}" if hint else message)

@@ -1,0 +1,100 @@
+"""Live values that are kept: beside the configuration, above it, below the command line."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from test_parameters_live import Params
+
+from robocomp_dsl.runtime.parameters import ConfigError, Refused
+from robocomp_dsl.runtime.parameters.saved import beside
+
+CONFIG = "# mine\nrate: 30\nmotors:\n  - name: m\n"
+
+
+@pytest.fixture
+def config(tmp_path: Path) -> Path:
+    path = tmp_path / "etc" / "config.yaml"
+    path.parent.mkdir()
+    path.write_text(CONFIG)
+    return path
+
+
+def load(config: Path, *overrides: str) -> Params:
+    return Params.load(config, overrides, keeps=config)
+
+
+def test_what_was_changed_is_there_again(config: Path) -> None:
+    params = load(config)
+    params.set({"rate": 20, "motors[0].min": -3, "label": 'a "b" # c: \n é', "on": True})
+    assert load(config).rate == 30, "nothing is kept that nobody asked for"
+    assert params.save() == beside(config)
+    again = load(config)
+    assert (again.rate, again.motors[0].min, again.on) == (20.0, -3.0, True)
+    assert again.label == 'a "b" # c: \n é'
+    assert config.read_text() == CONFIG
+    assert load(config, "rate=7").rate == 7.0
+    assert [p.name for p in config.parent.iterdir() if p.name != "config.yaml"] == [
+        "config.saved.yaml"
+    ]
+
+
+def test_what_was_kept_before_is_kept_on(config: Path) -> None:
+    first = load(config)
+    first.set({"rate": 20})
+    first.save()
+    second = load(config)
+    second.set({"count": 5})
+    second.save()
+    third = load(config)
+    assert (third.rate, third.count) == (20.0, 5)
+    assert "mode" not in beside(config).read_text()
+
+
+@given(value=st.floats(1, 1000), text=st.text(st.characters(codec="utf-8"), max_size=20))
+def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text: str) -> None:
+    config = tmp_path_factory.mktemp("any") / "c.yaml"
+    config.write_text(CONFIG)
+    params = load(config)
+    try:
+        params.set({"rate": value, "label": text})
+    except Refused:  # a text that no configuration can hold
+        return
+    params.save()
+    again = load(config)
+    assert math.isclose(again.rate, value, rel_tol=0)
+    assert again.label == text
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("speed: 3\n", "speed"),
+        ("rate: fast\n", "number"),
+        ("rate: [1]\n", "not of the form `path: value`"),
+        ("'a b': 1\n", "not of the form `path: value`"),
+        ("motors[4].min: 1\n", "motors"),
+        ("rate: {\n", "config.saved.yaml"),
+    ],
+)
+def test_a_damaged_file_is_a_located_finding(config: Path, text: str, said: str) -> None:
+    beside(config).write_text(text)
+    with pytest.raises(ConfigError) as caught:
+        load(config)
+    assert said in str(caught.value)
+    assert "config.saved.yaml:" in str(caught.value)
+
+
+def test_no_place_for_it(config: Path, tmp_path: Path) -> None:
+    with pytest.raises(Refused, match="without a place"):
+        Params.load(config).save()
+    blocked = tmp_path / "file"
+    blocked.write_text("")
+    params = Params.load(config, keeps=blocked / "config.yaml")
+    params.set({"rate": 20})
+    with pytest.raises(Refused, match="cannot be written"):
+        params.save()
