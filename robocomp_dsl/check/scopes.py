@@ -180,11 +180,35 @@ def port_of(ref: ast.PortRef, scope: Scope, report: Report) -> ast.PortRef | Non
     if export is None:
         _not_exported(ref, found, report)
         return None
+    if _leads_back(export, found):
+        report.add(
+            codes.UNKNOWN_PORT,
+            ref.span,
+            f"`{ref.port.text}` of `{ref.instance.text}` is exported from itself",
+            help="export it from the component that has it",
+        )
+        return None
     inside = port_of(export.target, found, Report())  # `check_exports` tells what is wrong there
     if inside is None:
         return None
     port = Name(ref.port.span, inside.port.text)
     return ast.PortRef(ref.span, Name(ref.instance.span, inside.instance.text), port)
+
+
+def _leads_back(export: ast.Export, scope: Scope) -> bool:
+    """Whether an export in `scope` comes from groups that export it from each other."""
+    followed: list[ast.Export] = []
+    following: ast.Export | None = export
+    while following is not None:
+        if any(one is following for one in followed):
+            return True
+        followed.append(following)
+        target = following.target
+        found = scope.find(target.instance.text)
+        if not isinstance(found, Scope):
+            return False
+        following, scope = found.exports.get(target.port.text), found
+    return False
 
 
 def connections_of(scope: Scope, report: Report) -> tuple[list[ast.Connection], set[str]]:
