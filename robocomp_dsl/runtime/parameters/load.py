@@ -50,8 +50,8 @@ def _read(path: Path | None, findings: list[Finding]) -> Mapping | None:
     if path is None:
         return Mapping(Place(Text("(no configuration file)", ()), 1, 1))
     try:
-        source = _decoded(path)
-    except _Unreadable as error:
+        source = decoded(path)
+    except Unreadable as error:
         place = Place(Text(str(path), ()), 1, 1)
         findings.append(Finding(place, f"the configuration cannot be used: {error}"))
         return None
@@ -66,27 +66,28 @@ def _read(path: Path | None, findings: list[Finding]) -> Mapping | None:
     return read_yaml(text, source, findings)
 
 
-class _Unreadable(Exception):
-    pass
+class Unreadable(Exception):
+    """A file that is no text of ours; the message says why."""
 
 
-def _decoded(path: Path) -> str:
+def decoded(path: Path) -> str:
+    """The text of a file. Raises `Unreadable`."""
     try:
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
-        raise _Unreadable("there is no such file") from None
+        raise Unreadable("there is no such file") from None
     except IsADirectoryError:
-        raise _Unreadable("this is a folder, not a file") from None
+        raise Unreadable("this is a folder, not a file") from None
     except (OSError, ValueError) as error:
-        raise _Unreadable(getattr(error, "strerror", None) or str(error)) from None
+        raise Unreadable(getattr(error, "strerror", None) or str(error)) from None
     if len(data) > MAX_BYTES:
-        raise _Unreadable(f"it is larger than {MAX_BYTES // 1024} kB")
+        raise Unreadable(f"it is larger than {MAX_BYTES // 1024} kB")
     if b"\0" in data:
-        raise _Unreadable("this is a binary file, not a text")
+        raise Unreadable("this is a binary file, not a text")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise _Unreadable(
+        raise Unreadable(
             f"the text is not UTF-8: byte 0x{data[error.start]:02x} at offset {error.start}"
         ) from None

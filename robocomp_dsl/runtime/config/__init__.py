@@ -1,0 +1,28 @@
+"""Finds the configuration of a component among folders of the user and installed ones.
+
+In: a file name or a context, the environment. Out: the file that wins, and every place tried. The
+search is that of YARP's ResourceFinder, in the folders of the XDG base directory specification.
+"""
+
+from robocomp_dsl.runtime.config.choose import Asked, Chosen, choose
+from robocomp_dsl.runtime.config.drop_ins import dropped
+from robocomp_dsl.runtime.config.find import Tried, WrongName, checked_context, search
+from robocomp_dsl.runtime.config.places import Place, places
+from robocomp_dsl.runtime.config.surroundings import Origin, Root, Surroundings, surroundings
+
+__all__ = [
+    "Asked",
+    "Chosen",
+    "Origin",
+    "Place",
+    "Root",
+    "Surroundings",
+    "Tried",
+    "WrongName",
+    "checked_context",
+    "choose",
+    "dropped",
+    "places",
+    "search",
+    "surroundings",
+]
