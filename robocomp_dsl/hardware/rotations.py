@@ -34,19 +34,18 @@ def rotation(rx: float, ry: float, rz: float) -> Matrix:
 
 
 def angles(turned: Matrix) -> tuple[float, float, float]:
-    """rx, ry, rz of a rotation matrix; where ry is ±90°, rz is chosen as 0."""
-    sine = float(turned[0, 2])
-    if abs(sine) > 1 - 1e-12:
-        return (
-            math.atan2(float(turned[2, 1]), float(turned[1, 1])),
-            math.copysign(math.pi / 2, sine),
-            0.0,
-        )
-    return (
-        math.atan2(-float(turned[1, 2]), float(turned[2, 2])),
-        math.asin(sine),
-        math.atan2(-float(turned[0, 1]), float(turned[0, 0])),
-    )
+    """rx, ry, rz of a rotation matrix; where ry is ±90°, rz is chosen as 0.
+
+    ry and rz are read from what is left when rx is undone, so that the three give `turned` again to
+    the last digits also where ry is nearly ±90° and rx alone is badly determined.
+    """
+    row = turned.tolist()
+    upright = math.hypot(row[1][2], row[2][2]) < 1e-12
+    rx = math.atan2(row[2][1], row[1][1]) if upright else math.atan2(-row[1][2], row[2][2])
+    sx, cx = math.sin(rx), math.cos(rx)
+    ry = math.atan2(row[0][2], cx * row[2][2] - sx * row[1][2])
+    rz = math.atan2(cx * row[1][0] + sx * row[2][0], cx * row[1][1] + sx * row[2][1])
+    return rx, ry, rz
 
 
 def inverse(pose: Matrix) -> Matrix:

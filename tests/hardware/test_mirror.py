@@ -1,0 +1,140 @@
+"""The transform tree of a compiled model against MuJoCo's own kinematics, to 1e-9 m."""
+
+import math
+
+import mujoco
+import numpy as np
+import pytest
+
+from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.jacobian import jacobian
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
+from robocomp_dsl.hardware.robots.build import add_robot, new_world
+from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.rotations import angles, rotation
+
+NEAR = 1e-9
+JOINT = mujoco.mjtJoint
+
+
+def random_position(model, random) -> np.ndarray:  # type: ignore[no-untyped-def]
+    """Any position of all joints; quaternions of any length but 0."""
+    made = random.uniform(-2, 2, model.nq)
+    for j in range(model.njnt):
+        if model.jnt_type[j] in (JOINT.mjJNT_FREE, JOINT.mjJNT_BALL):
+            at = model.jnt_qposadr[j] + (3 if model.jnt_type[j] == JOINT.mjJNT_FREE else 0)
+            made[at : at + 4] = random.normal(size=4)
+    return made
+
+
+def agree(model, found: Mirror, random, moves: int = 3) -> None:  # type: ignore[no-untyped-def]
+    data = mujoco.MjData(model)
+    for move in range(moves):
+        data.qpos[:] = random_position(model, random) if move else model.qpos0
+        mujoco.mj_kinematics(model, data)  # normalises quaternions in place
+        found.follow(data.qpos)
+        for i, name in enumerate(found.bodies):
+            wanted = axes.matrix(data.xpos[i], data.xmat[i])
+            made = found.tree.matrix(name, "root")
+            assert np.abs(made[:3, :3] - wanted[:3, :3]).max() < NEAR, name
+            assert np.abs(made[:3, 3] - wanted[:3, 3]).max() * axes.MM < NEAR, name
+
+
+@pytest.mark.parametrize("free", [False, True])
+@pytest.mark.parametrize("name", list(ROBOTS))
+def test_the_robots_that_ship(name: str, free: bool) -> None:
+    spec = new_world()
+    add_robot(spec, ROBOTS[name](), free=free)
+    model = spec.compile()
+    found = mirror(model)
+    agree(model, found, np.random.default_rng(3))
+    assert set(ROBOTS[name]().joints) <= {joint.name for joint in found.joints}
+
+
+def random_model(seed: int, count: int):  # type: ignore[no-untyped-def]
+    """Bodies with up to three joints of any kind about any axis through any point."""
+    random = np.random.default_rng(seed)
+    spec = mujoco.MjSpec()
+    bodies = [spec.worldbody]
+    for i in range(count):
+        free = i % 11 == 5
+        above = spec.worldbody if free else bodies[int(random.integers(max(0, i - 9), i + 1))]
+        body = above.add_body(
+            name=f"b{i}" if i % 4 else "",
+            pos=random.uniform(-0.3, 0.3, 3),
+            quat=random.normal(size=4),
+            mass=1.0,
+            inertia=[1, 1, 1],
+            explicitinertial=True,
+        )
+        bodies.append(body)
+        if free:
+            body.add_freejoint()
+            continue
+        for j in range(int(random.integers(0, 4))):
+            ball = i % 7 == 3 and j == 2
+            kind = (JOINT.mjJNT_HINGE, JOINT.mjJNT_SLIDE, JOINT.mjJNT_HINGE)[j]
+            body.add_joint(
+                name=f"b{i}" if j == 0 else f"j{i}.{j}",
+                type=JOINT.mjJNT_BALL if ball else kind,
+                axis=random.normal(size=3),
+                pos=random.uniform(-0.2, 0.2, 3),
+                ref=float(random.uniform(-1, 1)) if not ball else 0.0,
+            )
+    spec.compiler.degree = False
+    return spec.compile()
+
+
+@pytest.mark.parametrize(("seed", "count"), [(0, 1), (1, 30), (2, 60), (3, 300), (4, 10_000)])
+def test_random_trees(seed: int, count: int) -> None:
+    model = random_model(seed, count)
+    assert model.nbody == count + 1
+    agree(model, mirror(model), np.random.default_rng(seed), moves=3 if count < 1000 else 2)
+
+
+def test_names_are_those_of_the_model_and_no_two_are_alike() -> None:
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody><body name="root"><joint name="root" type="hinge"/><geom size=".1"/>
+        <body><joint type="slide"/><geom size=".1"/><site name="tip" pos="0 0 1"/></body></body>
+        </worldbody></mujoco>"""
+    )
+    found = mirror(model)
+    assert found.bodies == ("root", "root#2", "body2")
+    assert [joint.frame for joint in found.joints] == ["root#3", "body2.joint0"]
+    assert found.tree.transform((0, 0, 0), "tip", "root") == pytest.approx((0, 1000, 0))
+
+
+def test_jacobians_are_those_of_mujoco() -> None:
+    spec = new_world()
+    add_robot(spec, ROBOTS["nao_h25"]())
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qpos[:] = np.random.default_rng(1).uniform(-1, 1, model.nq)
+    mujoco.mj_forward(model, data)
+    found = mirror(model)
+    found.follow(data.qpos)
+    names = [joint.frame for joint in found.joints]
+    made = jacobian(found.tree, names, "l_hand")
+    place, turn = np.zeros((3, model.nv)), np.zeros((3, model.nv))
+    mujoco.mj_jacSite(model, data, place, turn, model.site("l_hand").id)
+    assert made[:3] * axes.MM == pytest.approx(place[[0, 2, 1]], abs=NEAR)
+    # an axis of turning changes its sense where a frame changes its hand
+    assert made[3:] == pytest.approx(-turn[[0, 2, 1]], abs=NEAR)
+    assert np.abs(place).max() > 0.1
+
+
+def test_what_is_no_number_is_refused() -> None:
+    found = mirror(random_model(1, 12))
+    for joint in found.joints:
+        qpos = np.zeros(200)
+        qpos[joint.address] = math.nan
+        with pytest.raises(CommandRefused, match="must be a finite number"):
+            found.follow(qpos)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-15, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-3])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_angles_give_the_rotation_again_near_the_pole(off: float, sign: int) -> None:
+    turned = rotation(0.7, sign * (math.pi / 2 - off), -1.1)
+    assert np.abs(rotation(*angles(turned)) - turned).max() < 1e-11
