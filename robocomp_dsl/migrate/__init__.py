@@ -1,0 +1,1 @@
+"""Existing RoboComp components and deployments become ours. Nothing of the old is changed."""
