@@ -8,12 +8,9 @@ put into `.rcgen/` beside the pristine output.
 
 from __future__ import annotations
 
-import subprocess
-import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from shutil import which
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
@@ -76,6 +73,10 @@ def _three_ways(
 
 def _merge(mine: bytes, base: bytes, new: bytes) -> tuple[bytes, bool] | None:
     """The merged text, and whether there are conflicts; None where git is missing or refuses."""
+    import subprocess  # noqa: PLC0415 - most runs merge nothing
+    import tempfile  # noqa: PLC0415
+    from shutil import which  # noqa: PLC0415
+
     git = which("git")
     if git is None:
         return None
