@@ -128,7 +128,7 @@ def test_contexts_that_lead_elsewhere(machine: Machine, context: str) -> None:
 @pytest.mark.parametrize("file", ["../arm.yaml", "/etc/passwd", "a/../../x.yaml", ".", "a\0b"])
 def test_files_that_lead_elsewhere(machine: Machine, file: str) -> None:
     machine.put("arm.yaml")
-    with pytest.raises(ConfigError, match="cannot be searched for; `--config` takes an exact"):
+    with pytest.raises(ConfigError, match=r"cannot be searched for; `--config` takes an exact"):
         chosen(machine, "", file)
 
 
@@ -140,7 +140,7 @@ def test_a_robot_that_leads_elsewhere(machine: Machine) -> None:
 
 def test_near_names_are_told(machine: Machine) -> None:
     machine.put("share1/contexts/laboratory/armature.yaml")
-    with pytest.raises(ConfigError, match="did you mean `armature.yaml`"):
+    with pytest.raises(ConfigError, match=r"did you mean `armature\.yaml`"):
         chosen(machine, "laboratory", "armatur.yaml")
     assert chosen(machine, "laboratry").warnings == (
         "no folder has the context `laboratry`; did you mean `laboratory`?",

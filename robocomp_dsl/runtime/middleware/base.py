@@ -36,7 +36,8 @@ class Qos:
 class Endpoint:
     """One port of one running component. `peers`: the components it is wired to, empty for any.
 
-    A peer is `component` or `component.port`.
+    A peer is `component` or `component.port`, or `*.port` for that port of any component. `any` are
+    those that are `naming.related`; of servers the `naming.nearest` count.
     """
 
     interface: Interface

@@ -8,25 +8,49 @@ from __future__ import annotations
 import logging
 import time
 import traceback
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint
+from robocomp_dsl.runtime.naming import ANY, distance, nearest, related
 from robocomp_dsl.runtime.statistics import OperationCounts
 
 GRACE_S = 1.0
 """So long after the start of a component its calls wait for a server that is not there yet."""
 
 log = logging.getLogger("robocomp")
+_T = TypeVar("_T")
 _RUNTIME = str(Path(__file__).parents[1])
 
 
-def reaches(peers: Iterable[str], component: str, port: str) -> bool:
-    """Whether a wire to `peers` leads to this port; no peers: to any."""
-    wired = tuple(peers)
-    return not wired or component in wired or f"{component}.{port}" in wired
+def reaches(at: Endpoint, component: str, port: str) -> bool:
+    """Whether this port is one that `at` is wired to, or may find where it is not wired."""
+    wired = at.peers
+    if component in wired or f"{component}.{port}" in wired:
+        return True
+    return (not wired or f"{ANY}.{port}" in wired) and related(at.component, component)
+
+
+def servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:
+    """Those of `found` that count: all a wire names, else the nearest."""
+    return list(found) if _named(at) else nearest(at.component, found, name)
+
+
+def settled(at: Endpoint, components: Iterable[str]) -> bool:
+    """Whether there is no reason to wait for a nearer server than these.
+
+    A set of components under a prefix starts together: what is found around it first is not to be
+    taken for the one beside that comes a moment later.
+    """
+    if _named(at):
+        return any(True for _ in components)
+    return any(distance(at.component, one) == 0 for one in components)
+
+
+def _named(at: Endpoint) -> bool:
+    return any(not one.startswith(f"{ANY}.") for one in at.peers)
 
 
 def pick(at: Endpoint, candidates: Sequence[str]) -> str:
@@ -38,7 +62,8 @@ def pick(at: Endpoint, candidates: Sequence[str]) -> str:
         whom = f"{' or '.join(at.peers)} does not serve" if at.peers else "nobody serves"
         raise NoServer(f"{whom} {interface}, which {at.component} requires as {at.port}")
     listed = ", ".join(sorted(candidates))
-    first = min(candidates).split(".")[0]
+    # A name under a prefix has to be said whole.
+    first = f"{'/' if '/' in at.component else ''}{min(candidates).partition('.')[0]}"
     raise AmbiguousServer(
         f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
         f" say which: --connect {at.port}={first}"

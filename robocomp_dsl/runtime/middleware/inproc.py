@@ -27,7 +27,15 @@ from robocomp_dsl.runtime.errors import (
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.interface import Interface, Operation, Pattern
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host
-from robocomp_dsl.runtime.middleware.calling import GRACE_S, log_failure, pick, reaches, watched
+from robocomp_dsl.runtime.middleware.calling import (
+    GRACE_S,
+    log_failure,
+    pick,
+    reaches,
+    servers,
+    settled,
+    watched,
+)
 from robocomp_dsl.runtime.receiver import Closed, Receiver
 from robocomp_dsl.runtime.statistics import OperationCounts
 
@@ -274,17 +282,21 @@ class ServiceLink:
 
     def _wait(self, seconds: float) -> _Served:
         """The one server, waiting for it at most so long. Raises what `pick` raises."""
+        over = self._owner.interrupted
+        until = time.monotonic() + seconds
+        grace = min(seconds, self._opened + GRACE_S - time.monotonic())
         paused = self._host.execution.pause()
         try:
             with self._domain.changed:
-                self._domain.changed.wait_for(
-                    lambda: self._candidates() or self._owner.interrupted.is_set(), max(seconds, 0)
-                )
-                found = self._candidates()
+                wait_for = self._domain.changed.wait_for
+                wait_for(lambda: self._settled() or over.is_set(), max(grace, 0))
+                left = until - time.monotonic()
+                wait_for(lambda: self._candidates() or over.is_set(), max(left, 0))
+                found = servers(self._at, self._candidates(), lambda one: one.at.component)
         finally:
             if paused:
                 self._host.execution.resume()
-        if self._owner.interrupted.is_set():
+        if over.is_set():
             raise NoServer(f"{self._at.component} is stopping")
         name = pick(self._at, [one.name for one in found])
         server = next(one for one in found if one.name == name)
@@ -297,7 +309,10 @@ class ServiceLink:
 
     def _candidates(self) -> list[_Served]:
         found = self._domain.matching(self._domain.servers, self._at.interface)
-        return [one for one in found if reaches(self._at.peers, one.at.component, one.at.port)]
+        return [one for one in found if reaches(self._at, one.at.component, one.at.port)]
+
+    def _settled(self) -> bool:
+        return settled(self._at, (one.at.component for one in self._candidates()))
 
     def wait(self, timeout: float) -> bool:
         """See `base.Link`."""
@@ -336,8 +351,7 @@ class TopicLink:
         return [
             one
             for one in self._domain.matching(list(self._domain.subscribers), at.interface)
-            if reaches(one.at.peers, at.component, at.port)
-            and one.at.interface.hash == at.interface.hash
+            if reaches(one.at, at.component, at.port) and one.at.interface.hash == at.interface.hash
         ]
 
     def wait(self, timeout: float) -> bool:

@@ -17,11 +17,12 @@ import zenoh
 from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
 from robocomp_dsl.runtime.interface import Operation, Pattern
 from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host, Qos
-from robocomp_dsl.runtime.middleware.calling import GRACE_S, pick, reaches
+from robocomp_dsl.runtime.middleware.calling import GRACE_S, pick, reaches, servers, settled
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import failure
 from robocomp_dsl.runtime.middleware.zenoh.directory import Directory
 from robocomp_dsl.runtime.middleware.zenoh.keys import Present
+from robocomp_dsl.runtime.naming import related
 from robocomp_dsl.runtime.statistics import TIMED_EACH
 
 PRIORITIES = {
@@ -208,9 +209,10 @@ class ServiceLink:
         found = [
             p for p in self._directory.find("server", self._at.interface.name) if self._fits(p)
         ]
-        if not found:
-            left = self._opened + GRACE_S - time.monotonic() if seconds is None else seconds
-            found = self._wait(left)
+        if not settled(self._at, (p.component for p in found)):
+            grace = self._opened + GRACE_S - time.monotonic()
+            found = self._wait(grace if seconds is None else seconds, grace)
+        found = servers(self._at, found, lambda p: p.component)
         server = found[0]
         if len(found) > 1:
             name = pick(self._at, [f"{p.component}.{p.port}" for p in found])
@@ -221,10 +223,15 @@ class ServiceLink:
         self._seen = version
         return server
 
-    def _wait(self, seconds: float) -> list[Present]:
+    def _wait(self, seconds: float, grace: float) -> list[Present]:
+        """Servers, waiting for one at most so long, and so long for one that is near."""
+        name = self._at.interface.name
+        until = time.monotonic() + seconds
         paused = self._host.execution.pause()
         try:
-            found = self._directory.wait("server", self._at.interface.name, self._fits, seconds)
+            self._directory.wait("server", name, self._beside, min(seconds, grace))
+            left = until - time.monotonic()
+            found = self._directory.wait("server", name, self._fits, left)
         finally:
             if paused:
                 self._host.execution.resume()
@@ -233,7 +240,10 @@ class ServiceLink:
         return found
 
     def _fits(self, one: Present) -> bool:
-        return reaches(self._at.peers, one.component, one.port)
+        return reaches(self._at, one.component, one.port)
+
+    def _beside(self, one: Present) -> bool:
+        return self._fits(one) and settled(self._at, (one.component,))
 
     def _check(self, server: Present) -> None:
         if server.hash != self._hash.hex():
@@ -294,4 +304,4 @@ class TopicLink:
                 self._host.execution.resume()
 
     def _hears(self, one: Present) -> bool:
-        return one.component != self._at.component
+        return one.component != self._at.component and related(self._at.component, one.component)

@@ -46,6 +46,11 @@ def port_key(domain: str, kind: Kind, at: Endpoint) -> str:
     return f"{interface_key(domain, kind, at)}/{part(at.component)}/{part(at.port)}"
 
 
+def publisher_of(key: str) -> str:
+    """The component that a publication comes from."""
+    return unquote(key.split("/")[5])
+
+
 @dataclass(frozen=True, slots=True)
 class Present:
     """What the token of a port says; `role` is `server`, `publisher` or `subscriber`."""

@@ -24,6 +24,7 @@ from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host
 from robocomp_dsl.runtime.middleware.calling import log, log_failure, watched
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import failure_bytes
+from robocomp_dsl.runtime.naming import ANY, related
 from robocomp_dsl.runtime.receiver import Receiver
 from robocomp_dsl.runtime.statistics import TIMED_EACH, OperationCounts
 
@@ -70,12 +71,28 @@ class Port:
     def subscribe(self, session: zenoh.Session) -> None:
         """Hear the publishers that the port is wired to, or all of them."""
         root = keys.interface_key(self._host.domain, "t", self.at)
-        for peer in self.at.peers or ("*",):
+        for peer in self.at.peers or (ANY,):
             component, _, port = peer.partition(".")
-            chunk = component if component == "*" else keys.part(component)
+            chunk = component if component == ANY else keys.part(component)
             key = f"{root}/{chunk}/{keys.part(port) if port else '*'}/*"
             declared = session.declare_subscriber(key, self._topic_channel())
-            self._drain(declared, self._dispatch_samples())
+            hear = self._dispatch_samples()
+            far = component == ANY and "/" in self.at.component
+            self._drain(declared, self._without_others(hear) if far else hear)
+
+    def _without_others(self, hear: Hear) -> Hear:
+        """`hear`, without what comes from other branches: no key can say who they are."""
+        known: dict[str, bool] = {}
+
+        def choose(sample: zenoh.Sample) -> None:
+            key = str(sample.key_expr)
+            near = known.get(key)
+            if near is None:
+                near = known[key] = related(self.at.component, keys.publisher_of(key))
+            if near:
+                hear(sample)
+
+        return choose
 
     def _topic_channel(self) -> Any:
         depth = self.at.qos.depth or DEPTH

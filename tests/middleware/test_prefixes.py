@@ -1,0 +1,155 @@
+"""Copies of a set of components in one domain: who finds whom under which prefix."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+from network import DEADLINE, Network, Node, wait_for
+from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+
+from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
+from robocomp_dsl.runtime.middleware.base import Endpoint
+
+
+def serve(network: Network, *names: str) -> None:
+    """Each answers with its position in `names`."""
+    for i, name in enumerate(names):
+        network.node(name).serve({"add": lambda *_, i=i: i})
+
+
+def asked(network: Network, client: str, *peers: str) -> int:
+    return network.node(client).probe(*peers).add(0, 0)
+
+
+SERVERS = ("base", "left/base", "right/base", "left/hand/base")
+
+
+@pytest.mark.parametrize(
+    ("client", "server"),
+    [
+        ("arm", "base"),
+        ("left/arm", "left/base"),
+        ("right/arm", "right/base"),
+        ("left/hand/arm", "left/hand/base"),
+    ],
+)
+def test_the_one_beside_is_found(network: Network, client: str, server: str) -> None:
+    serve(network, *SERVERS)
+    assert SERVERS[asked(network, client)] == server
+
+
+@pytest.mark.parametrize(
+    ("client", "there", "server"),
+    [
+        ("left/arm", ("base", "right/base"), "base"),
+        ("left/hand/arm", ("base", "left/base", "right/base"), "left/base"),
+        ("left/arm", ("left/hand/base", "base"), "base"),
+        ("left/arm", ("left/hand/base", "right/base"), "left/hand/base"),
+        ("arm", ("left/base",), "left/base"),
+    ],
+)
+def test_else_one_around_it_and_then_one_inside(
+    network: Network, client: str, there: tuple[str, ...], server: str
+) -> None:
+    serve(network, *there)
+    assert there[asked(network, client)] == server
+
+
+def test_one_on_another_branch_is_not_found(network: Network) -> None:
+    serve(network, "right/base", "leftish/base")
+    with pytest.raises(NoServer, match=r"nobody serves Test::Probe, which left/arm requires"):
+        asked(network, "left/arm")
+
+
+def test_one_on_another_branch_is_reached_by_its_name(network: Network) -> None:
+    serve(network, "left/base", "right/base")
+    assert asked(network, "left/arm", "right/base") == 1
+    assert asked(network, "left/arm2", "right/base.Probe") == 1
+
+
+def test_the_one_beside_that_starts_later_is_waited_for(network: Network) -> None:
+    serve(network, "base")
+    client, beside = network.node("left/arm"), network.node("left/base")
+    probe = client.probe()
+    with ThreadPoolExecutor(1) as pool:
+        answer = pool.submit(probe.add, 0, 0)
+        beside.serve({"add": lambda *_: 7})
+        assert answer.result(DEADLINE) == 7
+
+
+def test_two_beside_are_ambiguous_and_the_way_out_works(network: Network) -> None:
+    serve(network, "left/a", "left/b", "c")
+    probe = network.node("left/arm").probe()
+    wait_for(lambda: len(_known(probe, network)) == 3)
+    with pytest.raises(AmbiguousServer, match=r"left/a\.Probe, left/b\.Probe all .*=/left/a$"):
+        probe.add(0, 0)
+
+
+def _known(probe: ProbeProxy, network: Network) -> list[object]:
+    link = probe._link  # type: ignore[attr-defined]
+    found: list[object] = (
+        link._candidates()
+        if network.kind == "inproc"
+        else link._directory.find("server", PROBE.name)
+    )
+    return found
+
+
+def test_topics_stay_on_their_branch(network: Network) -> None:
+    names = ("base", "left/base", "right/base", "left/hand/base")
+    heard: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
+    for name, into in heard.items():
+        network.node(name).hear(lambda who, _n, into=into: into.add(who))
+    proxies = {name: network.node(name).news() for name in names}
+    _publish(proxies, lambda: sum(map(len, heard.values())) == 4 + 3 + 2)
+    assert heard["arm"] == set(names)
+    assert heard["left/arm"] == {"base", "left/base", "left/hand/base"}
+    assert heard["right/arm"] == {"base", "right/base"}
+
+
+def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
+    """Everybody again and again, so that whoever was heard by mistake has been heard often."""
+
+    def again() -> bool:
+        for name, proxy in proxies.items():
+            proxy.said(name, 0)
+        return until()  # type: ignore[operator,no-any-return]
+
+    wait_for(again)
+    for _ in range(3):
+        again()
+
+
+def test_a_publisher_does_not_wait_for_another_branch(network: Network) -> None:
+    network.node("right/arm").hear(lambda *_: None)
+    publisher = network.node("left/base").news()
+    assert not publisher.wait_for_server(0.2)
+    network.node("left/arm").hear(lambda *_: None)
+    assert publisher.wait_for_server(DEADLINE)
+
+
+def test_a_port_of_a_name_of_whomever_is_beside(network: Network) -> None:
+    """What `--remap` gives: `*.front`."""
+    for prefix, result in (("left", 1), ("right", 2)):
+        base = network.node(f"{prefix}/base")
+        base.serve({"add": lambda *_, r=result: r}, port="front")
+        base.serve({"add": lambda *_: 99}, port="back")
+    assert asked(network, "left/arm", "*.front") == 1
+    assert asked(network, "right/arm", "*.front") == 2
+
+
+def test_publications_of_a_port_of_a_name(network: Network) -> None:
+    heard: set[str] = set()
+    network.node("left/arm").hear(lambda who, _n: heard.add(who), "*.scan")
+    proxies = {}
+    for name in ("left/base", "right/base"):
+        node = network.node(name)
+        for port in ("scan", "other"):
+            proxies[f"{name}.{port}"] = _news(node, port)
+    _publish(proxies, lambda: heard)
+    assert heard == {"left/base.scan"}
+
+
+def _news(node: Node, port: str) -> NewsProxy:
+    return NewsProxy(node.middleware.advertise(Endpoint(NEWS, node.name, port)))
