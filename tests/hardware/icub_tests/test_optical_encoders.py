@@ -1,0 +1,25 @@
+"""opticalEncoders-drift and motorEncoders-consistency of icub-tests."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.hardware.control.modes import Mode
+
+
+def test_both_encoders_agree_while_the_arm_moves(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 0.7)
+    arm.command.position_move(None, arm.inside)
+    motors, last = arm.board.motors, arm.board.state()
+    for _ in range(400):
+        arm.world.advance(0.002)
+        state = arm.board.state()
+        per_turn = motors.counts / (2 * np.pi)
+        from_motors = np.linalg.inv(motors.to_motor) @ (state.motor_counts / per_turn)
+        assert from_motors == pytest.approx(state.position, abs=2e-4)
+        measured = (state.position - last.position) / (state.time - last.time)
+        assert measured == pytest.approx((state.velocity + last.velocity) / 2, abs=0.04)
+        assert state.motor_speed == pytest.approx(motors.to_motor @ state.velocity * per_turn)
+        last = state

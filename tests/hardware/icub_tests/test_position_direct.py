@@ -1,0 +1,22 @@
+"""PositionDirect of icub-tests: joints follow a stream of positions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.modes import Mode
+
+
+def test_joints_follow_a_stream_of_direct_positions(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.command.set_mode(None, Mode.POSITION_DIRECT)
+    arm.world.advance(0.1)
+    worst, wave = 0.0, 0.15
+    for k in range(600):  # a sine at 0.4 Hz, commanded at 100 Hz
+        goal = arm.inside + wave * np.sin(2 * np.pi * 0.4 * 0.01 * k)
+        arm.command.set_position(None, goal)
+        arm.world.advance(0.01)
+        worst = max(worst, float(np.abs(arm.board.position - goal).max()))
+    assert worst < 0.03
