@@ -199,3 +199,14 @@ Right:
     <state id="working"> <onentry> <send event="begin"/> </onentry> </state>
 """,
 )
+
+DEEP_STATES = Code(
+    "RC709",
+    Severity.ERROR,
+    "states are nested too deeply",
+    """\
+States nest at most 200 deep, in SMDSL and in SCXML; no machine that anybody follows needs ten. A
+generated file may have put the steps of one after the other into each other: steps that follow each
+other are states of one block with transitions between them.
+""",
+)

@@ -173,15 +173,14 @@ class _Resolver:
         )
 
     def _misplaced(self, element: Element, tag: Tag) -> None:
-        child = element.children[0]
+        at = element.children[0].tag.span
         if tag.holds:
             said = f"elements are nested more than {MAX_DEPTH} deep; the rest is left out"
-        else:
-            said = f"`<{element.tag.text}>` holds no other elements"
+            self.report.add(codes.BODY_NESTING, at, said)
+            return
+        said = f"`<{element.tag.text}>` holds no other elements"
         holders = ", ".join(f"`{name}`" for name, one in TAGS.items() if one.holds is True)
-        self.report.add(
-            codes.BODY_NESTING, child.tag.span, said, help=f"those that do are {holders}"
-        )
+        self.report.add(codes.BODY_NESTING, at, said, help=f"those that do are {holders}")
 
     # -- included files -----------------------------------------------------------------------
 

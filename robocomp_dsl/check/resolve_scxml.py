@@ -44,7 +44,7 @@ def _too_deep(root: Element, report: Report) -> bool:
         level = [child for one in level for child in one.children]
     if level:
         said = f"elements are nested more than {MAX_DEPTH} deep"
-        report.add(codes.SCXML_TAG, level[0].tag.span, said)
+        report.add(codes.DEEP_STATES, level[0].tag.span, said)
     return bool(level)
 
 

@@ -16,6 +16,9 @@ from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 from robocomp_dsl.syntax import ast_smdsl as ast
 from robocomp_dsl.syntax.ast_base import Name
 
+MAX_DEPTH = 200
+"""Of blocks inside each other, as of the elements of SCXML."""
+
 
 @dataclass(slots=True)
 class Blocks:
@@ -76,22 +79,28 @@ def _blocks(machine: ast.Machine, substates: tuple[ast.Substates, ...], report: 
             _unknown(block.name, names, report)
         elif earlier is not block:
             report_repeat(block.name, earlier.name, "block", report)
-    _cut_circles(made, report)
+    _cut_circles_and_depths(made, report)
     return made
 
 
-def _cut_circles(blocks: Blocks, report: Report) -> None:
-    """A state inside itself, directly or not."""
+def _cut_circles_and_depths(blocks: Blocks, report: Report) -> None:
+    """A state inside itself, directly or not, and one inside too many others, come outermost."""
+    told = False
     for name in list(blocks.inside):
         seen = {name}
         block = blocks.home.get(name, "") if name else ""
-        while block and block not in seen:
+        while block and block not in seen and len(seen) < MAX_DEPTH:
             seen.add(block)
             block = blocks.home.get(block, "")
-        if block:
-            at = blocks.inside[name].name
-            report.add(codes.UNKNOWN_STATE, at.span, f"`{name}` would be inside itself")
-            blocks.home[name] = ""
+        if not block:
+            continue
+        at = blocks.inside[name].name.span
+        blocks.home[name] = ""
+        if block in seen:
+            report.add(codes.UNKNOWN_STATE, at, f"`{name}` would be inside itself")
+        elif not told:
+            report.add(codes.DEEP_STATES, at, f"`{name}` is inside more than {MAX_DEPTH} states")
+            told = True
 
 
 def _states(block: str, blocks: Blocks) -> tuple[State, ...]:

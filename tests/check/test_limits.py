@@ -140,3 +140,50 @@ def test_unreadable_imports_are_findings(tmp_path: Path) -> None:
     report = Report()
     assert check_idsl(path, Workspace(environ={}), report) is not None
     assert [one.code.id for one in report] == ["RC209"]
+
+
+NESTED = {
+    "x.smdsl": (
+        "deep { initial_state s0; };\n",
+        lambda n: "".join(f":s{i} {{ initial_state s{i + 1}; }};\n" for i in range(n)),
+        "RC709",
+    ),
+    "turned.smdsl": (
+        "deep { initial_state s0; };\n",
+        lambda n: "".join(f":s{i} {{ initial_state s{i + 1}; }};\n" for i in range(n)[::-1]),
+        "RC709",
+    ),
+    "x.scxml": (
+        "",
+        lambda n: (
+            '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0">'
+            + "".join(f'<state id="s{i}">' for i in range(n))
+            + "</state>" * n
+            + "</scxml>"
+        ),
+        "RC709",
+    ),
+    "x.xml": (
+        "",
+        lambda n: (
+            "<innerModel>"
+            + "".join(f'<transform id="t{i}">' for i in range(n))
+            + "</transform>" * n
+            + "</innerModel>"
+        ),
+        "RC807",
+    ),
+    "x.ddsl": ("Deployment d {", lambda n: "group g { " * n + "};" * n + "};", "RC005"),
+    "x.pdsl": ("ComponentParams d {", lambda n: "g { " * n + "};" * n + "};", "RC005"),
+    "x.idsl": ("module M {", lambda n: "sequence<" * n + "int" + ">" * n + " a; };", "RC005"),
+}
+
+
+@pytest.mark.parametrize("name", NESTED)
+@pytest.mark.parametrize("depth", [600, 6000])
+def test_what_nests_without_end(tmp_path: Path, name: str, depth: int) -> None:
+    start, nested, code = NESTED[name]
+    (tmp_path / name).write_text(start + nested(depth))
+    found = _found(tmp_path / name)
+    assert code in found
+    assert len(found) < 5

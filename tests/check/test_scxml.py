@@ -90,7 +90,7 @@ def test_nesting_without_end_is_told(tmp_path: Path) -> None:
     path.write_text("<scxml>" + "<state>" * 5000 + "</state>" * 5000 + "</scxml>")
     report = Report()
     assert check_file(path, Workspace(environ={}), report) is None
-    assert [d.code.id for d in report] == ["RC707"]
+    assert [d.code.id for d in report] == ["RC709"]
 
 
 PIECES = [
