@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.modes import Mode
@@ -48,3 +49,26 @@ def test_torque_mode_gives_the_torque_and_no_more(arm):
     arm.world.advance(0.002)
     assert (arm.board.torque <= arm.board.limits.torque).all()
     arm.command.set_mode([0], Mode.POSITION)
+
+
+def test_no_command_gets_past_the_limits_on_its_way_to_a_motor(arm):
+    """Whatever is asked for, motors get no more than the torque limits, joints no more speed."""
+    limits = arm.board.limits
+    arm.world.model.opt.gravity[:] = 0
+    for mode, drive in (
+        (Mode.TORQUE, lambda: arm.command.set_torque(None, 1e9)),
+        (Mode.PWM, lambda: arm.command.set_duty(None, 1e9)),
+        (Mode.VELOCITY_DIRECT, lambda: arm.command.set_velocity(None, 1e9)),
+        (Mode.POSITION_DIRECT, lambda: arm.command.set_position(None, 1e9)),
+    ):
+        arm.command.set_mode(None, Mode.POSITION)
+        arm.settings.set_reference_speed(None, 4.0)
+        arm.go(None, arm.inside)
+        arm.command.set_mode(None, mode)
+        assert drive().all()
+        for _ in range(60):
+            arm.world.advance(0.001)
+            given = np.abs(arm.world.data.ctrl[arm.part._motor])
+            assert (given <= limits.torque + 1e-9).all(), mode
+            assert (arm.board.references.position <= limits.high + 1e-9).all(), mode
+            assert (np.abs(arm.board.references.velocity) <= limits.speed + 1e-9).all(), mode

@@ -23,3 +23,19 @@ def test_both_encoders_agree_while_the_arm_moves(arm):
         assert measured == pytest.approx((state.velocity + last.velocity) / 2, abs=0.04)
         assert state.motor_speed == pytest.approx(motors.to_motor @ state.velocity * per_turn)
         last = state
+
+
+def test_encoders_do_not_drift_in_a_cyclic_motion(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 2.0)
+    arm.go(None, arm.inside)
+    first = arm.board.state()
+    for _ in range(6):
+        arm.go(None, arm.inside + 0.12)
+        arm.go(None, arm.inside)
+    last = arm.board.state()
+    counts = arm.board.motors.counts * arm.board.motors.gear / (2 * np.pi)
+    assert last.position == pytest.approx(first.position, abs=0.005)
+    assert last.motor_counts == pytest.approx(first.motor_counts, abs=0.015 * counts.max())
+    true = np.array([arm.world.data.joint(name).qpos[0] for name in arm.spec.names])
+    assert last.position == pytest.approx(true, abs=0.01)

@@ -20,3 +20,21 @@ def test_joints_follow_a_stream_of_direct_positions(arm):
         arm.world.advance(0.01)
         worst = max(worst, float(np.abs(arm.board.position - goal).max()))
     assert worst < 0.03
+
+
+def test_single_joints_and_groups_follow_while_the_others_stay(arm):
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.command.set_mode(None, Mode.POSITION_DIRECT)
+    for group in ([3], [4, 0]):
+        arm.world.advance(0.5)
+        for k in range(101):
+            arm.command.set_position(group, arm.inside[group] + 0.1 * np.sin(np.pi * k / 50))
+            arm.world.advance(0.01)
+            off = np.abs(arm.board.position - arm.inside)
+            off[group] = 0.0
+            assert off.max() < 0.02
+            if k == 25:
+                reached = arm.board.position[group] - arm.inside[group]
+                assert (np.abs(reached - 0.1) < 0.03).all()
