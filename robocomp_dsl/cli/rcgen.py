@@ -13,6 +13,7 @@ from robocomp_dsl.cli.program import LazyGroup, run
 TABLE = {
     "component": ("component", "Generate a component from its CDSL file."),
     "interface": ("interface", "Write an interface as Slice, as ROS 2 messages or as JSON Schema."),
+    "simulator": ("simulator", "Generate a simulator from a world: its devices are served."),
     "check": ("check", "Check descriptions; the exit code is 1 if there are errors."),
     "doc": ("doc", "Write linked documentation of interfaces, components and deployments."),
     "fmt": ("fmt", "Format descriptions; nothing that they say changes."),

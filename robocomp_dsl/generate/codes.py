@@ -164,3 +164,30 @@ something else. Slice has no negative values in enumerations:
     enum Level { Low = -1, High };        wrong for Slice
     enum Level { Low, High };             right""",
 )
+
+NO_SIMULATION = Code(
+    "RC641",
+    Severity.ERROR,
+    "worlds cannot be built here",
+    """A simulator needs MuJoCo, which an installation without the extra `simulation` lacks:
+
+    pip install 'robocomp_dsl[simulation]'""",
+)
+
+IMPOSSIBLE_WORLD = Code(
+    "RC642",
+    Severity.ERROR,
+    "the world cannot be simulated",
+    """The file is well formed, but MuJoCo cannot build what it describes; the message is MuJoCo's
+or says which node is in the way. Usual causes are two nodes with one id and sizes or masses that
+are not finite.""",
+)
+
+SIMPLIFIED_WORLD = Code(
+    "RC643",
+    Severity.WARNING,
+    "something is simulated otherwise than described",
+    """The world is built, with something simpler in the place of what was described: a mesh whose
+file is missing or in a format that only OpenSceneGraph reads becomes a box, a node with
+`engine="bullet"` inside another one moves with that instead of falling.""",
+)

@@ -47,7 +47,7 @@ def generic_imports(component: Component, called: Called) -> Iterator[str]:
 
 
 def specific_imports(called: Called) -> Iterator[str]:
-    """Those of `specificworker.py`."""
+    """Those of a module that defines the handlers, as `specificworker.py` does."""
     yield "from generated.genericworker import GenericWorker"
     if used := _signature_types(called):
         yield _import("generated.interfaces", used)

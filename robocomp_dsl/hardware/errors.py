@@ -2,6 +2,8 @@
 
 HardwareError
 ├── CommandRefused      the command was not carried out; the device does what it did before
+├── DeviceGone          the device was taken out of the world
+├── FrameError          a frame that is not there, is there already, or cannot go there
 └── SceneError          the description of the world cannot be simulated
     └── Diverged        the simulation has become meaningless and must be started again
 """
@@ -17,6 +19,10 @@ class HardwareError(Exception):
 
 class CommandRefused(HardwareError):
     """A command that makes no sense or is beyond a limit; nothing has changed."""
+
+
+class DeviceGone(HardwareError):
+    """The device was there and has been taken out of the world."""
 
 
 class FrameError(HardwareError):

@@ -17,6 +17,7 @@ from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.laser import LaserSettings, Scan
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 
 _PAST = 1e-4  # m behind a surface of the carrier from which a ray goes on
 _OWN_SURFACES = 8  # of the carrier that one ray may pass
@@ -33,15 +34,36 @@ class Mount:
     alpha: float = 0.0
 
 
+def carried(model: Any, top: int) -> NDArray[np.bool_]:
+    """Which bodies are `top` or stand on it, shape (number of bodies,)."""
+    found = np.zeros(model.nbody, np.bool_)
+    found[top] = True
+    for body in range(top + 1, model.nbody):  # bodies come after their parents
+        found[body] |= found[model.body_parentid[body]]
+    return found
+
+
 class Laser:
-    """The device. `name` names its site in the MuJoCo model."""
+    """The device. `name` names its site in the MuJoCo model.
+
+    It does not see `carrier` with all that stands on it: a body, by default the tree of bodies that
+    the laser is mounted in. `level` is a factor on the noise.
+    """
 
     def __init__(
-        self, settings: LaserSettings, mount: Mount = Mount(), *, name: str = "laser"
+        self,
+        settings: LaserSettings,
+        mount: Mount = Mount(),
+        *,
+        name: str = "laser",
+        carrier: str = "",
+        level: NoiseLevel | None = None,
     ) -> None:
         self._settings = settings
         self._mount = mount
         self.name = name
+        self._carrier = carrier
+        self._level = level or NoiseLevel()
         self._angles = settings.angles()
         self._angles.flags.writeable = False
         wide = self._angles.astype(np.float64)
@@ -61,13 +83,21 @@ class Laser:
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find the site again and take the first scan."""
-        self._model, self._data, self._random = model, data, random
-        self._site = int(model.site(self.name).id)
-        self._body = int(model.site_bodyid[self._site])
-        root = model.body_rootid[self._body]
-        self._own = np.asarray(model.body_rootid[model.geom_bodyid] == root)
+        self._random = random
+        self.find(model, data)
         self._due = self._settings.period
         self._scan = self._measure()
+
+    def find(self, model: Any, data: Any) -> None:
+        """The same site in another model."""
+        self._model, self._data = model, data
+        self._site = int(model.site(self.name).id)
+        self._body = int(model.site_bodyid[self._site])
+        if self._carrier:
+            top = int(model.body(self._carrier).id)
+        else:
+            top = int(model.body_rootid[self._body])
+        self._own = carried(model, top)[model.geom_bodyid]
 
     def before_step(self, dt: float) -> None:
         """Nothing: a laser has no motor that matters."""
@@ -81,9 +111,10 @@ class Laser:
     def _measure(self) -> Scan:
         it = self._settings
         distances = self._cast() / MM
-        if it.noise:
+        spread = it.noise * self._level.factor
+        if spread:
             hit = distances < it.max_range
-            noise = self._random.standard_normal(it.measures) * it.noise
+            noise = self._random.standard_normal(it.measures) * spread
             distances = np.where(hit, distances + noise, distances)
         found = np.clip(distances, it.min_range, it.max_range).astype(np.float32)
         found.flags.writeable = False
@@ -110,9 +141,10 @@ class Laser:
             count,
             self._settings.max_range * MM,
         )
-        own = (geoms >= 0) & self._own[np.maximum(geoms, 0)]
-        for i in np.flatnonzero(own):
-            distances[i] = self._behind(rays[i], float(distances[i]))
+        if self._own.any():
+            own = (geoms >= 0) & self._own[np.maximum(geoms, 0)]
+            for i in np.flatnonzero(own):
+                distances[i] = self._behind(rays[i], float(distances[i]))
         return np.where(distances < 0, np.inf, distances)
 
     def _behind(self, ray: NDArray[np.float64], reached: float) -> float:

@@ -1,6 +1,6 @@
 """A scene to a MuJoCo model: a body for every frame, a joint for all that moves, a geom per shape.
 
-In: a `Scene`. Out: an `MjSpec` whose bodies, joints and geoms have the scene's ids, and what had to
+In: a `Scene`. Out: an `MjSpec` whose joints and geoms have the scene's ids (bodies: `body_name`), and what had to
 be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of `xpos`
 and `xmat` gives its matrices.
 """
@@ -22,6 +22,11 @@ from robocomp_dsl.hardware.scene import ROOT, Frame, Motion, Scene, Triple
 
 _LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def body_name(frame: str) -> str:
+    """What the body of a frame is called; `world` is MuJoCo's own name for the root."""
+    return {ROOT: "world", "world": "world."}.get(frame, frame)
 
 
 def build_spec(scene: Scene) -> tuple[Any, list[str]]:
@@ -46,7 +51,7 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
     if frame.parent not in bodies:
         raise SceneError(f"`{frame.id}` stands in `{frame.parent}`, which is no frame before it")
     body = bodies[frame.parent].add_body(
-        name=frame.id,
+        name=body_name(frame.id),
         pos=axes.point(*frame.place),
         quat=axes.quaternion(rotation(*frame.turn)),
     )

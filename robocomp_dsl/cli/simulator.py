@@ -1,0 +1,136 @@
+"""`rcgen simulator`: a world becomes a component that simulates it and serves what is in it.
+
+In: an InnerModel file. Out: a folder with the component, or with `--dry-run` the list of what would
+be served; findings on standard error.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from robocomp_dsl.check import check_cdsl, check_innermodel
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate import codes
+from robocomp_dsl.source import Span
+
+if TYPE_CHECKING:
+    from robocomp_dsl.generate.output import OutputFile
+    from robocomp_dsl.generate.simulator import Simulator
+    from robocomp_dsl.model.body import Body
+
+
+@click.command()
+@click.argument("file", type=click.Path(readable=False, path_type=Path), metavar="WORLD.xml")
+@click.option(
+    "-o",
+    "output",
+    type=click.Path(readable=False, path_type=Path),
+    metavar="DIR",
+    help="Where to; by default a folder <world>_simulator beside the file.",
+)
+@click.option("--dry-run", is_flag=True, help="Write nothing; list what would be served.")
+@options.output_format
+@options.folders
+def command(
+    *, file: Path, output: Path | None, dry_run: bool, form: str, folders: tuple[Path, ...]
+) -> None:
+    """Generate a simulator from an InnerModel file: a component that serves its devices.
+
+    The world is built once to see that it can be. All is rewritten the next time but
+    `specificworker.py`, `README.md` and `etc/config.yaml`.
+    """
+    report = Report()
+    workspace = Workspace(folders)
+    made = _world(file, workspace, report)
+    folder = output or file.parent / (made.name if made else "")
+    files = _files(made, folder, workspace, report) if made and not report.failed else []
+    options.show(report.sorted(), form, sys.stderr)
+    if made is None or report.failed:
+        sys.exit(FINDINGS)
+    if dry_run:
+        print(table(made))
+    else:
+        _write(folder, files, made)
+
+
+def _world(file: Path, workspace: Workspace, report: Report) -> Simulator | None:
+    """The simulator of a file without errors that MuJoCo can build."""
+    body = check_innermodel(file, workspace, report)
+    if body is None or report.failed:
+        return None
+    from robocomp_dsl.generate.simulator import simulator  # noqa: PLC0415 - not for --help
+
+    made = simulator(body)
+    _build(made, body, report)
+    return made
+
+
+def _build(made: Simulator, body: Body, report: Report) -> None:
+    """Build the world, and report what is not as described or cannot be."""
+    try:
+        from robocomp_dsl.hardware.mujoco.simulation import Simulation  # noqa: PLC0415 - slow
+    except ImportError as missing:
+        report.add(codes.NO_SIMULATION, body.root.span, str(missing))
+        return
+    from robocomp_dsl.hardware.errors import HardwareError  # noqa: PLC0415
+    from robocomp_dsl.hardware.scene import Scene  # noqa: PLC0415
+
+    try:
+        notes = Simulation(Scene.of_data(made.scene)).notes
+    except HardwareError as error:
+        report.add(codes.IMPOSSIBLE_WORLD, _place(str(error), body), str(error))
+        return
+    for note in notes:
+        report.add(codes.SIMPLIFIED_WORLD, _place(note, body), note)
+
+
+def _place(said: str, body: Body) -> Span:
+    """The node whose id a message names first, else the whole world."""
+    spans = {node.id: node.span for node, _ in body.nodes()}
+    quoted = said.split("`")[1::2]
+    return next((spans[name] for name in quoted if name in spans), body.root.span)
+
+
+def _files(made: Simulator, folder: Path, workspace: Workspace, report: Report) -> list[OutputFile]:
+    """All files, from descriptions that are checked as if they stood on the disk already."""
+    from robocomp_dsl.generate.simulator import descriptions, files  # noqa: PLC0415 - late
+
+    described = descriptions(made)
+    for one in described:
+        workspace.files.open_buffer(folder / one.path, one.text)
+    component = check_cdsl(folder / described[0].path, workspace, report)
+    return [*described, *files(made, component)] if component and not report.failed else []
+
+
+def _write(folder: Path, files: list[OutputFile], made: Simulator) -> None:
+    from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - late
+
+    try:
+        changes = write(folder, files)
+    except CannotWrite as error:
+        options.complain(str(error))
+        sys.exit(FINDINGS)
+    written = sum(one.pending for one in changes)
+    print(f"{folder}: {written} of {len(changes)} files written; {len(made.ports)} ports")
+    print(f"next: cd {folder} && python3 main.py")
+
+
+def table(made: Simulator) -> str:
+    """What is served, a line for each device and interface."""
+    rows = [("device", "kind", "interface", "port")]
+    for one in made.ports:
+        shown = one.devices or (("(the world)", "world"),)
+        rows += [(id_, kind, one.interface, one.port) for id_, kind in shown]
+    rows += [(id_, kind, "-", "-") for id_, kind in made.unserved]
+    widths = [max(len(row[i]) for row in rows) for i in range(4)]
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    )

@@ -1,0 +1,82 @@
+"""A simulator from a body: the descriptions of a component, and the code that serves its devices.
+
+In: a resolved `Body`, later the `Component` that the descriptions resolve to. Out: texts and
+`OutputFile`s. The scene goes as data into `generated/scene.json`; what simulates it is in
+`robocomp_dsl.hardware`.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.component_names import names_of
+from robocomp_dsl.generate.names import camel
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.generate.simulator.handlers import simulator_code
+from robocomp_dsl.generate.simulator.offers import ServedAs, identifier, not_served, served
+from robocomp_dsl.generate.templates import render
+from robocomp_dsl.model.body import Body
+from robocomp_dsl.model.component import Component
+
+FOLDER = "python/simulator/"
+WORKER = "specificworker.py"
+
+
+@dataclass(frozen=True, slots=True)
+class Simulator:
+    """What a world becomes: the `scene` as data, its `ports`, devices (id, kind) without one."""
+
+    name: str
+    source: str
+    scene: dict[str, Any]
+    ports: tuple[ServedAs, ...]
+    unserved: tuple[tuple[str, str], ...]
+
+    @property
+    def title(self) -> str:
+        """The name as the first part of the name of a class."""
+        return camel(self.name)
+
+
+def simulator(body: Body) -> Simulator:
+    """The simulator of a world. Files that the scene names get absolute paths."""
+    scene = lower(body)
+    for mesh in scene["meshes"]:
+        mesh["file"] = str(Path(mesh["file"]).absolute()) if mesh["file"] else ""
+    return Simulator(
+        f"{identifier(body.path.stem)}_simulator",
+        body.path.name,
+        scene,
+        served(scene),
+        tuple(not_served(scene)),
+    )
+
+
+def descriptions(made: Simulator) -> list[OutputFile]:
+    """The CDSL and the PDSL file."""
+    interfaces = list(dict.fromkeys(one.interface for one in made.ports))
+    return [
+        OutputFile(
+            f"{made.name}.cdsl",
+            render(f"{FOLDER}simulator.cdsl.jinja", simulator=made, interfaces=interfaces),
+        ),
+        OutputFile(f"{made.name}.pdsl", render(f"{FOLDER}simulator.pdsl.jinja", simulator=made)),
+    ]
+
+
+def files(made: Simulator, component: Component) -> list[OutputFile]:
+    """All files of the component but its descriptions."""
+    code = simulator_code(made.source, component, names_of(component))
+    data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
+    planned = [one for one in plan(component) if one.path != WORKER]
+    return [
+        *planned,
+        OutputFile("generated/scene.json", f"{json.dumps(data, indent=1, ensure_ascii=False)}\n"),
+        OutputFile("generated/simulator.py", render(f"{FOLDER}simulator.py.jinja", code=code)),
+        OutputFile(WORKER, render(f"{FOLDER}{WORKER}.jinja", code=code), keep=True),
+    ]

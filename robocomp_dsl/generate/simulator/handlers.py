@@ -1,0 +1,72 @@
+"""What `generated/simulator.py` says: for every operation a method that asks the device behind it.
+
+In: a component and its names. Out: plain data for the template.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from robocomp_dsl.generate import docs, layout, literals, names
+from robocomp_dsl.generate.component_names import SERVED, Called
+from robocomp_dsl.generate.layout import BODY, INNER, definition
+from robocomp_dsl.generate.worker_imports import specific_imports
+from robocomp_dsl.model.component import Component, Port
+from robocomp_dsl.model.interface import Operation
+
+
+@dataclass(frozen=True, slots=True)
+class Delegation:
+    """One method: its head and its body, line by line."""
+
+    definition: str
+    doc: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SimulatorCode:
+    """The module. `source` is the file that the world was described in."""
+
+    title: str
+    source: str
+    doc: str
+    imports: tuple[str, ...]
+    methods: tuple[Delegation, ...]
+
+
+def simulator_code(source: str, component: Component, called: Called) -> SimulatorCode:
+    """Everything that the templates print."""
+    served = [p for p in component.ports if p.role in SERVED]
+    return SimulatorCode(
+        title=component.name,
+        source=source,
+        doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
+        imports=tuple(specific_imports(called)),
+        methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
+    )
+
+
+def _method(port: Port, one: Operation, called: Called) -> Delegation:
+    arguments = called.types.arguments(one)
+    returns = called.types.returns(one)
+    return Delegation(
+        definition(
+            called.handlers[port, one], ("self", *(f"{a}: {t}" for a, t in arguments)), returns
+        ),
+        literals.docstring(docs.of_operation(one, called.types, port.interface.qualified), BODY),
+        tuple(_lines(port, one, [a for a, _ in arguments], layout.flat(returns))),
+    )
+
+
+def _lines(port: Port, one: Operation, arguments: list[str], returns: str) -> Iterator[str]:
+    """Two steps for an answer, so that every line is one that the formatter leaves as it is."""
+    operation = f"self.ports[{literals.quoted(port.name)}].{one.name}"
+    if returns == "None":
+        yield layout.statement("", layout.call(operation, *arguments), BODY)
+        return
+    ask, answer = names.unique(("ask", "answer"), arguments)
+    yield f"{ask} = {operation}"
+    yield layout.statement(f"{answer}: {returns} = ", layout.call(ask, *arguments), BODY)
+    yield f"return {answer}"

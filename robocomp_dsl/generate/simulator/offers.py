@@ -1,0 +1,95 @@
+"""Which interfaces the devices of a scene are served as: one table.
+
+In: the devices of a lowered scene. Out: the ports of the component that serves them.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_dsl.generate import names
+
+
+@dataclass(frozen=True, slots=True)
+class Offer:
+    """Devices of a `kind` serve `interface` of the file of that name.
+
+    `shared`: one port for all of them, called as the interface; else one for each, called as the
+    device.
+    """
+
+    kind: str
+    interface: str
+    shared: bool = False
+
+
+OFFERS = (
+    Offer("differentialrobot", "DifferentialRobot"),
+    Offer("omnirobot", "OmniRobot"),
+    Offer("laser", "Laser"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ServedAs:
+    """A port, and the devices (id, kind) that it stands for; none: the world as a whole.
+
+    `with_` are devices that the first one needs beside it.
+    """
+
+    port: str
+    interface: str
+    devices: tuple[tuple[str, str], ...] = ()
+    with_: tuple[str, ...] = ()
+
+    @property
+    def ids(self) -> list[str]:
+        """All devices that a servant is given."""
+        return [*(id_ for id_, _ in self.devices), *self.with_]
+
+
+def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
+    """The ports for a lowered scene, in the order of the table."""
+    taken = names.Scope({one.interface for one in OFFERS})
+    found: list[ServedAs] = []
+    for interface in dict.fromkeys(one.interface for one in OFFERS):
+        kinds = {one.kind: one.shared for one in OFFERS if one.interface == interface}
+        here = [d for d in scene["devices"] if d["kind"] in kinds]
+        together = tuple((d["id"], d["kind"]) for d in here if kinds[d["kind"]])
+        if together:
+            found.append(ServedAs(interface, interface, together))
+        for device in here:
+            if not kinds[device["kind"]]:
+                port = taken.claim(identifier(device["id"]))
+                pair = (device["id"], device["kind"])
+                found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
+    return tuple(found)
+
+
+def identifier(written: str) -> str:
+    """A text as a name of the languages, not too long for a line of code."""
+    made = re.sub(r"[^A-Za-z0-9_]", "_", written).strip("_")[:40]
+    return made if made[:1].isalpha() else f"n{made}"
+
+
+def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
+    """Devices (id, kind) that no interface is there for."""
+    kinds = {one.kind for one in OFFERS}
+    return [(d["id"], d["kind"]) for d in scene["devices"] if d["kind"] not in kinds]
+
+
+def _base(scene: dict[str, Any], device: dict[str, Any]) -> Iterator[str]:
+    """The mobile base that carries a laser."""
+    if device["kind"] != "laser":
+        return
+    frames = {one["id"]: one for one in scene["frames"]}
+    bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
+    at = device["frame"]
+    while at:
+        if at in bases:
+            yield bases[at]
+            return
+        at = frames[at]["parent"]

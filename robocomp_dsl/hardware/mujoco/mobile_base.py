@@ -1,0 +1,164 @@
+"""A simulated base of a scene: it slides over the floor and turns, driven by three velocity motors.
+
+In: commands of the Protocol. Out: states. The odometry sums up what the base moves in its own frame
+with a relative error that is drawn once (`drift`) and a random walk (`noise`, mm after one metre);
+the corrected pose is the true one unless `correct` has moved it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.errors import finite
+from robocomp_dsl.hardware.mobile_base import BaseLimits, MobileBaseState, check_speed
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.planar import ORIGIN, Pose, wrapped
+
+_PARTS = ("x", "z", "alpha")
+_INERTIA = (20.0, 20.0, 2.0)  # kg, kg, kg·m²: the base itself, whatever it carries
+_GAIN = (1000.0, 1000.0, 100.0)  # N per m/s: 20 ms to a new speed
+_STALL = (400.0, 400.0, 100.0)  # N, N, N·m
+_ACCELERATION = (2.0, 2.0, 6.0)  # m/s², m/s², rad/s²
+_STILL = (1e-3, 1e-3, 1e-3)  # m/s, m/s, rad/s, below which the base counts as standing
+_DRIFT = 0.004
+
+
+class MobileBase:
+    """The device on the frame `name` of a scene."""
+
+    def __init__(
+        self,
+        limits: BaseLimits,
+        level: NoiseLevel,
+        *,
+        name: str,
+        noise: float = 0.0,
+        drift: float = _DRIFT,
+    ) -> None:
+        self._limits = limits
+        self._level = level
+        self.name = name
+        self._noise = noise
+        self._drift = drift
+        self._odometry = ORIGIN
+        self._correction = ORIGIN
+        self._goal = np.zeros(3)  # side, ahead, turn in m/s and rad/s, in the frame of the base
+        self._speed = np.zeros(3)
+
+    # -- as a part of the world ---------------------------------------------------------------
+
+    def build(self, spec: Any) -> None:
+        """Motors and inertia for the joints that the scene has put there."""
+        for i, part in enumerate(_PARTS):
+            joint = spec.joint(f"{self.name}.{part}")
+            joint.armature = _INERTIA[i]
+            motor = spec.add_actuator(
+                name=joint.name,
+                target=joint.name,
+                trntype=mujoco.mjtTrn.mjTRN_JOINT,
+                forcelimited=True,
+            )
+            motor.gainprm[0] = _GAIN[i]
+            motor.biastype = mujoco.mjtBias.mjBIAS_AFFINE
+            motor.biasprm[2] = -_GAIN[i]
+            motor.forcerange = [-_STALL[i], _STALL[i]]
+
+    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
+        """At rest at the start, with the errors of its odometry drawn."""
+        self._random = random
+        self._errors = random.standard_normal(3)
+        self.find(model, data)
+        self._last = np.array(data.qpos[self._where])
+
+    def find(self, model: Any, data: Any) -> None:
+        """The same joints in another model."""
+        joints = [model.joint(f"{self.name}.{part}") for part in _PARTS]
+        self._where = np.array([int(joint.qposadr[0]) for joint in joints])
+        self._rates = np.array([int(joint.dofadr[0]) for joint in joints])
+        self._motors = np.array([model.actuator(joint.name).id for joint in joints])
+        self._body = int(model.body(self.name).id)
+        self._data = data
+
+    def before_step(self, dt: float) -> None:
+        """Bring the motors nearer to the commanded speeds."""
+        most = np.array(_ACCELERATION) * dt
+        self._speed += np.clip(self._goal - self._speed, -most, most)
+        side, ahead, turn = self._speed
+        alpha = float(self._data.qpos[self._where[2]])
+        sine, cosine = math.sin(alpha), math.cos(alpha)
+        self._data.ctrl[self._motors] = (
+            side * cosine + ahead * sine,
+            ahead * cosine - side * sine,
+            turn,
+        )
+
+    def after_step(self, dt: float) -> None:  # noqa: ARG002  the Protocol's, not needed here
+        """Sum up the odometry."""
+        now = self._data.qpos[self._where]
+        x, z, turn = now - self._last
+        if not (x or z or turn):
+            return
+        alpha = float(self._last[2]) + turn / 2  # of the middle of the step
+        sine, cosine = math.sin(alpha), math.cos(alpha)
+        moved = np.array([x * cosine - z * sine, x * sine + z * cosine, turn])
+        moved *= 1 + self._drift * self._level.factor * self._errors
+        spread = self._noise * MM * self._level.factor
+        if spread:
+            way = np.sqrt(np.abs(moved))
+            moved += spread * way * self._random.standard_normal(3)
+        middle = Pose(0.0, 0.0, float(moved[2]) / 2)
+        ahead = Pose(float(moved[0]) / MM, float(moved[1]) / MM, float(moved[2]) / 2)
+        self._odometry = self._odometry.then(middle).then(ahead)
+        self._last = now.copy()
+
+    # -- as a device --------------------------------------------------------------------------
+
+    @property
+    def limits(self) -> BaseLimits:
+        """How fast it may go."""
+        return self._limits
+
+    def true_pose(self) -> Pose:
+        """Where it really stands in the world."""
+        return axes.pose(self._data.xpos[self._body], self._data.xmat[self._body])
+
+    def state(self) -> MobileBaseState:
+        """The state after the latest step."""
+        x, z, turn = (float(rate) for rate in self._data.qvel[self._rates])
+        alpha = float(self._data.qpos[self._where[2]])
+        sine, cosine = math.sin(alpha), math.cos(alpha)
+        return MobileBaseState(
+            time=float(self._data.time),
+            odometry=self._odometry,
+            corrected=self._correction.then(self.true_pose()),
+            side=(x * cosine - z * sine) / MM,
+            adv=(x * sine + z * cosine) / MM,
+            rot=turn,
+            moving=any(abs(v) > still for v, still in zip((x, z, turn), _STILL, strict=True)),
+        )
+
+    def set_speed(self, side: float, adv: float, rot: float) -> None:
+        """Drive in mm/s while turning at rad/s. Raises `CommandRefused`."""
+        check_speed(self._limits, side, adv, rot)
+        self._goal[:] = side * MM, adv * MM, rot
+
+    def stop(self) -> None:
+        """Stop as fast as the motors can."""
+        self._goal[:] = 0.0
+        self._speed[:] = 0.0
+
+    def set_odometry(self, pose: Pose) -> None:
+        """The odometry goes on from `pose`. Raises `CommandRefused`."""
+        finite(x=pose.x, z=pose.z, alpha=pose.alpha)
+        self._odometry = Pose(pose.x, pose.z, wrapped(pose.alpha))
+
+    def correct(self, pose: Pose) -> None:
+        """The corrected pose goes on from `pose`. Raises `CommandRefused`."""
+        finite(x=pose.x, z=pose.z, alpha=pose.alpha)
+        self._correction = pose.then(self.true_pose().inverse())

@@ -1,0 +1,72 @@
+"""Which simulated device each kind of a scene becomes: one table.
+
+In: a device of a scene. Out: the part of the world that simulates it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_dsl.hardware.laser import LaserSettings
+from robocomp_dsl.hardware.mobile_base import BaseLimits
+from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
+from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.scene_spec import body_name
+from robocomp_dsl.hardware.scene import ROOT, Device, Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A scene and what all its devices share."""
+
+    scene: Scene
+    noise: NoiseLevel
+
+    def carrier(self, frame: str) -> str:
+        """The nearest frame from `frame` upwards that moves by itself; else `frame`."""
+        frames = {one.id: one for one in self.scene.frames}
+        at = frame
+        while at and at != ROOT:
+            if frames[at].drives or (frames[at].physics and frames[at].parent == ROOT):
+                return at
+            at = frames[at].parent
+        return frame
+
+
+def _laser(site: Site, device: Device) -> Laser:
+    given = device.settings
+    usual = LaserSettings()
+    settings = LaserSettings(
+        measures=int(given["measures"]) or usual.measures,
+        degrees=math.degrees(float(given["angle"])) or usual.degrees,
+        min_range=float(given["min"]),
+        max_range=float(given["max"]) or usual.max_range,
+        noise=float(given.get("noise", 0.0)),
+    )
+    mount = Mount(body_name(device.frame), 0.0, 0.0, 0.0)
+    carrier = body_name(site.carrier(device.frame))
+    return Laser(settings, mount, name=device.id, carrier=carrier, level=site.noise)
+
+
+def _base(site: Site, device: Device) -> MobileBase:
+    limits = BaseLimits(sideways=device.kind == "omnirobot")
+    noise = float(device.settings["noise"])
+    return MobileBase(limits, site.noise, name=device.id, noise=noise)
+
+
+SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
+    "laser": _laser,
+    "differentialrobot": _base,
+    "omnirobot": _base,
+}
+"""Kinds of devices that are simulated one by one."""
+
+
+def parts_of(scene: Scene, noise: NoiseLevel) -> dict[str, Any]:
+    """The parts by the ids of their devices."""
+    site = Site(scene, noise)
+    return {one.id: SINGLE[one.kind](site, one) for one in scene.devices if one.kind in SINGLE}

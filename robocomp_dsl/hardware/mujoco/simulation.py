@@ -1,0 +1,170 @@
+"""A scene that runs by itself: physics in a thread of its own, in step with the clock.
+
+In: a scene and options. Out: `devices` to be served, under `turns`, the only way to touch the world
+while it runs. A world that has diverged is started again or stopped, as the options say.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import math
+import threading
+import time
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from robocomp_dsl.hardware.errors import CommandRefused, Diverged, SceneError, finite
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
+from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
+from robocomp_dsl.hardware.mujoco.world import World
+from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.hardware.serving import Port, serve
+from robocomp_dsl.hardware.turns import Turns
+from robocomp_dsl.runtime import ServedPort
+
+SLICE = 0.002
+"""Seconds of the wall clock from turn to turn of the physics."""
+
+MOST_BEHIND = 0.1
+"""Seconds of the wall clock that it makes up for; behind a longer pause the machine was asleep."""
+
+log = logging.getLogger("robocomp.simulation")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a world runs.
+
+    `step` of the physics in s; `speed` in simulated seconds per second, 0: as fast as it can;
+    `noise` is a factor on what the devices declare.
+    """
+
+    seed: int = 1
+    step: float = 0.002
+    speed: float = 1.0
+    noise: float = 1.0
+    diverged: Literal["reset", "stop"] = "reset"
+
+
+class Simulation:
+    """Not running until `start`; what is in `devices` changes with the scene."""
+
+    def __init__(self, scene: Scene, options: Options = Options()) -> None:
+        self.scene = scene
+        self.options = options
+        self.turns = Turns()
+        self.noise = NoiseLevel(options.noise)
+        self.seed = options.seed
+        self.paused = False
+        self.failure = ""
+        self.factor = 0.0
+        self.devices: dict[str, Any] = {}
+        self.set_speed(options.speed)
+        self._stopping = threading.Event()
+        self._thread: threading.Thread | None = None
+        self.reset()
+
+    @classmethod
+    def read(cls, path: Path, options: Options = Options()) -> Simulation:
+        """The scene in a JSON file that `rcgen simulator` wrote. Raises `SceneError`."""
+        return cls(Scene.of_data(read_data(path)["scene"]), options)
+
+    # -- while it is the caller's turn --------------------------------------------------------
+
+    def reset(self) -> None:
+        """Everything as it was at the start, time included. Raises `SceneError`."""
+        try:
+            spec, self.notes = build_spec(self.scene)
+            spec.option.timestep = self.options.step
+            parts = parts_of(self.scene, self.noise)
+            self.world = World(spec, parts.values(), seed=self.seed)
+        except ValueError as error:  # what MuJoCo says of a body that it does not take
+            raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+        self.devices.clear()
+        self.devices.update(parts)
+        self.failure = ""
+
+    def set_speed(self, speed: float) -> None:
+        """Simulated seconds per second; 0: as fast as it can. Raises `CommandRefused`."""
+        finite(speed=speed)
+        if speed < 0:
+            raise CommandRefused(f"`speed` is {speed:g}, it cannot be negative")
+        self.speed = speed
+
+    def advance(self, seconds: float) -> None:
+        """Let time pass. A world that diverges is reset, or stays where it is, as configured."""
+        self.judge()
+        try:
+            self.world.advance(seconds)
+        except Diverged as error:
+            log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
+            if self.options.diverged == "stop":
+                self.failure = str(error)
+                raise
+            self.reset()
+
+    def judge(self) -> None:
+        """Pass while it is well. Raises `Diverged` for a world that has stopped for good."""
+        if self.failure:
+            raise Diverged(self.failure)
+
+    # -- the thread ---------------------------------------------------------------------------
+
+    def serve(self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]) -> dict[str, Port]:
+        """The ports of a component, answered by the devices that `chosen` lists for each."""
+        return serve(ports, chosen, self.devices, self.turns)
+
+    def start(self) -> None:
+        """Let it run."""
+        self._thread = threading.Thread(target=self._live, name="physics", daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Let it rest for good."""
+        self._stopping.set()
+        if self._thread:
+            self._thread.join()
+
+    def _live(self) -> None:
+        due = time.perf_counter()
+        while not self._stopping.is_set():
+            begun = time.perf_counter()
+            due = max(due, begun - MOST_BEHIND) + SLICE
+            with self.turns:
+                passed = self._slice()
+            now = time.perf_counter()
+            if self.speed and due > now:
+                self._stopping.wait(due - now)
+            elif self.paused or self.failure:
+                self._stopping.wait(SLICE)
+            self._measure(passed, time.perf_counter() - begun)
+
+    def _slice(self) -> float:
+        """One turn; the simulated seconds that have passed."""
+        if self.paused or self.failure:
+            return 0.0
+        before = self.world.time
+        wanted = SLICE * self.speed if self.speed else 10 * self.world.step
+        try:
+            self.advance(wanted)
+        except Diverged:
+            return 0.0
+        return max(self.world.time - before, 0.0)
+
+    def _measure(self, passed: float, took: float) -> None:
+        """The real-time factor, smoothed over half a second."""
+        weight = 1 - math.exp(-took / 0.5)
+        self.factor += weight * (passed / max(took, 1e-9) - self.factor)
+
+
+def read_data(path: Path) -> dict[str, Any]:
+    """What `rcgen simulator` wrote. Raises `SceneError`."""
+    try:
+        data: dict[str, Any] = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise SceneError(f"`{path}` cannot be read: {error}") from None
+    return data

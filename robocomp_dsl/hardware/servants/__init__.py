@@ -1,0 +1,22 @@
+"""What answers for devices: one class per interface, from the device's values to the wire's.
+
+The table binds interfaces to servants; a servant needs no simulator, a driver of real hardware that
+keeps to the Protocol of its device is served by the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
+from robocomp_dsl.hardware.servants.laser import LaserServant
+from robocomp_dsl.hardware.servants.servant import Servant
+
+__all__ = ["SERVANTS"]
+
+SERVANTS: Mapping[str, type[Servant]] = {
+    "RoboCompDifferentialRobot::DifferentialRobot": DifferentialRobotServant,
+    "RoboCompOmniRobot::OmniRobot": OmniRobotServant,
+    "RoboCompLaser::Laser": LaserServant,
+}
+"""The servant of each interface."""

@@ -1,0 +1,81 @@
+"""`DifferentialRobot` and `OmniRobot` over a mobile base."""
+
+# ruff: noqa: N802  methods are called as the operations
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.hardware.mobile_base import MobileBaseDevice
+from robocomp_dsl.hardware.planar import ORIGIN, Pose
+from robocomp_dsl.hardware.servants.servant import Servant
+
+
+def told_state(made: type[Any], state: Any) -> Any:
+    """A `BaseState` as the struct `made`."""
+    return made(
+        x=state.odometry.x,
+        correctedX=state.corrected.x,
+        z=state.odometry.z,
+        correctedZ=state.corrected.z,
+        alpha=state.odometry.alpha,
+        correctedAlpha=state.corrected.alpha,
+        advVx=getattr(state, "side", 0.0),
+        advVz=state.adv,
+        rotV=state.rot,
+        isMoving=state.moving,
+    )
+
+
+class _BaseServant(Servant):
+    """What both interfaces share."""
+
+    @property
+    def _base(self) -> MobileBaseDevice:
+        found: MobileBaseDevice = self.device()
+        return found
+
+    def getBaseState(self) -> Any:
+        """The whole state."""
+        return told_state(self.types.TBaseState, self._base.state())
+
+    def getBasePose(self) -> tuple[int, int, float]:
+        """The odometry pose alone, in whole millimetres."""
+        pose = self._base.state().odometry
+        return round(pose.x), round(pose.z), pose.alpha
+
+    def stopBase(self) -> None:
+        """Stop as fast as the base can."""
+        self._base.stop()
+
+    def resetOdometer(self) -> None:
+        """The odometry starts again at x = z = alpha = 0."""
+        self._base.set_odometry(ORIGIN)
+
+    def setOdometer(self, state: Any) -> None:
+        """The odometry goes on from the pose in `state`."""
+        self._base.set_odometry(Pose(state.x, state.z, state.alpha))
+
+    def setOdometerPose(self, x: int, z: int, alpha: float) -> None:
+        """The odometry goes on from this pose."""
+        self._base.set_odometry(Pose(x, z, alpha))
+
+    def correctOdometer(self, x: int, z: int, alpha: float) -> None:
+        """The corrected pose goes on from this pose."""
+        self._base.correct(Pose(x, z, alpha))
+
+
+class DifferentialRobotServant(_BaseServant):
+    """A base that goes ahead and turns."""
+
+    def setSpeedBase(self, adv: float, rot: float) -> None:
+        """Drive until the next command."""
+        self._base.set_speed(0.0, adv, rot)
+
+
+class OmniRobotServant(_BaseServant):
+    """A base that goes sideways, too."""
+
+    def setSpeedBase(self, advx: float, advz: float, rot: float) -> None:
+        """Drive until the next command."""
+        self._base.set_speed(advx, advz, rot)

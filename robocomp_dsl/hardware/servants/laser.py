@@ -1,0 +1,52 @@
+"""`Laser` over a range finder. The base that it tells of is the one that carries it, if any."""
+
+# ruff: noqa: N802  methods are called as the operations
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from robocomp_dsl.hardware.laser import LaserDevice
+from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.servants.servant import Servant
+
+
+class LaserServant(Servant):
+    """The first device of the port is the laser, the second, if any, the base under it."""
+
+    @property
+    def _laser(self) -> LaserDevice:
+        found: LaserDevice = self.device()
+        return found
+
+    def getLaserData(self) -> Any:
+        """The latest scan."""
+        scan = self._laser.scan()
+        return self.types.TLaserData.from_columns(angle=scan.angles, dist=scan.distances)
+
+    def getLaserAndBStateData(self) -> tuple[Any, Any]:
+        """The latest scan, and the state of the base; all zero where nothing drives."""
+        state = self.types.TBaseState
+        base = told_state(state, self.device(self.ids[1]).state()) if self.ids[1:] else state()
+        return self.getLaserData(), base
+
+    def getLaserConfData(self) -> Any:
+        """How the laser is set up."""
+        it = self._laser.settings
+        half = it.degrees / 2
+        return self.types.LaserConfData(
+            driver="robocomp_dsl",
+            device=self.ids[0],
+            staticConf=1,
+            maxMeasures=it.measures,
+            maxDegrees=math.ceil(it.degrees),
+            maxRange=round(it.max_range),
+            minRange=round(it.min_range),
+            iniRange=-math.ceil(half),
+            endRange=math.ceil(half),
+            cluster=1,
+            sampleRate=round(it.period * 1000),
+            angleRes=it.degrees / max(it.measures - 1, 1),
+            angleIni=-half,
+        )

@@ -1,0 +1,104 @@
+"""The base of servants: the types of their interface, their devices, and how failures are told.
+
+In: an interface as generated code declares it, and the devices behind the port. Out: nothing of its
+own; the methods of the classes below are the operations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
+
+from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
+from robocomp_dsl.runtime import types as rt
+
+_MODULE = "RoboComp"
+
+
+class Types:
+    """The types that an interface mentions, as attributes under the names that the IDSL gives them.
+
+    Generated classes of the same name in two modules carry their module before it
+    (`RoboCompLaser_TData`); here they do not.
+    """
+
+    def __init__(self, interface: rt.Interface) -> None:
+        seen: dict[Any, None] = {}
+        for one in interface.operations:
+            for type_ in (*(t for _, t in (*one.inputs, *one.outputs)), *one.throws):
+                _walk(type_, seen)
+        self._found = {_plain_name(one): one for one in seen}
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):  # also while it is being copied
+            raise AttributeError(name)
+        return self._found[name]
+
+
+def _walk(type_: Any, seen: dict[Any, None]) -> None:
+    if isinstance(type_, type) and type_ not in seen:
+        seen[type_] = None
+    for inner in _inside(type_):
+        if not isinstance(inner, type) or inner not in seen:
+            _walk(inner, seen)
+
+
+def _inside(type_: Any) -> Iterator[Any]:
+    if isinstance(type_, rt.Sequence):
+        yield type_.element
+    elif isinstance(type_, rt.Dictionary):
+        yield from (type_.key, type_.value)
+    elif isinstance(type_, type):
+        yield from (inner for _, inner in getattr(type_, "_fields_", ()))
+        if element := getattr(type_, "_element_", None):
+            yield element
+
+
+def _plain_name(class_: type) -> str:
+    name = class_.__name__
+    if name.startswith(_MODULE) and "_" in name:
+        name = name.partition("_")[2]
+    return name.removesuffix("_")
+
+
+class Servant:
+    """One port. `ids` are its devices, in order; `devices` is looked into at every call."""
+
+    TAKES_TURNS: ClassVar[bool] = True
+    """Whether the world must stand still during a call."""
+
+    FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
+        (HardwareError, "HardwareFailedException"),
+    )
+    """Kinds of failures and the exceptions that they become, the special ones first."""
+
+    def __init__(
+        self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
+    ) -> None:
+        self.types = Types(interface)
+        self.port = port
+        self.ids = ids
+        self._devices = devices
+        self._throws = {one.name: one.throws for one in interface.operations}
+
+    def device(self, id: str = "") -> Any:
+        """The device `id`, or the first. Raises `DeviceGone`."""
+        wanted = id or self.ids[0]
+        try:
+            return self._devices[wanted]
+        except KeyError:
+            raise DeviceGone(f"`{wanted}` has been removed from the world") from None
+
+    def told(self, operation: str, error: HardwareError) -> Exception:
+        """What the caller of `operation` gets: a declared exception where there is one."""
+        for kind, name in self.FAILURES:
+            for declared in self._throws[operation]:
+                if isinstance(error, kind) and _plain_name(declared) == name:
+                    made: Exception = self.failure(declared, error)
+                    return made
+        return error
+
+    def failure(self, declared: type[Any], error: HardwareError) -> Exception:
+        """The exception that the interface declares, filled in."""
+        made: Exception = declared(what=str(error))
+        return made

@@ -1,0 +1,66 @@
+"""Devices served as interfaces: each operation is one call of a servant, when its turn has come.
+
+In: the ports of a component, which devices each stands for, and the devices, simulated or real.
+Out: for every port an object with the operations of its interface as methods.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager
+from typing import Any
+
+from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.servants import SERVANTS
+from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.runtime import ServedPort
+
+Turn = AbstractContextManager[Any]
+
+
+class Port:
+    """One port: an attribute for each operation of its interface, made when it is first called."""
+
+    def __init__(self, servant: Servant, turn: Turn) -> None:
+        self._servant = servant
+        self._turn = turn
+
+    def __getattr__(self, operation: str) -> Callable[..., Any]:
+        answer = getattr(self._servant, operation)
+        told, turn = self._servant.told, self._turn
+
+        def call(*given: Any) -> Any:
+            try:
+                with turn:
+                    return answer(*given)
+            except HardwareError as error:
+                raise told(operation, error) from None
+
+        self.__dict__[operation] = call
+        return call
+
+
+class _Always:
+    """The turn of servants that look after themselves."""
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+
+def serve(
+    ports: Iterable[ServedPort],
+    chosen: Mapping[str, Sequence[str]],
+    devices: Mapping[str, Any],
+    turn: Turn,
+) -> dict[str, Port]:
+    """The ports by their names. `chosen` lists the devices of each, `turn` guards them all."""
+    made = {}
+    for port in ports:
+        servant = SERVANTS[port.interface.name](
+            port.interface, port.name, tuple(chosen[port.name]), devices
+        )
+        made[port.name] = Port(servant, turn if servant.TAKES_TURNS else _Always())
+    return made
