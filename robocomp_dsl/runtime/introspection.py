@@ -81,9 +81,10 @@ class Introspection:
         for role, attribute in _LISTS.items():
             for port in getattr(runner.spec, attribute):
                 interface = getattr(port, "interface", None) or port.proxy.INTERFACE
-                peers = list(runner.settings.wires.get(port.name, ()))
-                through = runner.middleware_name
-                made.append(PortInfo(role, port.name, interface.name, through, peers))
+                looks = role in ("requires", "subscribesTo")
+                peers = list(runner.settings.peers_of(port.name)) if looks else []
+                name = port.name if looks else runner.settings.remaps.get(port.name, port.name)
+                made.append(PortInfo(role, name, interface.name, runner.middleware_name, peers))
         return made
 
     def get_parameters(self) -> list[ParameterInfo]:

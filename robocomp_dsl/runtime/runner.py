@@ -49,7 +49,7 @@ class Runner:
     ) -> None:
         self.spec = component.SPEC
         self.settings = settings
-        self.name = settings.name or self.spec.name
+        self.name = settings.whole_name(self.spec.name)
         self.params = params
         self.statistics = Statistics()
         self.execution = Execution(self.spec.threads)
@@ -85,29 +85,32 @@ class Runner:
         worker.clock = clock
         worker._runner = self
         for port in (*self.spec.requires, *self.spec.publishes):
-            at = self._endpoint(port.name, port.proxy.INTERFACE)
             publishes = port in self.spec.publishes
+            at = self._endpoint(port.name, port.proxy.INTERFACE, looks=not publishes)
             link = self.middleware.advertise(at) if publishes else self.middleware.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
 
-    def _endpoint(self, port: str, interface: Interface) -> Endpoint:
-        peers = self.settings.wires.get(port, ())
-        return Endpoint(interface, self.name, port, peers, self.settings.qualities.get(port, Qos()))
+    def _endpoint(self, port: str, interface: Interface, *, looks: bool = False) -> Endpoint:
+        """A port; one that `looks` for others keeps its name, and takes the names of theirs."""
+        said = self.settings
+        qos = said.qualities.get(port, Qos())
+        name = port if looks else said.remaps.get(port, port)
+        return Endpoint(interface, self.name, name, said.peers_of(port) if looks else (), qos)
 
     def _open(self) -> None:
         """Let others call."""
         for port in self.spec.implements:
             self._serve(port, self.middleware.serve)
         for port in self.spec.subscribes:
-            self._serve(port, self.middleware.subscribe)
+            self._serve(port, self.middleware.subscribe, looks=True)
 
-    def _serve(self, port: ServedPort, serve: Callable[..., Any]) -> None:
+    def _serve(self, port: ServedPort, serve: Callable[..., Any], *, looks: bool = False) -> None:
         handlers: dict[str, Bound] = {
             operation: getattr(self.worker, method) for operation, method in port.methods.items()
         }
-        serve(self._endpoint(port.name, port.interface), handlers, self.execution)
+        serve(self._endpoint(port.name, port.interface, looks=looks), handlers, self.execution)
 
     def start(self) -> None:
         """Begin to live."""

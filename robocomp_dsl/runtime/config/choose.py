@@ -97,25 +97,14 @@ def _keeps(asked: Asked, winner: Tried | None, around: Surroundings) -> Path:
     within = f"{CONTEXTS}/{asked.context or own}"
     if winner is None:
         return around.data_home / within / f"{own}.yaml"
-    if winner.place.root.origin in (Origin.WORKING, Origin.USER) and writable(winner.path.parent):
+    if winner.place.root.origin in (Origin.WORKING, Origin.USER) and _writable(winner.path.parent):
         return winner.path
     inner = winner.path.relative_to(winner.place.folder)
     return around.data_home / (winner.place.within or within) / inner
 
 
-def kept_elsewhere(config: Path, component: str, around: Surroundings) -> Path:
-    """Beside which file the values for an exact path are kept when its folder is not writable."""
-    return around.data_home / CONTEXTS / component / config.name
-
-
-def writable(folder: Path) -> bool:
-    """Whether a file can be put there."""
+def _writable(folder: Path) -> bool:
     return os.access(folder, os.W_OK | os.X_OK)
-
-
-def for_instance(keeps: Path, prefix: str) -> Path:
-    """Two copies of a component that share a configuration do not share the values they keep."""
-    return keeps.parent / prefix / keeps.name if prefix else keeps
 
 
 def _nowhere(file: str, tried: list[Tried]) -> Finding:
