@@ -364,6 +364,37 @@ def test_settings_are_checked_and_move_nothing(arm):
             wrong()
 
 
+def test_settings_are_read_back_and_regulators_switched():
+    board, command = plain_board()
+    settings = Settings(board)
+    command.set_mode(None, Mode.POSITION)
+    settings.set_reference_speed(["j1"], 0.7)
+    settings.set_acceleration([2], 3.0)
+    settings.set_impedance(["j0"], 2.0, 0.5)
+    settings.set_impedance_offset(["j0"], 0.1)
+    assert settings.reference_speed(["j1"]).tolist() == [0.7]
+    assert settings.acceleration().tolist() == [10.0, 10.0, 3.0]
+    assert settings.impedance("j0") == (2.0, 0.5, 0.1)
+    board.step(np.zeros(3), np.zeros(3), 0.001)
+    off = np.full(3, -0.02)
+    assert (board.step(off, np.zeros(3), 0.001) > 0.5).all()
+    settings.enable_pid(["j1"], on=False)
+    torque = board.step(off, np.zeros(3), 0.001)
+    assert torque[1] == 0.0
+    assert torque[0] > 0.5
+    for _ in range(100):
+        board.step(off, np.zeros(3), 0.01)
+    summed = board.pid.integral.copy()
+    settings.reset_pid([0])
+    assert board.pid.integral.tolist() == [0.0, 0.0, summed[2]]
+    assert summed[2] > 0.0
+    settings.set_max_current(None, 0.0)
+    board.step(off, np.zeros(3), 0.001)
+    assert board.table.modes == [Mode.HW_FAULT] * 3
+    with pytest.raises(BadValue):
+        settings.set_max_current([0], -1.0)
+
+
 def test_remote_variables_are_read_and_written():
     board, _ = plain_board()
     variables = RemoteVariables(board)

@@ -28,6 +28,14 @@ class Settings:
         most = self._board.limits.speed[chosen]
         self._board.references.reference_speed[chosen] = np.minimum(values, most)
 
+    def reference_speed(self, joints: Joints = None) -> Floats:
+        """Mean speeds [rad/s] of position moves."""
+        return self._board.references.reference_speed[self._board.select.indices(joints)]
+
+    def acceleration(self, joints: Joints = None) -> Floats:
+        """How fast velocities change [rad/s²]."""
+        return self._board.references.acceleration[self._board.select.indices(joints)]
+
     def set_acceleration(self, joints: Joints, acceleration: Values) -> None:
         """How fast velocities change [rad/s²] in the velocity and mixed modes."""
         chosen = self._board.select.indices(joints)
@@ -52,6 +60,24 @@ class Settings:
     def pid(self, joint: str | int) -> Gains:
         """The position regulator of one joint."""
         return self._board.pid.gains[self._board.select.index(joint)]
+
+    def enable_pid(self, joints: Joints, on: bool) -> None:
+        """Switch position regulators on or off; one that is off gives no torque."""
+        self._board.pid.enable(self._board.select.indices(joints), on)
+
+    def reset_pid(self, joints: Joints = None) -> None:
+        """Forget what the regulators have summed up."""
+        self._board.pid.reset(self._board.select.indices(joints))
+
+    def impedance(self, joint: str | int) -> tuple[float, float, float]:
+        """Stiffness [N m/rad], damping [N m s/rad] and offset [N m] of one joint."""
+        at, spring = self._board.select.index(joint), self._board.impedance
+        return float(spring.stiffness[at]), float(spring.damping[at]), float(spring.offset[at])
+
+    def set_max_current(self, motors: Joints, current: Values) -> None:
+        """The currents [A] at which motors fault."""
+        chosen = self._board.select.indices(motors)
+        self._board.motors.set_max_current(chosen, numbers("current", current, len(chosen)))
 
     def set_position_limits(self, joints: Joints, low: Values, high: Values) -> None:
         """Narrow the ranges [rad]; wider than the joint's own is refused."""
