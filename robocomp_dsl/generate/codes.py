@@ -166,7 +166,7 @@ something else. Slice has no negative values in enumerations:
 )
 
 NO_SIMULATION = Code(
-    "RC641",
+    "RC631",
     Severity.ERROR,
     "worlds cannot be built here",
     """A simulator needs MuJoCo, which an installation without the extra `simulation` lacks:
