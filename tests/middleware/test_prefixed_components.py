@@ -1,0 +1,145 @@
+"""Whole components under prefixes, as `main` runs them: two copies of a set in one domain."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable, Iterator
+
+import pytest
+from network import DEADLINE, wait_for
+from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+
+from robocomp_dsl.runtime import CalledPort, Component, ComponentSpec, ServedPort
+from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.parameters import Parameters
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.runtime.statistics import Statistics
+
+
+class Base(Component):
+    SPEC = ComponentSpec(
+        name="base",
+        period=2,
+        implements=(ServedPort("Probe", PROBE, {"echo": "echo", "add": "add"}),),
+        publishes=(CalledPort("News", NewsProxy, "news"),),
+    )
+    news: NewsProxy
+    offset = 0
+
+    def add(self, a: int, b: int) -> int:
+        return a + b + self.offset
+
+    def echo(self, v: object) -> object:
+        return v
+
+    def compute(self) -> None:
+        self.news.said(self.name, 0)
+
+
+class Arm(Component):
+    SPEC = ComponentSpec(
+        name="arm",
+        period=0,
+        requires=(CalledPort("Probe", ProbeProxy, "probe"),),
+        subscribes=(ServedPort("News", NEWS, {"said": "heard"}),),
+    )
+    probe: ProbeProxy
+
+    def __init__(self) -> None:
+        self.publishers: set[str] = set()
+
+    def heard(self, who: str, _n: int) -> None:
+        self.publishers.add(who)
+
+
+Start = Callable[..., Component]
+
+
+@pytest.fixture(params=["inproc", "zenoh"])
+def middleware(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+@pytest.fixture
+def domain() -> str:
+    return f"test-{uuid.uuid4().hex[:12]}"
+
+
+@pytest.fixture
+def start(middleware: str, domain: str) -> Iterator[Start]:
+    running: list[Runner] = []
+
+    def begin(kind: type[Component], **settings: object) -> Component:
+        said = RunSettings(domain=domain, middleware=middleware, **settings)  # type: ignore[arg-type]
+        running.append(Runner(kind, Parameters.load(), said))
+        running[-1].start()
+        return running[-1].worker
+
+    yield begin
+    for one in running:
+        one.stop()
+    for one in running:
+        one.wait()
+
+
+def test_two_copies_of_a_set(start: Start) -> None:
+    arms = {}
+    for prefix, offset in (("left", 100), ("right", 200)):
+        base = start(Base, prefix=prefix)
+        assert isinstance(base, Base)
+        base.offset = offset
+        arms[prefix] = start(Arm, prefix=prefix)
+    for prefix, offset in (("left", 100), ("right", 200)):
+        arm = arms[prefix]
+        assert isinstance(arm, Arm)
+        assert arm.name == f"{prefix}/arm"
+        assert arm.probe.add(1, 2) == offset + 3
+        wait_for(lambda arm=arm: arm.publishers)
+        assert arm.publishers == {f"{prefix}/base"}
+
+
+def test_a_wire_is_under_the_prefix(start: Start) -> None:
+    for name, offset in (("first", 1), ("second", 2)):
+        base = start(Base, prefix="left", name=name)
+        assert isinstance(base, Base)
+        base.offset = offset
+    arm = start(Arm, prefix="left", wires={"Probe": ("second",), "News": ("/left/first",)})
+    assert isinstance(arm, Arm)
+    assert arm.probe.add(0, 0) == 2
+    wait_for(lambda: arm.publishers)
+    assert arm.publishers == {"left/first"}
+
+
+def test_ports_by_other_names(start: Start) -> None:
+    for name, front in (("a", "Probe"), ("b", "front")):
+        base = start(Base, name=name, remaps={"Probe": front, "News": f"{front}-news"})
+        assert isinstance(base, Base)
+        base.offset = ord(name)
+    arm = start(Arm, remaps={"Probe": "front", "News": "front-news"})
+    assert isinstance(arm, Arm)
+    assert arm.probe.add(0, 0) == ord("b")
+    wait_for(lambda: arm.publishers)
+    assert arm.publishers == {"b"}
+
+
+def test_introspection_tells_whole_names(start: Start, middleware: str, domain: str) -> None:
+    start(Base, prefix="left", remaps={"Probe": "front"})
+    start(Arm, prefix="left", wires={"Probe": ("base",)}, remaps={"Probe": "front"})
+    looker = open_middleware(middleware, Host("looker", domain, Execution(), Statistics()))
+    try:
+        told = {}
+        for name in ("left/base", "left/arm"):
+            about = ComponentProxy(
+                looker.proxy(Endpoint(COMPONENT, "looker", "Component", (name,)))
+            )
+            assert about.wait_for_server(DEADLINE)
+            told[name] = about.getInfo()
+    finally:
+        looker.close()
+    assert [one.name for one in told.values()] == ["left/base", "left/arm"]
+    ports = {p.name: list(p.peers) for one in told.values() for p in one.ports}
+    assert ports == {"front": [], "News": [], "Probe": ["left/base.front"]}
