@@ -1,7 +1,7 @@
-"""Mesh files: OBJ and STL with their faces; of `.osg` and `.3ds` the points, for a bounding box.
+"""Mesh files: OBJ and STL with faces; of `.osg`, `.3ds` and `.dae` the points, for a bounding box.
 
-In: a path. Out: points in the frame in which RoboComp's viewer sees the file, mirrored into
-RoboComp's axes; or `MeshError` in words for the user.
+In: a path. Out: points as the file has them, or in the frame in which RoboComp's viewer sees the
+file, mirrored into RoboComp's axes; or `MeshError` in words for the user.
 """
 
 from __future__ import annotations
@@ -12,10 +12,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+from xml.etree.ElementTree import ParseError
 
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.hardware.collada import collada_points
 from robocomp_dsl.hardware.errors import HardwareError
 
 MAX_BYTES = 200 * 1024 * 1024
@@ -38,7 +40,16 @@ class Surface:
 
 
 def read_mesh(path: Path) -> Surface:
-    """The mesh at `path`. Raises `MeshError`."""
+    """The mesh at `path` as RoboComp sees it. Raises `MeshError`."""
+    surface = read_surface(path)
+    if path.suffix.lower() == ".obj":
+        surface = _turned_up(surface)
+    # the viewer's frame is right-handed with z backwards (RoboComp, QMatToOSGMat4)
+    return Surface(surface.points * (1.0, 1.0, -1.0), surface.faces[:, ::-1])
+
+
+def read_surface(path: Path) -> Surface:
+    """The mesh at `path` in the axes of the file, outside by the right hand. Raises `MeshError`."""
     read = _READERS.get(path.suffix.lower())
     if read is None:
         raise MeshError(
@@ -52,12 +63,11 @@ def read_mesh(path: Path) -> Surface:
         surface = read(path.read_bytes())
     except OSError as error:
         raise MeshError(error.strerror or "the file cannot be read") from None
-    except (ValueError, IndexError, struct.error) as error:
+    except (ValueError, IndexError, struct.error, ParseError) as error:
         raise MeshError(f"the file is damaged ({error})") from None
     if len(surface.points) == 0 or not np.isfinite(surface.points).all():
         raise MeshError("the file has no points" if len(surface.points) == 0 else "a point is NaN")
-    # the viewer's frame is right-handed with z backwards (RoboComp, QMatToOSGMat4)
-    return Surface(surface.points * (1.0, 1.0, -1.0), surface.faces[:, ::-1])
+    return surface
 
 
 def _obj(data: bytes) -> Surface:
@@ -71,7 +81,7 @@ def _obj(data: bytes) -> Surface:
             corners = [int(word.split("/")[0]) for word in words[1:]]
             corners = [c - 1 if c > 0 else len(points) + c for c in corners]
             faces += [(corners[0], b, c) for b, c in pairwise(corners[1:])]
-    return _turned_up(_surface(points, faces))
+    return _surface(points, faces)
 
 
 def _turned_up(surface: Surface) -> Surface:
@@ -126,9 +136,14 @@ def _3ds(data: bytes) -> Surface:
     return Surface(np.concatenate(points or [np.empty((0, 3))]), np.empty((0, 3), np.int32))
 
 
+def _dae(data: bytes) -> Surface:
+    return Surface(collada_points(data), np.empty((0, 3), np.int32))
+
+
 _READERS: dict[str, Callable[[bytes], Surface]] = {
     ".obj": _obj,
     ".stl": _stl,
     ".osg": _osg,
     ".3ds": _3ds,
+    ".dae": _dae,
 }

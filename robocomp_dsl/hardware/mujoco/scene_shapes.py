@@ -16,6 +16,7 @@ import numpy as np
 from robocomp_dsl.hardware.mesh_file import MeshError, Surface, read_mesh
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.mesh_geom import is_flat
 from robocomp_dsl.hardware.rotations import Matrix, rotation
 from robocomp_dsl.hardware.scene import Box, Mesh, Triple
 
@@ -74,7 +75,7 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
         return
     points = surface.points * mesh.scale
     low, high = points.min(axis=0), points.max(axis=0)
-    if len(surface.faces) and not _is_flat(points):
+    if len(surface.faces) and not is_flat(points):
         asset = spec.add_mesh(
             name=mesh.id,
             uservert=axes.points(points).ravel().tolist(),
@@ -100,12 +101,6 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
 def _outside(surface: Surface, scale: Triple) -> Any:
     """Faces whose outside is right again: the exchange of two axes mirrors them, a scale may."""
     return surface.faces if math.prod(scale) < 0 else surface.faces[:, ::-1]
-
-
-def _is_flat(points: Matrix) -> bool:
-    """Whether the points lie in a plane, of which MuJoCo makes no mesh."""
-    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    return len(points) < 4 or spread[2] < 1e-6 * spread[0]
 
 
 def _sized(size: Triple, name: str, notes: list[str]) -> list[float]:

@@ -1,0 +1,113 @@
+"""A model file, URDF or MJCF, as something that can be simulated.
+
+In: a path and folders of packages. Out: the compiled model with its spec and findings on all that
+is not as described; `ModelFileError` when there is no model, with the lines that are to blame.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import mujoco
+
+from robocomp_dsl.hardware.findings import Finding, ModelFileError
+from robocomp_dsl.hardware.mujoco.mjcf_spec import build_mjcf, located
+from robocomp_dsl.hardware.mujoco.urdf_spec import build_urdf
+from robocomp_dsl.hardware.urdf import read_urdf
+
+_OUTERMOST = re.compile(rb"<\s*([A-Za-z_][\w.:-]*)")
+_SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
+_WEIGHTLESS = "mass and inertia of moving bodies"
+_LIGHTEST = 1e-3
+_MOST_OVERLAPS = 10
+_ROOM = 2**24
+
+
+@dataclass(slots=True)
+class Loaded:
+    """`spec` is that of `model`; `language` is that of the file."""
+
+    language: Literal["urdf", "mjcf", "innermodel"]
+    spec: Any
+    model: Any
+    findings: list[Finding]
+
+
+def outermost(data: bytes) -> str:
+    """The first tag, in lower case; empty if there is none."""
+    found = _OUTERMOST.search(_SKIPPED.sub(b"", data))
+    return found[1].decode().lower() if found else ""
+
+
+def load_model(path: Path, packages: Sequence[Path] = ()) -> Loaded:
+    """The model in the file at `path`. Raises `ModelFileError`, `OSError`."""
+    data = path.read_bytes()
+    match outermost(data):
+        case "robot":
+            spec, findings = build_urdf(read_urdf(data), path, packages)
+            language: Literal["urdf", "mjcf"] = "urdf"
+        case "mujoco":
+            spec, findings = build_mjcf(path, packages)
+            language = "mjcf"
+        case tag:
+            said = f"the outermost element is `<{tag}>`" if tag else "the file holds no element"
+            raise ModelFileError(f"{said}, a model begins with `<robot>` or `<mujoco>`")
+    model = compiled(spec, findings)
+    return Loaded(language, spec, model, findings)
+
+
+def compiled(spec: Any, findings: list[Finding]) -> Any:
+    """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
+    count = len(spec.bodies)
+    if spec.memory < 0 and count > 1000:
+        spec.memory = _ROOM + 3 * count * count  # collision detection lists all pairs of bodies
+    try:
+        model = _compile(spec)
+    except ModelFileError as error:
+        if _WEIGHTLESS not in str(error):
+            raise
+        spec.compiler.boundmass, spec.compiler.boundinertia = _LIGHTEST, _LIGHTEST * 1e-3
+        model = _compile(spec)
+        findings += _light(model)
+    findings += overlaps(model)
+    return model
+
+
+def _compile(spec: Any) -> Any:
+    try:
+        return spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise located(error) from None
+
+
+def _light(model: Any) -> list[Finding]:
+    return [
+        Finding("mass", name, f"`{name}` moves and has no mass: it gets {_LIGHTEST:g} kg")
+        for i in range(1, model.nbody)
+        if model.body_jntnum[i] and model.body_mass[i] <= _LIGHTEST
+        for name in [model.body(i).name or f"body{i}"]
+    ]
+
+
+def overlaps(model: Any) -> list[Finding]:
+    """Bodies that are in each other at the start, the deepest first; at most ten pairs."""
+    data = mujoco.MjData(model)
+    try:
+        mujoco.mj_forward(model, data)
+    except mujoco.FatalError as error:
+        raise located(error) from None
+    deepest: dict[tuple[str, str], float] = {}
+    for contact in data.contact:
+        bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom if geom >= 0]
+        one, other = sorted(model.body(i).name or f"body{i}" for i in (*bodies, 0)[:2])
+        deepest[one, other] = min(deepest.get((one, other), 0.0), float(contact.dist))
+    ordered = sorted(deepest.items(), key=lambda item: item[1])
+    return [
+        Finding("overlap", one, f"`{one}` and `{other}` are {-depth * 1000:.2g} mm in each other")
+        for (one, other), depth in ordered[:_MOST_OVERLAPS]
+        if depth < -1e-4
+    ]

@@ -1,0 +1,179 @@
+"""A robot of URDF as a MuJoCo model: a body for every link, a joint for all that moves.
+
+In: a `Robot`. Out: an `MjSpec` whose bodies and joints have the names of the file, and findings.
+What is seen and what collides are separate geoms; the latter are in group 3, which viewers hide,
+where a link has something to be seen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.findings import Finding
+from robocomp_dsl.hardware.model_paths import resolve
+from robocomp_dsl.hardware.mujoco.mesh_geom import MeshShelf
+from robocomp_dsl.hardware.rotations import Matrix
+from robocomp_dsl.hardware.urdf import Inertia, Joint, Link, Pose, Robot, Shape
+
+WORLD = "world"
+"""A link of this name is the world itself."""
+
+_GEOM, _JOINT = mujoco.mjtGeom, mujoco.mjtJoint
+_HIDDEN = 3
+_LIGHT = 1e-3
+
+
+def build_urdf(
+    robot: Robot, path: Path, packages: Sequence[Path] = ()
+) -> tuple[Any, list[Finding]]:
+    """The model of `robot`, whose file is at `path`."""
+    spec = mujoco.MjSpec()
+    spec.modelname = robot.name
+    spec.compiler.degree = False
+    findings = list(robot.findings)
+    builder = _Builder(spec, path, packages, findings, MeshShelf(spec, findings))
+    for link, joint in robot.links:
+        builder.link(link, joint)
+    for _, joint in robot.links:
+        if joint and joint.leader:
+            builder.follow(joint)
+    return spec, findings
+
+
+@dataclass(slots=True)
+class _Builder:
+    spec: Any
+    path: Path
+    packages: Sequence[Path]
+    findings: list[Finding]
+    meshes: MeshShelf
+    bodies: dict[str, Any] = field(default_factory=dict)
+
+    def link(self, link: Link, joint: Joint | None) -> None:
+        if joint is None and link.name == WORLD:
+            body = self.spec.worldbody
+        else:
+            above = self.bodies[joint.parent] if joint else self.spec.worldbody
+            pose = joint.pose if joint else Pose()
+            body = above.add_body(name=link.name, pos=pose.xyz, quat=quaternion(turned(pose)))
+            if joint:
+                _move(body, joint, above is self.spec.worldbody)
+            self._weigh(body, link, moves=joint is not None and joint.kind != "fixed")
+        self.bodies[link.name] = body
+        for shape in link.visuals:
+            self._show(body, link, shape, contype=0, conaffinity=0, group=1)
+        for shape in link.collisions:
+            self._show(body, link, shape, group=_HIDDEN if link.visuals else 0)
+
+    def _weigh(self, body: Any, link: Link, *, moves: bool) -> None:
+        inertia = link.inertia
+        if inertia is None:
+            if moves:
+                said = f"`{link.name}` moves and has no mass: it gets {_LIGHT:g} kg"
+                self.findings.append(Finding("mass", link.name, said, link.line))
+            inertia = Inertia(_LIGHT, (_LIGHT * 1e-3,) * 3 + (0.0,) * 3, Pose())
+        tensor, fits = _about_link(inertia)
+        if not fits:
+            said = f"the inertia of `{link.name}` is none that a body can have: a ball's is taken"
+            self.findings.append(Finding("mass", link.name, said, link.line))
+            tensor = np.eye(3) * 0.4 * inertia.mass * 0.05**2
+        body.explicitinertial = True
+        body.mass = inertia.mass
+        body.ipos = inertia.pose.xyz
+        body.fullinertia = tensor[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+
+    def _show(self, body: Any, link: Link, shape: Shape, **settings: Any) -> None:
+        turn = turned(shape.pose)
+        made: dict[str, Any] = {"rgba": shape.colour}
+        shift = np.zeros(3)
+        match shape.kind:
+            case "box":
+                made |= {"type": _GEOM.mjGEOM_BOX, "size": [part / 2 for part in shape.size]}
+            case "sphere":
+                made |= {"type": _GEOM.mjGEOM_SPHERE, "size": [shape.size[0], 0, 0]}
+            case "cylinder" | "capsule":
+                kind = _GEOM.mjGEOM_CYLINDER if shape.kind == "cylinder" else _GEOM.mjGEOM_CAPSULE
+                made |= {"type": kind, "size": [shape.size[0], shape.size[1] / 2, 0]}
+            case _:
+                file = resolve(shape.file, self.path, self.packages)
+                made |= self.meshes.geom(file, shape.size, link.name, shape.line)
+                shift = made.pop("shift")
+        place = np.array(shape.pose.xyz) + turn @ shift
+        body.add_geom(pos=place, quat=quaternion(turn), density=0.0, **made, **settings)
+
+    def follow(self, joint: Joint) -> None:
+        """A mimic joint: `offset` + `factor` times its leader."""
+        data = np.zeros(mujoco.mjNEQDATA)
+        data[:2] = joint.offset, joint.factor
+        self.spec.add_equality(
+            type=mujoco.mjtEq.mjEQ_JOINT,
+            objtype=mujoco.mjtObj.mjOBJ_JOINT,
+            name1=joint.name,
+            name2=joint.leader,
+            data=data,
+        )
+
+
+def _move(body: Any, joint: Joint, on_world: bool) -> None:
+    axis = np.array(joint.axis) / np.linalg.norm(joint.axis)
+    given: dict[str, Any] = {
+        "damping": [max(joint.damping, 0.0), 0.0, 0.0],
+        "frictionloss": max(joint.friction, 0.0),
+    }
+    if math.isfinite(joint.low):
+        given |= {"range": [joint.low, joint.high], "limited": mujoco.mjtLimited.mjLIMITED_TRUE}
+    if joint.effort > 0:
+        given |= {"actfrcrange": [-joint.effort, joint.effort]}
+        given |= {"actfrclimited": mujoco.mjtLimited.mjLIMITED_TRUE}
+    match joint.kind:
+        case "revolute" | "continuous":
+            body.add_joint(name=joint.name, type=_JOINT.mjJNT_HINGE, axis=axis, **given)
+        case "prismatic":
+            body.add_joint(name=joint.name, type=_JOINT.mjJNT_SLIDE, axis=axis, **given)
+        case "planar":
+            side = np.cross(np.eye(3)[int(np.argmin(np.abs(axis)))], axis)
+            side /= np.linalg.norm(side)
+            for name, along in (("x", side), ("y", np.cross(axis, side))):
+                body.add_joint(name=f"{joint.name}.{name}", type=_JOINT.mjJNT_SLIDE, axis=along)
+            body.add_joint(name=f"{joint.name}.turn", type=_JOINT.mjJNT_HINGE, axis=axis)
+        case "floating" if on_world:
+            body.add_joint(name=joint.name, type=_JOINT.mjJNT_FREE)
+        case "floating":
+            for name, along in zip("xyz", np.eye(3), strict=True):
+                body.add_joint(name=f"{joint.name}.{name}", type=_JOINT.mjJNT_SLIDE, axis=along)
+            body.add_joint(name=f"{joint.name}.turn", type=_JOINT.mjJNT_BALL)
+
+
+def turned(pose: Pose) -> Matrix:
+    """Rz(yaw) · Ry(pitch) · Rx(roll), shape (3, 3)."""
+    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a), math.cos(a)) for a in pose.rpy)
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def quaternion(turn: Matrix) -> Matrix:
+    """(w, x, y, z) of a rotation matrix."""
+    made = np.zeros(4)
+    mujoco.mju_mat2Quat(made, turn.ravel())
+    return made
+
+
+def _about_link(inertia: Inertia) -> tuple[Matrix, bool]:
+    """The tensor along the link's axes, and whether a rigid body can have it."""
+    xx, yy, zz, xy, xz, yz = inertia.tensor
+    turn = turned(inertia.pose)
+    tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T
+    small, middle, large = np.linalg.eigvalsh(tensor).tolist()
+    return tensor, small > 1e-14 and small + middle >= large * (1 - 1e-6)
