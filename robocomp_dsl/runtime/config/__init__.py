@@ -5,12 +5,20 @@ search is that of YARP's ResourceFinder, in the folders of the XDG base director
 """
 
 from robocomp_dsl.runtime.config.choose import Asked, Chosen, choose
+from robocomp_dsl.runtime.config.contexts import context_names, files_of
 from robocomp_dsl.runtime.config.drop_ins import dropped
-from robocomp_dsl.runtime.config.find import Tried, WrongName, checked_context, search
-from robocomp_dsl.runtime.config.places import Place, places
+from robocomp_dsl.runtime.config.find import (
+    Tried,
+    WrongName,
+    checked_context,
+    checked_file,
+    search,
+)
+from robocomp_dsl.runtime.config.places import CONTEXTS, Place, places
 from robocomp_dsl.runtime.config.surroundings import Origin, Root, Surroundings, surroundings
 
 __all__ = [
+    "CONTEXTS",
     "Asked",
     "Chosen",
     "Origin",
@@ -20,8 +28,11 @@ __all__ = [
     "Tried",
     "WrongName",
     "checked_context",
+    "checked_file",
     "choose",
+    "context_names",
     "dropped",
+    "files_of",
     "places",
     "search",
     "surroundings",

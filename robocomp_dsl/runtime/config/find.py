@@ -47,7 +47,9 @@ def checked_file(name: str) -> PurePath:
     """`name` as a path to search for. Raises `WrongName` for one that leaves the folder."""
     path = PurePath(name)
     if not path.parts or path.is_absolute() or ".." in path.parts or "\0" in name:
-        raise WrongName(f"`{name:.80}` cannot be searched for; `--config` takes an exact path")
+        raise WrongName(
+            f"`{name:.80}` cannot be searched for: it leads out of the folders; `--config` takes any path"
+        )
     return path
 
 

@@ -17,6 +17,7 @@ from robocomp_dsl.runtime.parameters.overrides import put, steps
 from robocomp_dsl.runtime.parameters.schema import Value
 from robocomp_dsl.runtime.parameters.tree import Mapping, Scalar
 
+_SUFFIX = ".saved.yaml"
 _HEAD = """\
 # Live values, kept on request; read above {name} and below the command line.
 # Written by the component: delete a line, or this file, to have the configuration count again.
@@ -25,7 +26,12 @@ _HEAD = """\
 
 def beside(config: Path) -> Path:
     """Where the values that belong to a configuration are kept."""
-    return config.with_name(f"{config.stem}.saved.yaml")
+    return config.with_name(f"{config.stem}{_SUFFIX}")
+
+
+def is_kept(name: str) -> bool:
+    """Whether a file of this name has kept values, and is no configuration."""
+    return name.endswith(_SUFFIX)
 
 
 def apply(root: Mapping, saved: Mapping, findings: list[Finding]) -> Mapping:
