@@ -48,7 +48,8 @@ def checked_file(name: str) -> PurePath:
     path = PurePath(name)
     if not path.parts or path.is_absolute() or ".." in path.parts or "\0" in name:
         raise WrongName(
-            f"`{name:.80}` cannot be searched for: it leads out of the folders; `--config` takes any path"
+            f"`{name:.80}` cannot be searched for: it leads out of the folders;"
+            " `--config` takes any path"
         )
     return path
 
