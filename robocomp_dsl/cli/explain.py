@@ -10,7 +10,7 @@ import click
 
 from robocomp_dsl.diagnostics import Code, nearest
 
-STAGES = ("syntax", "check", "generate", "compare", "deploy")
+STAGES = ("syntax", "check", "generate", "compare", "deploy", "migrate")
 """Those that find something; the kinds of it are in modules called `codes…`."""
 
 

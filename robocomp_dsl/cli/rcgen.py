@@ -18,7 +18,9 @@ TABLE = {
     "doc": ("doc", "Write linked documentation of interfaces, components and deployments."),
     "fmt": ("fmt", "Format descriptions; nothing that they say changes."),
     "new": ("new", "Begin a new component: a commented CDSL and PDSL file."),
+    "migrate": ("migrate", "Move an existing RoboComp component or deployment over."),
     "breaking": ("breaking", "List what a change breaks: peers, code, configurations."),
+    "config": ("config", "List, import and compare the configurations of contexts."),
     "lsp": ("lsp", "Serve an editor: findings as you type, completion, navigation."),
     "explain": ("explain", "Say what a code such as RC204 means."),
 }

@@ -12,9 +12,9 @@ UNREADABLE_FILE = Code(
     "RC901",
     Severity.ERROR,
     "a file of the old component could not be read",
-    """The file is no text, too large, or not in the form that its name promises (a configuration in
-TOML with a mistake, a manager file that is no XML). Everything else was carried over. Mend
-the file in the old folder, remove the new folder and run `rcgen migrate` again.""",
+    """The file is no text, too large, or not in the form that its name promises (a configuration
+in TOML with a mistake, a manager file that is no XML). Everything else was carried over. Mend the
+file in the old folder, remove the new folder and run `rcgen migrate` again.""",
 )
 
 NO_DESCRIPTION = Code(
@@ -32,27 +32,26 @@ BROKEN_DESCRIPTION = Code(
     "RC903",
     Severity.ERROR,
     "the description has errors, so no code was generated",
-    """The CDSL file, or an interface that it imports, has errors; they are listed beside this one.
-The description, the parameters and the configurations were written all the same. Mend the
-errors in the new folder (`-I` adds folders with interfaces), then generate:
-
-    rcgen component robot-migrated/robot.cdsl""",
+    """The CDSL file, or an interface that it imports, has errors; they are listed beside this
+one. The description, the parameters and the configurations were written all the same, the code
+was not. Mend the errors in the old folder (`-I` adds folders with interfaces that are missing),
+remove the new folder and run `rcgen migrate` again.""",
 )
 
 CONFIG_LINE = Code(
     "RC911",
     Severity.WARNING,
     "a line of a configuration says nothing",
-    """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so this one
-had no effect; it has none in the new configuration either.""",
+    """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so this
+one had no effect; it has none in the new configuration either.""",
 )
 
 CONFIG_TWICE = Code(
     "RC912",
     Severity.WARNING,
     "a configuration gives a key twice",
-    """The last value is the one that counted, so it is the one that was carried over. Is it the one
-that was meant?""",
+    """The last value is the one that counted, so it is the one that was carried over. Is it the
+one that was meant?""",
 )
 
 CONFIG_CLASH = Code(
@@ -60,8 +59,8 @@ CONFIG_CLASH = Code(
     Severity.ERROR,
     "two configurations give a key in forms that do not fit together",
     """A key is a group in one place and a value or a list in another: the first form became the
-parameter, the other value is not in the new configuration of its file. Give one of them
-another name.""",
+parameter, the other value is not in the new configuration of its file. Give one of them another
+name.""",
 )
 
 RENAMED_KEY = Code(
@@ -69,16 +68,16 @@ RENAMED_KEY = Code(
     Severity.WARNING,
     "a parameter is called otherwise",
     """The old key is no name of PDSL (a letter or `_`, then letters, digits and `_`), or two keys
-would have the same. Code that reads `self.params` uses the new name; `setParams` of carried
-over code still gets the old key.""",
+would have the same. Code that reads `self.params` uses the new name; `setParams` of carried over
+code still gets the old key.""",
 )
 
 TEXT_LIST = Code(
     "RC915",
     Severity.NOTE,
     "a list in a text stays a text",
-    """The value looks like a list, `1,2,3`, which the old code splits itself; so it became a string.
-For a typed list write a list of groups into the PDSL and the YAML:
+    """The value looks like a list, `1,2,3`, which the old code splits itself; so it became a
+string. For a typed list write a list of groups into the PDSL and the YAML:
 
     joints[] { value float; };          joints: [{value: 1}, {value: 2}]""",
 )
@@ -104,8 +103,8 @@ ICE_SETTING = Code(
     "RC921",
     Severity.NOTE,
     "a setting of Ice is not needed any more",
-    """`Ice.*` and the endpoint of IceStorm's topic manager tuned a middleware that the new component
-does not use: components find each other by name, and topics need no broker.""",
+    """`Ice.*` and the endpoint of IceStorm's topic manager tuned a middleware that the new
+component does not use: components find each other by name, and topics need no broker.""",
 )
 
 WIRED = Code(
@@ -119,8 +118,8 @@ STAND_IN = Code(
     "RC923",
     Severity.WARNING,
     "another component is only known by its address",
-    """The configuration names a component by host and port, and its description is not here. A CDSL
-file in `peers/` stands for it, so that the deployment can be checked. Put the import of the
+    """The configuration names a component by host and port, and its description is not here. A
+CDSL file in `peers/` stands for it, so that the deployment can be checked. Put the import of the
 real component in its place before you start the deployment; or hand all folders to one run:
 
     rcgen migrate manager.xml laser/ base/ follow/ -o robot""",
@@ -131,8 +130,8 @@ UNKNOWN_PROXY = Code(
     Severity.WARNING,
     "an address belongs to no port of the component",
     """The configuration has an endpoint or a proxy for an interface that the CDSL file does not
-mention, so there is nothing to connect. It had no effect before either, unless hand-written
-code used it.""",
+mention, so there is nothing to connect. It had no effect before either, unless hand-written code
+used it.""",
 )
 
 NOT_PYTHON = Code(
@@ -140,18 +139,18 @@ NOT_PYTHON = Code(
     Severity.ERROR,
     "code in C++ is not carried over",
     """There is a generator for Python only. The descriptions, parameters and configurations are
-complete; the algorithm in C++ has to be written anew in `specificworker.py`, or be called
-from there as a library (pybind11, ctypes). The new component can talk to the old ones
-meanwhile only through a bridge.""",
+complete; the algorithm in C++ has to be written anew in `specificworker.py`, or be called from
+there as a library (pybind11, ctypes). The new component can talk to the old ones meanwhile only
+through a bridge.""",
 )
 
 UNREADABLE_PYTHON = Code(
     "RC932",
     Severity.ERROR,
     "Python cannot read the old worker",
-    """Most often it is Python 2 (`print x`). It was copied beside the new, empty `specificworker.py`
-with the ending `.old`. Bring it to Python 3 (`2to3` is a start), then run `rcgen migrate`
-again, or move the methods over by hand.""",
+    """Most often it is Python 2 (`print x`). It was copied beside the new, empty
+`specificworker.py` with the ending `.old`. Bring it to Python 3 (`2to3` is a start), then run
+`rcgen migrate` again, or move the methods over by hand.""",
 )
 
 NO_WORKER = Code(
@@ -165,8 +164,8 @@ CARRIED_OVER = Code(
     "RC934",
     Severity.NOTE,
     "an import of the old worker was adapted",
-    """Modules that RoboComp generated or brought along (`genericworker`, `interfaces`, `Ice`, parts
-of Qt) are replaced by one module in the new folder, which gives the names that the methods
+    """Modules that RoboComp generated or brought along (`genericworker`, `interfaces`, `Ice`,
+parts of Qt) are replaced by one module in the new folder, which gives the names that the methods
 use. The methods themselves are as they were, byte by byte.""",
 )
 
@@ -174,25 +173,25 @@ NEEDS_QT = Code(
     "RC935",
     Severity.WARNING,
     "the worker uses Qt",
-    """Windows and timers of Qt need Qt's event loop, which the new component does not run: `compute`
-is called by the life cycle. The import was left as it is; move the window into a program of
-its own that talks to the component.""",
+    """Windows and timers of Qt need Qt's event loop, which the new component does not run:
+`compute` is called by the life cycle. The import was left as it is; move the window into a
+program of its own that talks to the component.""",
 )
 
 NAME_TAKEN = Code(
     "RC936",
     Severity.WARNING,
     "the worker sets an attribute that the component needs",
-    """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns one of
-them hides it from the new base class. Rename the attribute in your class.""",
+    """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns one
+of them hides it from the new base class. Rename the attribute in your class.""",
 )
 
 PERIOD = Code(
     "RC937",
     Severity.NOTE,
     "the period stands in the description",
-    """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file. `compute` is
-called with it; `self.timer` is a stand-in that starts nothing.""",
+    """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file. `compute`
+is called with it; `self.timer` is a stand-in that starts nothing.""",
 )
 
 NOT_COPIED = Code(
@@ -207,25 +206,25 @@ REPLACED = Code(
     "RC942",
     Severity.NOTE,
     "a file that RoboComp generated has no successor",
-    """Build files and generated code are not needed any more: `rcgen component` writes `main.py` and
-`generated/`.""",
+    """Build files and generated code are not needed any more: `rcgen component` writes `main.py`
+and `generated/`.""",
 )
 
 INTERFACE_WINDOW = Code(
     "RC943",
     Severity.ERROR,
     "a window is not carried over",
-    """A `.ui` file describes a window of Qt; generated components have none. Parameters and states
-can be seen and changed with `rcdeploy`; a window of your own is a program that talks to the
-component.""",
+    """A `.ui` file describes a window of Qt; generated components have none. Parameters and
+states can be seen and changed with `rcdeploy`; a window of your own is a program that talks to
+the component.""",
 )
 
 NODE_DROPPED = Code(
     "RC951",
     Severity.NOTE,
     "a process of the old manager is not needed any more",
-    """`rcnode` and `icebox` ran IceStorm's broker for topics. Topics go directly from publisher to
-subscriber now.""",
+    """`rcnode` and `icebox` ran IceStorm's broker for topics. Topics go directly from publisher
+to subscriber now.""",
 )
 
 NODE_INCOMPLETE = Code(
@@ -247,8 +246,8 @@ COMMAND = Code(
     "RC954",
     Severity.NOTE,
     "a command of the old manager is not used",
-    """The deployment starts components itself, `python3 main.py` in their folders. The old command
-stands as a comment in the DDSL file; `executable "…";` sets another one.""",
+    """The deployment starts components itself, `python3 main.py` in their folders. The old
+command stands as a comment in the DDSL file; `executable "…";` sets another one.""",
 )
 
 MANAGER_SETTING = Code(

@@ -60,7 +60,7 @@ def address(name: str, text: str, span: Span) -> Address | None:
     """The address in `laser:tcp -h localhost -p 10003` or in an endpoint; None if it is none."""
     match = _PROXY.fullmatch(text)
     if match and match[2]:
-        identity, endpoint = match[1], match[2]
+        identity, endpoint = str(match[1]), str(match[2])
     elif re.match(rf"\s*{_TRANSPORT}\b", text):
         identity, endpoint = "", text
     else:

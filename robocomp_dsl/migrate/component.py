@@ -1,0 +1,258 @@
+"""One old component folder to the files of a new one.
+
+In: the folder, where the new one will be, the folders with interfaces. Out: a `Moved`: files as
+data, and in the report everything that was not carried over. Nothing is written here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+
+from robocomp_dsl.check import check_cdsl
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Code, Report
+from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.component_names import modules_of
+from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.migrate import codes
+from robocomp_dsl.migrate.config import Config, Entry, read_config
+from robocomp_dsl.migrate.description import completed, modern, tree_of
+from robocomp_dsl.migrate.folder import Fate, Found, files_of
+from robocomp_dsl.migrate.ice import IceSettings, divide
+from robocomp_dsl.migrate.infer import Parameters, infer
+from robocomp_dsl.migrate.python import carried_over, period_in
+from robocomp_dsl.migrate.texts import pdsl_text, yaml_text
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.interface import Module
+from robocomp_dsl.resources import INTERFACES
+from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
+
+PERIOD = ("Period", "Compute")
+"""Where configurations of the newer form have the period, in ms."""
+
+
+@dataclass(frozen=True, slots=True)
+class MovedConfig:
+    """A configuration: the old file, the new one in the component's folder, and its addresses."""
+
+    old: Path
+    new: str
+    ice: IceSettings
+
+
+@dataclass(slots=True)
+class Moved:
+    """A component on its way. `component` is None where its description has errors."""
+
+    folder: Path
+    out: Path
+    description: str
+    name: str
+    span: Span
+    component: Component | None = None
+    configs: tuple[MovedConfig, ...] = ()
+    files: list[OutputFile] = field(default_factory=list)
+    became: list[tuple[str, str]] = field(default_factory=list)
+
+    def add(self, file: OutputFile, old: str) -> None:
+        """A file that `old` became; the first of a path stays."""
+        if all(one.path != file.path for one in self.files):
+            self.files.append(file)
+            self.became.append((old, file.path))
+
+
+def move_component(
+    folder: Path, out: Path, folders: Sequence[Path], report: Report
+) -> Moved | None:
+    """The new component; None where there is no description to begin with, which is told."""
+    found = list(files_of(folder))
+    path = _description(folder, found, report)
+    workspace = Workspace((*folders, folder))
+    if path is None:
+        return None
+    try:
+        text = modern(path, workspace)
+    except UnreadableSource as error:
+        report.add(codes.UNREADABLE_FILE, Source(path, "").whole, f"cannot read it: {error}")
+        return None
+    tree = tree_of(path, text)
+    if tree is None:
+        check_cdsl(path, workspace, report)
+        report.add(codes.NO_DESCRIPTION, Source(path, text).whole, "it describes no component")
+        return None
+    moved = Moved(folder, out, path.name, tree.name.text, Source(path, text).whole)
+    given = list(_configs(found, report))
+    divided = [(config, *divide(config, report)) for config in given]
+    parameters = infer([(config, rest) for config, _, rest in divided], report)
+    _describe(moved, path, text, parameters, _period(found, parameters, given, report))
+    _configure(moved, divided, parameters)
+    _resolve(moved, workspace, report)
+    _carry_over(moved, found, parameters, report)
+    return moved
+
+
+def _description(folder: Path, found: Sequence[Found], report: Report) -> Path | None:
+    """The one CDSL file of a folder; of several that which is called as the folder."""
+    there = [f.path for f in found if f.fate is Fate.DESCRIPTION and f.path.suffix == ".cdsl"]
+    named = [one for one in there if one.stem.lower() == folder.name.lower()]
+    if len(there) == 1 or len(named) == 1:
+        return (named or there)[0]
+    said = f"`{folder}` has no CDSL file"
+    if there:
+        said = f"`{folder}` has several CDSL files: {', '.join(one.name for one in there)}"
+    report.add(codes.NO_DESCRIPTION, Source(folder, "").whole, said)
+    return None
+
+
+def _configs(found: Sequence[Found], report: Report) -> Iterator[Config]:
+    """All configurations that can be read; the plain `config` is the first."""
+    there = [one for one in found if one.fate is Fate.CONFIG]
+    for one in sorted(there, key=lambda f: (f.path.stem != "config", f.path.name)):
+        try:
+            config = read_config(Source.read(one.path), report)
+        except UnreadableSource as error:
+            said = f"the configuration was not carried over: {error}"
+            report.add(codes.UNREADABLE_FILE, Source(one.path, "").whole, said)
+            continue
+        if config is not None:
+            yield config
+
+
+def _period(
+    found: Sequence[Found], parameters: Parameters, configs: Sequence[Config], report: Report
+) -> int | None:
+    """The period in ms, from the first configuration or from the worker."""
+    for values in parameters.values[:1]:
+        value = values.get(PERIOD)
+        if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
+            span = next(e.span for e in configs[0].entries if e.path == PERIOD)
+            report.add(codes.PERIOD, span, f"the period of {value} ms is in the CDSL file")
+            return value
+    for one in found:
+        if one.fate is Fate.WORKER and (given := period_in(one.path)) is not None:
+            period, span = given
+            report.add(codes.PERIOD, span, f"the period of {period} ms is in the CDSL file")
+            return period
+    return None
+
+
+def _describe(
+    moved: Moved, path: Path, text: str, parameters: Parameters, period: int | None
+) -> None:
+    pdsl = f"{path.stem}.pdsl" if parameters.tree else ""
+    moved.add(OutputFile(path.name, completed(path, text, pdsl, period)), path.name)
+    if pdsl:
+        names = "the old configurations" if len(parameters.values) > 1 else "the old configuration"
+        moved.add(OutputFile(pdsl, pdsl_text(moved.name, parameters.tree, names)), "etc/*")
+
+
+def _configure(
+    moved: Moved,
+    divided: Sequence[tuple[Config, IceSettings, list[Entry]]],
+    parameters: Parameters,
+) -> None:
+    made = []
+    taken: set[str] = set()
+    for (config, ice, _), values in zip(divided, parameters.values, strict=True):
+        stem = config.path.stem if config.path.suffix == ".toml" else config.path.name
+        stem = config.path.name.replace(".", "_") if stem in taken else stem
+        taken.add(stem)
+        new, old = f"etc/{stem}.yaml", f"etc/{config.path.name}"
+        text = yaml_text(moved.name, parameters.tree, values, old)
+        moved.add(OutputFile(new, text), old)
+        made.append(MovedConfig(config.path, new, ice))
+    moved.configs = tuple(made)
+
+
+def _resolve(moved: Moved, workspace: Workspace, report: Report) -> None:
+    """Check what will be written, as if it were there; bring the interfaces that it needs along.
+
+    What the check finds is told when the files are there.
+    """
+    for one in moved.files:
+        workspace.files.open_buffer(moved.out / one.path, one.text)
+    found = Report()
+    component = check_cdsl(moved.out / moved.description, workspace, found)
+    if component is None or found.failed:
+        said = f"`{moved.description}` has errors, so the code of {moved.name} was not carried over"
+        report.add(codes.BROKEN_DESCRIPTION, moved.span, said)
+    else:
+        moved.component = component
+        for file in interface_files(modules_of(component), workspace):
+            moved.add(file, file.path)
+    for path in sorted(moved.folder.glob("*.idsl")):
+        _bring(moved, path, workspace, report)
+
+
+def _bring(moved: Moved, path: Path, workspace: Workspace, report: Report) -> None:
+    try:
+        moved.add(OutputFile(path.name, modern(path, workspace)), path.name)
+    except UnreadableSource as error:
+        report.add(codes.UNREADABLE_FILE, Source(path, "").whole, f"cannot read it: {error}")
+
+
+def interface_files(modules: Sequence[Module], workspace: Workspace) -> Iterator[OutputFile]:
+    """Those of the IDSL files that do not come with the project, in today's form."""
+    for one in modules:
+        if not one.path.resolve().is_relative_to(INTERFACES.resolve()):
+            yield OutputFile(one.path.name, modern(one.path, workspace))
+
+
+def _carry_over(
+    moved: Moved, found: Sequence[Found], parameters: Parameters, report: Report
+) -> None:
+    """The code and the other files."""
+    if moved.component is not None:
+        ours = {one.path for one in plan(moved.component) if not one.keep}
+        for file, old in carried_over(moved.component, found, parameters, report):
+            if file.path in ours:
+                source = Source(moved.folder / old, "")
+                said = f"`{file.path}` is written by rcgen; the old file was not copied"
+                report.add(codes.NOT_COPIED, source.whole, said)
+            else:
+                moved.add(file, old)
+    room = 16 * MAX_BYTES
+    for one in found:
+        told = _judged(one, moved)
+        if told is not None:
+            report.add(told[0], Source(one.path, "").whole, told[1])
+        elif one.fate is Fate.COPY:
+            room -= _copy(moved, one, room, report)
+
+
+def _judged(one: Found, moved: Moved) -> tuple[Code, str] | None:
+    """The finding about a file that has no successor."""
+    script = one.relative == PurePosixPath("src", f"{moved.name}.py")
+    if one.fate is Fate.REPLACED or (script and one.fate is Fate.MODULE):
+        return codes.REPLACED, f"`{one.relative}` has no successor"
+    return _WITHOUT_SUCCESSOR.get(one.fate)
+
+
+_WITHOUT_SUCCESSOR = {
+    Fate.CODE: (codes.NOT_PYTHON, "code in C++ is not carried over"),
+    Fate.WINDOW: (codes.INTERFACE_WINDOW, "the window is not carried over"),
+    Fate.LINK: (codes.NOT_COPIED, "it is a link or no file, and was not copied"),
+    Fate.TOO_MANY: (codes.NOT_COPIED, "there are too many files; from here on none was copied"),
+}
+
+
+def _copy(moved: Moved, one: Found, room: int, report: Report) -> int:
+    """Copy a file as it is; its size."""
+    name = str(one.relative)
+    data, said = b"", ""
+    try:
+        with one.path.open("rb") as stream:
+            data = stream.read(min(MAX_BYTES, room) + 1)
+    except OSError as error:
+        said = error.strerror or str(error)
+    if len(data) > min(MAX_BYTES, room):
+        said = "it is too large"
+    elif any(file.path == name for file in moved.files) or name == "main.py":
+        said = "there is another file of this name in the new component"
+    if said:
+        report.add(codes.NOT_COPIED, Source(one.path, "").whole, f"it was not copied: {said}")
+        return 0
+    moved.add(OutputFile(name, data.decode("utf-8", "surrogateescape")), name)
+    return len(data)

@@ -1,0 +1,81 @@
+"""The module that gives the old code the names it uses, on top of the generated ones.
+
+In: a component, its inferred parameters. Out: the text of `legacy.py`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_dsl.generate import names
+from robocomp_dsl.generate.component_names import SERVED, Called, modules_of, names_of
+from robocomp_dsl.generate.literals import python_string
+from robocomp_dsl.generate.templates import render
+from robocomp_dsl.migrate.infer import Leaf, Parameters
+from robocomp_dsl.migrate.texts import leaves
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.interface import Module
+from robocomp_dsl.model.types import Dictionary, Enum, ExceptionType, Sequence, Struct
+
+STAND_INS = {
+    "Ice": frozenset(
+        (
+            "Exception",
+            "LocalException",
+            "UserException",
+            "ConnectionRefusedException",
+            "ConnectFailedException",
+            "ObjectNotExistException",
+            "NoEndpointException",
+            "TimeoutException",
+        )
+    ),
+    "QtCore": frozenset(("QMutex", "QMutexLocker", "QTimer", "Slot")),
+    "QtWidgets": frozenset(("QApplication",)),
+    "QApplication": frozenset(("instance",)),
+    "QTimer": frozenset(("singleShot",)),
+    "QMutex": frozenset(("Recursive",)),
+    "QMutexLocker": frozenset[str](),
+    "Slot": frozenset[str](),
+}
+"""What the module gives of Ice and Qt, and the attributes of each that it has."""
+
+
+def legacy_text(component: Component, parameters: Parameters) -> str:
+    """The module for the old code of `component`."""
+    called = names_of(component)
+    return render(
+        "migrate/legacy.py.jinja",
+        name=component.name,
+        modules=[(m.name, list(_types(m, called))) for m in modules_of(component)],
+        settings=list(_settings(parameters)),
+        typed=parameters.typed,
+        proxies=list(_proxies(component, called)),
+    )
+
+
+def _types(module: Module, called: Called) -> Iterator[tuple[str, str]]:
+    """The types of a module as its old Python module had them; lists and dictionaries are plain."""
+    for one in module.declarations:
+        old = names.identifier(one.name)
+        if isinstance(one, Struct | Enum | ExceptionType):
+            yield old, f"_types.{called.types.names[one]}"
+        elif isinstance(one, Sequence):
+            yield old, "list"
+        elif isinstance(one, Dictionary):
+            yield old, "dict"
+
+
+def _settings(parameters: Parameters) -> Iterator[str]:
+    for path, one in leaves(parameters.tree):
+        key = "".join(f"{python_string(part)}, " for part in one.old)
+        texts = one.texts if isinstance(one, Leaf) else ("true", "false")
+        listed = not isinstance(one, Leaf)
+        yield f'(({key}), {python_string(".".join(path))}, {listed}, ("{texts[0]}", "{texts[1]}"))'
+
+
+def _proxies(component: Component, called: Called) -> Iterator[tuple[str, str]]:
+    for port in component.ports:
+        if port.role not in SERVED:
+            yield f"{port.name}Proxy", called.proxies[port]
+            yield port.name, called.proxies[port]

@@ -1,0 +1,1 @@
+from specificworker import *
