@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
+import types
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from robocomp_dsl.check import check_innermodel
+from robocomp_dsl.check import check_cdsl, check_innermodel
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.generate.simulator import descriptions, files, simulator
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
 from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.hardware.serving import Port
+from robocomp_dsl.runtime import ServedPort
 
 RCGEN = Path(sys.executable).with_name("rcgen")
 
@@ -46,9 +54,9 @@ def scene_of(path: Path, text: str) -> Scene:
     return Scene.of_data(lower(body))
 
 
-def simulated(folder: Path, text: str, options: Options = Options()) -> Simulation:
+def simulated(folder: Path, text: str, options: Options | None = None) -> Simulation:
     """A simulation that does not run: the test advances it."""
-    return Simulation(scene_of(folder / "world.xml", text), options)
+    return Simulation(scene_of(folder / "world.xml", text), options or Options())
 
 
 def rcgen(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
@@ -102,3 +110,41 @@ def run(folder: Path, code: str, *arguments: str) -> str:
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+@dataclass(frozen=True)
+class Served:
+    """A simulation that does not run, the ports of its component, and the types of these."""
+
+    simulation: Simulation
+    ports: dict[str, Port]
+    types: Any
+
+    def until(self, what: Callable[[], object], limit: float = 20.0) -> None:
+        """Let simulated time pass until `what` is so."""
+        while not what():
+            assert self.simulation.world.time < limit, "it did not come true in time"
+            self.simulation.advance(0.02)
+
+
+def served(folder: Path, text: str, options: Options | None = None) -> Served:
+    """All that `rcgen simulator` makes of a world, without a process and without a thread."""
+    path = folder / "world.xml"
+    path.write_text(text)
+    report = Report()
+    body = check_innermodel(path, Workspace(environ={}), report)
+    assert body is not None
+    made = simulator(body)
+    workspace = Workspace(environ={})
+    for one in descriptions(made):
+        workspace.files.open_buffer(folder / one.path, one.text)
+    component = check_cdsl(folder / f"{made.name}.cdsl", workspace, report)
+    assert [one.message for one in report] == []
+    assert component is not None
+    written = {one.path: one.text for one in files(made, component)}
+    data = json.loads(written["generated/scene.json"])
+    module = types.ModuleType("interfaces")
+    exec(compile(written["generated/interfaces.py"], "interfaces.py", "exec"), module.__dict__)
+    simulation = Simulation(Scene.of_data(data["scene"]), options or Options())
+    ports = [ServedPort(p.port, getattr(module, p.interface.upper())) for p in made.ports]
+    return Served(simulation, simulation.serve(ports, data["ports"]), module)

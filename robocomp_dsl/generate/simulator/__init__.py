@@ -18,7 +18,14 @@ from robocomp_dsl.generate.names import camel
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.scene import lower
 from robocomp_dsl.generate.simulator.handlers import simulator_code
-from robocomp_dsl.generate.simulator.offers import ServedAs, identifier, not_served, served
+from robocomp_dsl.generate.simulator.offers import (
+    Published,
+    ServedAs,
+    identifier,
+    not_served,
+    published,
+    served,
+)
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.body import Body
 from robocomp_dsl.model.component import Component
@@ -35,6 +42,7 @@ class Simulator:
     source: str
     scene: dict[str, Any]
     ports: tuple[ServedAs, ...]
+    topics: tuple[Published, ...]
     unserved: tuple[tuple[str, str], ...]
 
     @property
@@ -48,22 +56,25 @@ def simulator(body: Body) -> Simulator:
     scene = lower(body)
     for mesh in scene["meshes"]:
         mesh["file"] = str(Path(mesh["file"]).absolute()) if mesh["file"] else ""
+    ports = served(scene)
     return Simulator(
         f"{identifier(body.path.stem)}_simulator",
         body.path.name,
         scene,
-        served(scene),
+        ports,
+        published(ports),
         tuple(not_served(scene)),
     )
 
 
 def descriptions(made: Simulator) -> list[OutputFile]:
     """The CDSL and the PDSL file."""
-    interfaces = list(dict.fromkeys(one.interface for one in made.ports))
+    imports = dict.fromkeys(one.interface for one in made.ports)
+    imports |= dict.fromkeys(one.topic.file for one in made.topics)
     return [
         OutputFile(
             f"{made.name}.cdsl",
-            render(f"{FOLDER}simulator.cdsl.jinja", simulator=made, interfaces=interfaces),
+            render(f"{FOLDER}simulator.cdsl.jinja", simulator=made, imports=imports),
         ),
         OutputFile(f"{made.name}.pdsl", render(f"{FOLDER}simulator.pdsl.jinja", simulator=made)),
     ]
@@ -71,7 +82,7 @@ def descriptions(made: Simulator) -> list[OutputFile]:
 
 def files(made: Simulator, component: Component) -> list[OutputFile]:
     """All files of the component but its descriptions."""
-    code = simulator_code(made.source, component, names_of(component))
+    code = simulator_code(made.source, component, names_of(component), made.topics)
     data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
     planned = [one for one in plan(component) if one.path != WORKER]
     return [

@@ -5,12 +5,13 @@ In: a component and its names. Out: plain data for the template.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.component_names import SERVED, Called
 from robocomp_dsl.generate.layout import BODY, INNER, definition
+from robocomp_dsl.generate.simulator.offers import Published
 from robocomp_dsl.generate.worker_imports import specific_imports
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.interface import Operation
@@ -34,10 +35,14 @@ class SimulatorCode:
     doc: str
     imports: tuple[str, ...]
     methods: tuple[Delegation, ...]
+    topics: tuple[str, ...]
 
 
-def simulator_code(source: str, component: Component, called: Called) -> SimulatorCode:
+def simulator_code(
+    source: str, component: Component, called: Called, topics: Sequence[Published]
+) -> SimulatorCode:
     """Everything that the templates print."""
+    proxies = {port.name: attribute for port, attribute in called.proxies.items()}
     served = [p for p in component.ports if p.role in SERVED]
     return SimulatorCode(
         title=component.name,
@@ -45,7 +50,14 @@ def simulator_code(source: str, component: Component, called: Called) -> Simulat
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(called)),
         methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
+        topics=tuple(_publication(one, proxies[one.port]) for one in topics),
     )
+
+
+def _publication(one: Published, proxy: str) -> str:
+    """The statement that publishes what a port answers."""
+    asked = f"self.ports[{literals.quoted(one.source)}].{one.topic.asked}()"
+    return layout.statement("", layout.call(f"self.{proxy}.{one.topic.operation}", asked), BODY)
 
 
 def _method(port: Port, one: Operation, called: Called) -> Delegation:

@@ -30,6 +30,28 @@ OFFERS = (
     Offer("differentialrobot", "DifferentialRobot"),
     Offer("omnirobot", "OmniRobot"),
     Offer("laser", "Laser"),
+    Offer("joint", "JointMotor", shared=True),
+    Offer("prismaticjoint", "JointMotor", shared=True),
+    Offer("joint", "ControlBoard", shared=True),
+    Offer("prismaticjoint", "ControlBoard", shared=True),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """What the answer of `asked` of a port that serves `interface` is published as."""
+
+    interface: str
+    asked: str
+    published: str
+    operation: str
+    file: str
+
+
+TOPICS = (
+    Topic("OmniRobot", "getBaseState", "OmniRobotPub", "pushBaseState", "OmniRobotPub"),
+    Topic("JointMotor", "getAllMotorState", "JointMotorPub", "motorStates", "JointMotorPub"),
+    Topic("ControlBoard", "getState", "ControlBoardState", "boardState", "ControlBoard"),
 )
 
 
@@ -67,6 +89,25 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
                 pair = (device["id"], device["kind"])
                 found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
     return tuple(found)
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A topic as the port `port`; its data are those of the port `source`."""
+
+    port: str
+    source: str
+    topic: Topic
+
+
+def published(ports: Sequence[ServedAs]) -> tuple[Published, ...]:
+    """The topics of served ports."""
+    return tuple(
+        Published(t.published if p.port == p.interface else f"{p.port}_pub", p.port, t)
+        for p in ports
+        for t in TOPICS
+        if t.interface == p.interface
+    )
 
 
 def identifier(written: str) -> str:

@@ -15,6 +15,7 @@ from robocomp_dsl.hardware.mobile_base import BaseLimits
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.scene import ROOT, Device, Scene
 
@@ -67,6 +68,10 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
 
 
 def parts_of(scene: Scene, noise: NoiseLevel) -> dict[str, Any]:
-    """The parts by the ids of their devices."""
+    """The parts by the ids of their devices; all joints have one board between them."""
     site = Site(scene, noise)
-    return {one.id: SINGLE[one.kind](site, one) for one in scene.devices if one.kind in SINGLE}
+    made = {one.id: SINGLE[one.kind](site, one) for one in scene.devices if one.kind in SINGLE}
+    joints = [one for one in scene.frames if one.motion]
+    if joints:
+        made |= dict.fromkeys((one.id for one in joints), JointBoard(joints))
+    return made

@@ -1,8 +1,8 @@
 """A scene to a MuJoCo model: a body for every frame, a joint for all that moves, a geom per shape.
 
-In: a `Scene`. Out: an `MjSpec` whose joints and geoms have the scene's ids (bodies: `body_name`), and what had to
-be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of `xpos`
-and `xmat` gives its matrices.
+In: a `Scene`. Out: an `MjSpec` whose joints and geoms have the scene's ids (bodies: `body_name`),
+and what had to be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of
+`xpos` and `xmat` gives its matrices.
 """
 
 from __future__ import annotations
@@ -58,6 +58,7 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
     if frame.mass > 0:
         body.explicitinertial = True
         body.mass = frame.mass
+        body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
         body.inertia = [0.4 * frame.mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
     if frame.physics and frame.parent == ROOT:
         body.add_freejoint()

@@ -81,7 +81,7 @@ class Simulation:
             spec, self.notes = build_spec(self.scene)
             spec.option.timestep = self.options.step
             parts = parts_of(self.scene, self.noise)
-            self.world = World(spec, parts.values(), seed=self.seed)
+            self.world = World(spec, dict.fromkeys(parts.values()), seed=self.seed)
         except ValueError as error:  # what MuJoCo says of a body that it does not take
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         self.devices.clear()

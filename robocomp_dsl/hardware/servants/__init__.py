@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
+from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
 
@@ -18,5 +20,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompDifferentialRobot::DifferentialRobot": DifferentialRobotServant,
     "RoboCompOmniRobot::OmniRobot": OmniRobotServant,
     "RoboCompLaser::Laser": LaserServant,
+    "RoboCompJointMotor::JointMotor": JointMotorServant,
+    "RoboCompControlBoard::ControlBoard": ControlBoardServant,
 }
 """The servant of each interface."""

@@ -1,6 +1,6 @@
 """`DifferentialRobot` and `OmniRobot` over a mobile base."""
 
-# ruff: noqa: N802  methods are called as the operations
+# ruff: noqa: N802  called as in the interface
 
 from __future__ import annotations
 

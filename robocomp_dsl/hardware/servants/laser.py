@@ -1,6 +1,6 @@
 """`Laser` over a range finder. The base that it tells of is the one that carries it, if any."""
 
-# ruff: noqa: N802  methods are called as the operations
+# ruff: noqa: N802  called as in the interface
 
 from __future__ import annotations
 

@@ -1,0 +1,197 @@
+"""`JointMotor` over a control board. Angles are rad; slides have mm here and m on the board."""
+
+# ruff: noqa: N802, N803  called as in the interface
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+
+from robocomp_dsl.hardware.control.board import Board
+from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
+from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
+from robocomp_dsl.hardware.control.minimum_jerk import PEAK
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.servants.servant import Servant
+
+_ROUNDING = 1e-5
+"""What a goal of 32 bits may be beyond a limit [rad or m]."""
+
+
+class JointMotorServant(Servant):
+    """All motors of the port are on one board."""
+
+    FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
+        (UnknownJoint, "UnknownMotorException"),
+        (HardwareError, "HardwareFailedException"),
+    )
+
+    @property
+    def _board(self) -> Board:
+        found: Board = self.device().board
+        return found
+
+    # -- goals --------------------------------------------------------------------------------
+
+    def setPosition(self, goal: Any) -> None:
+        """Send one motor to a position; beyond its limits is refused."""
+        self.setSyncPosition([goal])
+
+    def setSyncPosition(self, listGoals: Sequence[Any]) -> None:
+        """Send several; all of them or none."""
+        joints = self._joints(one.name for one in listGoals)
+        position = [one.position for one in listGoals]
+        self._move(
+            joints,
+            numbers("position", position, len(joints)) * self._units(joints),
+            numbers("maxSpeed", [one.maxSpeed for one in listGoals], len(joints)),
+        )
+
+    def setZeroPos(self, name: str) -> None:
+        """Send one motor home."""
+        joints = self._joints([name])
+        self._move(joints, self.device().homes[joints], np.zeros(1))
+
+    def setSyncZeroPos(self) -> None:
+        """Send all motors home."""
+        homes = self.device().homes
+        self._move(np.arange(len(homes)), homes, np.zeros(len(homes)))
+
+    def setVelocity(self, goal: Any) -> None:
+        """Turn one motor."""
+        self.setSyncVelocity([goal])
+
+    def setSyncVelocity(self, listGoals: Sequence[Any]) -> None:
+        """Turn several; a `maxAcc` of 0 leaves the acceleration as it is."""
+        board, joints = self._board, self._joints(one.name for one in listGoals)
+        unit = self._units(joints)
+        velocity = numbers("velocity", [one.velocity for one in listGoals], len(joints)) * unit
+        most = numbers("maxAcc", [one.maxAcc for one in listGoals], len(joints)) * unit
+        self._refuse_beyond("velocity", joints, velocity, -board.limits.speed, board.limits.speed)
+        board.set_modes(joints, [Mode.VELOCITY] * len(joints))
+        given = most > 0
+        board.references.acceleration[joints[given]] = most[given]
+        board.references.drive(joints, velocity, np.inf)
+
+    def _move(self, joints: Ints, goal: Floats, speed: Floats) -> None:
+        """Minimum jerk to `goal` (rad or m); `speed` (as on the wire) is the largest on the way."""
+        board = self._board
+        self._refuse_beyond("position", joints, goal, board.limits.low, board.limits.high)
+        if (speed < 0).any():
+            raise BadValue("`maxSpeed` is negative")
+        most = np.where(speed > 0, speed * self._units(joints), board.limits.speed[joints])
+        board.set_modes(joints, [Mode.POSITION] * len(joints))
+        kept, _ = board.limits.clip(joints, goal)
+        board.references.move(joints, kept, board.dt, most / PEAK)
+
+    def _refuse_beyond(
+        self, what: str, joints: Ints, values: Floats, low: Floats, high: Floats
+    ) -> None:
+        for joint, value in zip(joints.tolist(), values.tolist(), strict=True):
+            lowest, highest = float(low[joint]), float(high[joint])
+            if not lowest - _ROUNDING <= value <= highest + _ROUNDING:
+                name, unit = self._board.spec.names[joint], self._unit(joint)
+                raise BadValue(
+                    f"`{name}` cannot take the {what} {value / unit:g}: "
+                    f"it is limited to {lowest / unit:g} … {highest / unit:g}"
+                )
+
+    # -- states -------------------------------------------------------------------------------
+
+    def getMotorState(self, motor: str) -> Any:
+        """What one motor does now."""
+        return self._states([self._joint(motor)])[motor]
+
+    def getMotorStateMap(self, mList: Sequence[str]) -> dict[str, Any]:
+        """What the named motors do now."""
+        return self._states([self._joint(name) for name in mList])
+
+    def getAllMotorState(self) -> dict[str, Any]:
+        """What all motors do now."""
+        return self._states(range(len(self._board.spec.joints)))
+
+    def _states(self, joints: Iterable[int]) -> dict[str, Any]:
+        board = self._board
+        state, units = board.state(), self._units(np.arange(len(board.spec.joints)))
+        moving = (np.abs(state.velocity) > 1e-3) | board.references.trajectory.moving
+        columns = (
+            (state.position / units).tolist(),
+            (state.velocity / units).tolist(),
+            (state.torque * state.velocity).tolist(),
+            state.motor_counts.astype(np.int64).tolist(),
+            state.motor_speed.astype(np.int64).tolist(),
+            moving.tolist(),
+            state.temperature.astype(np.int64).tolist(),
+        )
+        rows = list(zip(*columns, strict=True))
+        return {board.spec.names[i]: self._state(f"{state.time:.6f}", *rows[i]) for i in joints}
+
+    def _state(
+        self, time: str, pos: float, vel: float, power: float, p: int, v: int, *rest: Any
+    ) -> Any:
+        moving, temperature = rest
+        return self.types.MotorState(
+            pos=pos,
+            vel=vel,
+            power=power,
+            timeStamp=time,
+            p=_whole(p),
+            v=_whole(v),
+            isMoving=moving,
+            temperature=temperature,
+        )
+
+    # -- how they are built -------------------------------------------------------------------
+
+    def getMotorParams(self, motor: str) -> Any:
+        """How one motor is built and limited."""
+        board, joint = self._board, self._joint(motor)
+        unit = self._unit(joint)
+        low, high = float(board.limits.low[joint]), float(board.limits.high[joint])
+        turns = board.motors.gear[joint] * (high - low) / (2 * np.pi)
+        return self.types.MotorParams(
+            name=motor,
+            minPos=low / unit,
+            maxPos=high / unit,
+            maxVelocity=float(board.limits.speed[joint]) / unit,
+            zeroPos=float(self.device().homes[joint]) / unit,
+            stepsRange=float(turns * board.motors.counts[joint]),
+            maxDegrees=float(np.rad2deg(high - low)),
+            unitsRange=(high - low) / unit,
+        )
+
+    def getAllMotorParams(self) -> list[Any]:
+        """How all motors are built and limited."""
+        return [self.getMotorParams(name) for name in self._board.spec.names]
+
+    def getBusParams(self) -> Any:
+        """The bus."""
+        board = self._board
+        return self.types.BusParams(
+            handler="robocomp_dsl",
+            device=self.port,
+            numMotors=len(board.spec.joints),
+            basicPeriod=max(1, round(board.dt * 1000)),
+        )
+
+    # -- names and units ----------------------------------------------------------------------
+
+    def _joint(self, name: str) -> int:
+        return self._board.select.index(name)
+
+    def _joints(self, names: Iterable[str]) -> Ints:
+        return self._board.select.indices(list(names))
+
+    def _unit(self, joint: int) -> float:
+        return 1e-3 if self._board.spec.joints[joint].prismatic else 1.0
+
+    def _units(self, joints: Ints) -> Floats:
+        return np.array([self._unit(joint) for joint in joints.tolist()])
+
+
+def _whole(counts: int) -> int:
+    """Counts that fit into the 32 bits of the interface."""
+    return max(min(counts, 2**31 - 1), -(2**31))
