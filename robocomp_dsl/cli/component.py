@@ -87,7 +87,7 @@ def command(
     files = plan(component, **chosen) if component else []
     folder = output or file.parent
     if component:
-        files = _upkeep(folder, component, files, report)
+        files = _upkeep(folder, component, files, report, writes=not mode)
     options.show(report.sorted(), form, sys.stderr)
     if component is None:
         sys.exit(FINDINGS)
@@ -124,12 +124,12 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
 
 
 def _upkeep(
-    folder: Path, component: Component, files: list[OutputFile], report: Report
+    folder: Path, component: Component, files: list[OutputFile], report: Report, *, writes: bool
 ) -> list[OutputFile]:
     """The files as they are to be written over what the user made of them."""
     from robocomp_dsl.generate.upkeep import keep_up  # noqa: PLC0415 - only with a component
 
-    return keep_up(folder, component, files, report)
+    return keep_up(folder, component, files, report, writes=writes)
 
 
 def _act(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> int:

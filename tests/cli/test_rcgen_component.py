@@ -260,3 +260,24 @@ def test_a_file_that_may_not_be_read_is_a_finding(
     run = rcgen("component", "talker.cdsl")
     assert run.code == 1
     assert run.err.startswith("error[RC001]: cannot read `talker.cdsl`")
+
+
+@pytest.mark.parametrize("mode", ["--check", "--diff", "--dry-run"])
+def test_what_is_only_told_is_not_said_to_be_done(rcgen: Rcgen, talker: Path, mode: str) -> None:
+    assert rcgen("component", "talker.cdsl").code == 0
+    worker, readme = talker / "specificworker.py", talker / "README.md"
+    worker.write_text("class SpecificWorker(GenericWorker):\n    pass\n")
+    readme.write_text(f"{readme.read_text()}\n\n\nMine.\n")
+    (talker / "talker.cdsl").write_text(
+        f"/** Talks a lot. */\n{(talker / 'talker.cdsl').read_text()}"
+    )
+    before = tree(talker)
+    run = rcgen("component", "talker.cdsl", mode)
+    assert run.code == (1 if mode == "--check" else 0)
+    assert "no method `Talk_say` for the operation `say`; a stub would be added" in run.err
+    assert "--> specificworker.py:1:7" in run.err
+    assert "is added" not in run.err
+    assert "is merged" not in run.err
+    assert tree(talker) == before
+    assert "this stub is added" in rcgen("component", "talker.cdsl").err
+    assert rcgen("component", "talker.cdsl", "--check").code == 0

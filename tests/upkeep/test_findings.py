@@ -110,20 +110,36 @@ USES = {
     "self.talk_proxy.sayy(1)": "did you mean `say`?",
     "self.talk_proxy.wait_for_server(1)": "",
     "self.other.sayy(1)": "",
+    "self.params.limits.parts[0].att": "did you mean `at`?",
+    "[m.gian for m in self.params.motors]": "did you mean `gain`?",
+    "[m.gain for m in self.params.motors]": "",
+    "m = self.params.motors[0]; m.gian": "did you mean `gain`?",
+    "p = self.params; p.rat": "did you mean `rate`?",
+    "p = self.params; l = p.limits; l.lowr": "did you mean `low`?",
+    "p = self.params; p = self.other; p.rat": "",
+    "p = p.limits; p.lowr": "",
+    "[m.gian for i, m in enumerate(self.params.motors)]": "did you mean `gain`?",
+    "[m.gian for m, x in zip(self.params.motors[1:], self.other)]": "did you mean `gain`?",
+    "[a.att for a in self.params.limits.parts if a.at]": "did you mean `at`?",
+    "[[x.att for x in l.parts] for l in [self.params.limits]]": "",
+    "return (lambda m: m.gian)(self.params.motors[0])": "",
+    "p = self.talk_proxy; p.sayy(1)": "did you mean `say`?",
     "other.params.rat": "",
 }
 
 
 @pytest.mark.parametrize("use", USES)
 def test_unknown_members(talker: Talker, use: str) -> None:
-    parameters = "rate float 1; motors[0:3] { gain float 1; }; limits { low int 1; };"
+    limits = "limits { low int 1; parts[0:2] { at int 1; }; };"
+    parameters = f"rate float 1; motors[0:3] {{ gain float 1; }}; {limits}"
     talker.describe("int say(Word w);", parameters=parameters, ports="requires Talk;")
     put(talker, f"def compute(self): {use}")
     found = talker.generate()
     assert [d.label for d in found] == ([USES[use]] if USES[use] else [])
     if found:
         assert found[0].code.id == ("RC617" if "proxy" in use else "RC616")
-        assert use.split("(", maxsplit=1)[0].endswith(found[0].span.text)
+        assert f".{found[0].span.text}" in use
+        assert found[0].span.text not in {"rate", "gain", "low", "at", "say"}
 
 
 def test_a_damaged_record(talker: Talker) -> None:
@@ -146,3 +162,70 @@ def test_states_come_and_go(talker: Talker) -> None:
     found = {d.span.text: d.code.id for d in talker.generate()}
     assert found == {"state_a2": "RC611", "state_a1": "RC614", "on_exit_a1": "RC614"}
     talker.imports()
+
+
+WITHIN = "from generated.genericworker import GenericWorker\nif True:\n    "
+
+# The user's module, and a beside module; what is said of `say`, and where.
+ELSEWHERE = {
+    "in an if": (f"{WITHIN}class SpecificWorker(GenericWorker): pass\n", "", "at the margin"),
+    "another name": (
+        f"{HEAD.replace('Specific', 'My')}    pass\nSpecificWorker = MyWorker\n",
+        "",
+        "margin",
+    ),
+    "all in another file": ("from mine import SpecificWorker\n", f"{HEAD}    pass\n", "margin"),
+    "a base beside it": (
+        f"from mine import Mix as M\n{HEAD.replace('(', '(M, ')}    pass\n",
+        "class Mix:\n    def Talk_say(self, w): return 1\n",
+        "",
+    ),
+    "a qualified base beside it": (
+        f"import mine\n{HEAD.replace('(', '(mine.Mix, ')}    pass\n",
+        "class Mix:\n    def Talk_say(self, w): return 1\n",
+        "",
+    ),
+    "a base that lacks it": (
+        f"from mine import Mix\n{HEAD.replace('(', '(Mix, ')}    pass\n",
+        "class Mix:\n    def Talk_other(self, w): return 1\n",
+        "this stub is added",
+    ),
+    "an unknown base": (
+        f"from enum import Enum as Mix\n{HEAD.replace('(', '(Mix, ')}    pass\n",
+        "",
+        "what its base `Mix` has cannot be seen here",
+    ),
+    "in an if in the class": (f"{HEAD}    if True:\n        def Talk_say(s, w): ...\n", "", ""),
+    "in a match in the class": (
+        f"{HEAD}    match 1:\n        case _:\n            def Talk_say(s, w): ...\n",
+        "",
+        "",
+    ),
+    "in a circle": ("from mine import SpecificWorker\n", "from specificworker import *\n", "seen"),
+}
+
+
+@pytest.mark.parametrize("case", ELSEWHERE)
+def test_classes_made_elsewhere(talker: Talker, case: str) -> None:
+    text, beside, said = ELSEWHERE[case]
+    talker.describe("")
+    talker.worker.unlink()
+    talker.generate()
+    talker.worker.write_text(text)
+    (talker.folder / "mine.py").write_text(beside)
+    talker.describe("int say(Word w);")
+    found = talker.generate()
+    assert [d.code.id for d in found] == (["RC611"] if said else [])
+    assert said in "".join(d.message for d in found)
+    if "added" not in said or "none" in said:
+        assert talker.worker.read_text() == text
+
+
+def test_what_a_base_beside_the_file_has_is_judged(talker: Talker) -> None:
+    beside = talker.folder / "mine.py"
+    beside.write_text("class Mix:\n    def Talk_say(self, w) -> int: return self.params.rat\n")
+    talker.worker.write_text(f"from mine import Mix\n{HEAD.replace('(', '(Mix, ')}    pass\n")
+    talker.describe("int say(Word w, int n);", parameters="rate float 1;")
+    found = talker.generate()
+    assert {(d.code.id, d.span.text) for d in found} == {("RC615", "Talk_say"), ("RC616", "rat")}
+    assert {d.span.source.path for d in found} == {beside}

@@ -124,3 +124,30 @@ def test_a_link_stays_a_link(talker: Talker) -> None:
     assert "the file is a link" in found.message
     assert target.read_bytes() == before
     assert talker.worker.is_symlink()
+
+
+def test_a_read_only_file_stays(talker: Talker) -> None:
+    talker.worker.write_text(f"{HEAD}class SpecificWorker(GenericWorker):\n    pass\n")
+    talker.worker.chmod(0o444)
+    before = talker.worker.read_bytes()
+    (found,) = talker.generate()
+    assert "the file is read-only, so none is added" in found.message
+    assert talker.worker.read_bytes() == before
+
+
+DECOYS = {
+    "a remark": "# def Talk_say(self)\n",
+    "a text": "x = '''\n    def Talk_say(self): ...\n'''\n",
+    "another class": "class Other:\n    def Talk_say(self): ...\n",
+}
+
+
+@pytest.mark.parametrize("case", DECOYS)
+def test_the_place_of_a_stub_is_told(talker: Talker, case: str) -> None:
+    text = f"{HEAD}{DECOYS[case]}class SpecificWorker(GenericWorker):\n    pass\n"
+    talker.worker.write_text(text + DECOYS[case])
+    (found,) = talker.generate()
+    lines = talker.worker.read_text().splitlines()
+    row, column = found.span.begin
+    assert lines[row - 1][column - 1 :].startswith("Talk_say(self, w: Word) -> int:")
+    assert lines[row - 2] == "", "the blank line before a stub"

@@ -9,14 +9,17 @@ that are written once are merged three ways with their pristine output, which `.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import stat
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.upkeep import judge, members_used, merge, record, stubs, user_module
+from robocomp_dsl.generate.upkeep.hierarchy import CLASS
 from robocomp_dsl.generate.upkeep.methods import Method, methods_of
+from robocomp_dsl.generate.upkeep.user_module import UserModule
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import UnreadableSource
 
@@ -24,9 +27,17 @@ WORKER = "specificworker.py"
 
 
 def keep_up(
-    folder: Path, component: Component, files: Sequence[OutputFile], report: Report
+    folder: Path,
+    component: Component,
+    files: Sequence[OutputFile],
+    report: Report,
+    *,
+    writes: bool = True,
 ) -> list[OutputFile]:
-    """`files` as they are to be written over what `folder` holds; `report` gets the findings."""
+    """`files` as they are to be written over what `folder` holds; `report` gets the findings.
+
+    Without `writes` the findings say what would be done, at places in the files as they are.
+    """
     called = names_of(component)
     methods = methods_of(component, called)
     known = record.read(folder, report)
@@ -39,21 +50,43 @@ def keep_up(
         user = None
     if user is not None:
         missing = list(judge.judge(user, methods, known, report))
-        made = list(_with_stubs(user, missing, report)) or made
+        kept = "" if writes else "a stub would be added"
+        made = list(_with_stubs(user, missing, methods, kept, report)) or made
         members_used.judge(user, component, called, report)
-    kept = record.written(methods, known, user)
-    return [*made, *merge.merged(folder, others, report), kept]
+    recorded = record.written(methods, known, user)
+    return [*made, *merge.merged(folder, others, report, writes=writes), recorded]
 
 
 def _with_stubs(
-    user: user_module.UserModule, missing: Sequence[Method], report: Report
+    user: UserModule,
+    missing: Sequence[Method],
+    methods: Mapping[str, Method],
+    kept: str,
+    report: Report,
 ) -> Iterator[OutputFile]:
     """The user's module with a stub for each of the `missing` methods, if there are any."""
     if not missing:
         return
-    if user.source.path.is_symlink():
-        judge.report_missing(user, missing, report)
+    if why := _untouchable(user):
+        judge.report_missing(user, missing, methods, f"{why}, so none is added", report)
         return
     added = stubs.added(user, missing)
-    stubs.report_added(user, added, missing, report)
+    if kept:
+        judge.report_missing(user, missing, methods, kept, report)
+    else:
+        stubs.report_added(user, added, missing, methods, report)
     yield OutputFile(WORKER, added, encoding=user.encoding, seen=user.data)
+
+
+def _untouchable(user: UserModule) -> str:
+    """Why no stubs can be put into the user's class; nothing where they can."""
+    path = user.source.path
+    if path.is_symlink():
+        return "the file is a link"
+    if not path.stat().st_mode & stat.S_IWUSR:
+        return "the file is read-only"
+    if user.hierarchy.unknown:
+        return f"what its base `{user.hierarchy.unknown[0]}` has cannot be seen here"
+    if user.worker is None or user.hierarchy.classes[0][1] is not user.worker:
+        return f"no `class {CLASS}` stands at the margin of `{WORKER}`"
+    return ""

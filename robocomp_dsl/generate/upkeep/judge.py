@@ -15,8 +15,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.diagnostics import Report, nearest
 from robocomp_dsl.generate import codes
+from robocomp_dsl.generate.upkeep.hierarchy import BASE, CLASS
 from robocomp_dsl.generate.upkeep.methods import Method, Signature
-from robocomp_dsl.generate.upkeep.user_module import BASE, CLASS, Function, UserModule
+from robocomp_dsl.generate.upkeep.user_module import Function, Member, UserModule
 
 _PLAIN = {"override", "typing.override"}
 """Decorators that leave a signature as it is."""
@@ -28,39 +29,48 @@ def judge(
     known: Mapping[str, Signature],
     report: Report,
 ) -> Iterator[Method]:
-    """The methods that the class lacks; the findings about those it has go to `report`."""
+    """The methods that the class lacks; the findings about those it has go to `report`.
+
+    What a base from elsewhere may have is only taken for missing when it is new.
+    """
     has = user.members
-    if has is None:
-        return
     for name, method in methods.items():
         if name not in has:
-            if not method.optional:
+            if not method.optional and not (user.hierarchy.unknown and name in known):
                 yield method
-        elif (function := has[name]) is not None:
-            _judge_signature(user, function, method, known.get(name), report)
+        elif (member := has[name]) is not None:
+            _judge_signature(member, method, known.get(name), report)
     for name in known.keys() - methods.keys() & has.keys():
-        if (function := has[name]) is not None:
-            _report_stale(user, function, methods, report)
+        if (member := has[name]) is not None:
+            _report_stale(user, member, methods, report)
 
 
-def report_missing(user: UserModule, missing: Sequence[Method], report: Report) -> None:
-    """Say which methods there are none of, where no stubs can be added."""
-    where = user.span_of(user.worker) if user.worker else user.source.whole
+def report_missing(
+    user: UserModule,
+    missing: Sequence[Method],
+    methods: Mapping[str, Method],
+    why: str,
+    report: Report,
+) -> None:
+    """Say which methods there are none of, and `why` no stubs are added, or what would be."""
+    worker = user.hierarchy.classes[0] if user.hierarchy.classes else None
+    where = worker[0].span_of(worker[1]) if worker else user.source.whole
     for one in missing:
-        guess = near(user, one)
+        guess = near(user, one, methods)
         report.add(
             codes.MISSING_METHOD,
             where,
-            f"`{CLASS}` has no method `{one.name}`, and the file is a link, so none is added",
+            f"`{CLASS}` has no method `{one.name}` for {one.what}; {why}",
             label=f"did you mean `{guess}`?" if guess else "",
             notes=[one.origin],
             help=f"`{BASE}` in generated/genericworker.py has its signature",
         )
 
 
-def near(user: UserModule, one: Method) -> str | None:
-    """A method of the user's that is most likely meant to be `one`."""
-    return nearest(one.name, (n for n in user.members or () if n.startswith(one.prefix)))
+def near(user: UserModule, one: Method, methods: Mapping[str, Method]) -> str | None:
+    """A method of the user's that is most likely meant to be `one`, and is nothing else."""
+    free = user.members.keys() - methods.keys()
+    return nearest(one.name, sorted(n for n in free if n.startswith(one.prefix)))
 
 
 def follows(function: Function, old: Signature, new: Signature) -> bool:
@@ -68,10 +78,8 @@ def follows(function: Function, old: Signature, new: Signature) -> bool:
     return _callable_with(function, len(new.arguments)) and not _leftovers(function, old, new)
 
 
-def _judge_signature(
-    user: UserModule, function: Function, method: Method, old: Signature | None, report: Report
-) -> None:
-    new = method.signature
+def _judge_signature(member: Member, method: Method, old: Signature | None, report: Report) -> None:
+    new, function = method.signature, member.function
     if any(ast.unparse(d) not in _PLAIN for d in function.decorator_list):
         return  # it may have any signature behind them
     if follows(function, old or new, new):
@@ -79,7 +87,7 @@ def _judge_signature(
     mine = f"def {function.name}{_shown(function)}"
     report.add(
         codes.CHANGED_SIGNATURE,
-        user.span_of(function),
+        member.span,
         f"`{function.name}` is called in another way now",
         label=", ".join(_differences(function, old or new, new)),
         notes=[method.origin],
@@ -88,15 +96,15 @@ def _judge_signature(
 
 
 def _report_stale(
-    user: UserModule, function: Function, methods: Mapping[str, Method], report: Report
+    user: UserModule, member: Member, methods: Mapping[str, Method], report: Report
 ) -> None:
-    unused = (n for n in methods if n not in (user.members or {}))
-    guess = nearest(function.name, unused)
+    name = member.function.name
+    guess = nearest(name, (n for n in methods if n not in user.members))
     renamed = f"was it renamed to `{guess}`? " if guess else ""
     report.add(
         codes.STALE_METHOD,
-        user.span_of(function),
-        f"nobody calls `{function.name}` any more: what it was for is gone",
+        member.span,
+        f"nobody calls `{name}` any more: what it was for is gone",
         help=f"{renamed}move what you need of it elsewhere and delete it; rcgen never does",
     )
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from robocomp_dsl.diagnostics import Report, did_you_mean
 from robocomp_dsl.generate import codes, names
 from robocomp_dsl.generate.component_names import Called
+from robocomp_dsl.generate.upkeep.local_names import Names, local_names
 from robocomp_dsl.generate.upkeep.user_module import UserModule
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.parameter import Kind, Parameter
@@ -26,13 +27,23 @@ class _Group:
     attributes: dict[str, _Group | None]
     listed: bool = False
 
+    @property
+    def element(self) -> _Group | None:
+        """One of a list."""
+        return _Group(self.what, self.attributes) if self.listed else None
+
+    def has(self, name: str) -> bool:
+        """Whether it has an attribute, its own or that of its base."""
+        return name in self.attributes or name in _MEMBERS[self.what]
+
 
 def judge(user: UserModule, component: Component, called: Called, report: Report) -> None:
-    """Look through the user's class and its bases in the same file."""
+    """Look through the user's class and its bases in the same folder."""
     given = component.parameters.parameters if component.parameters else ()
     known = {"params": _parameters(given)} | _proxies(called)
-    for one in user.hierarchy:
-        _judge_class(one, user, known, report)
+    for module, one in user.hierarchy.classes:
+        for statement in one.body:
+            _judge(statement, module, _Scope(known, local_names(statement)), report)
 
 
 def _parameters(given: Iterable[Parameter], listed: bool = False) -> _Group:
@@ -58,41 +69,50 @@ def _proxies(called: Called) -> dict[str, _Group]:
     }
 
 
-def _judge_class(
-    one: ast.ClassDef, user: UserModule, known: dict[str, _Group], report: Report
-) -> None:
-    for node in ast.walk(one):
+@dataclass(frozen=True, slots=True)
+class _Scope:
+    """What attributes of `self` are, and what local names stand for."""
+
+    known: dict[str, _Group]
+    local: Names
+
+    def group_of(self, node: ast.expr) -> _Group | None:
+        """What is known of the object that an expression gives: `self.params.motors[0]`."""
+        match node:
+            case ast.Subscript(value=value, slice=index):
+                group = self.group_of(value)
+                return group and (group if isinstance(index, ast.Slice) else group.element)
+            case ast.Attribute(value=ast.Name(id="self"), attr=name):
+                return self.known.get(name)
+            case ast.Attribute(value=value, attr=name):
+                group = self.group_of(value)
+                return group.attributes.get(name) if group and not group.listed else None
+            case ast.Name(id=name) if name in self.local:
+                return self._of_name(name)
+        return None
+
+    def _of_name(self, name: str) -> _Group | None:
+        """What a local name stands for, if it is the same each time."""
+        rest = _Scope(self.known, {n: ways for n, ways in self.local.items() if n != name})
+        found = [(rest.group_of(one.value), one.each) for one in self.local[name]]
+        groups = [group and group.element if each else group for group, each in found]
+        return groups[0] if all(one == groups[0] for one in groups) else None
+
+
+def _judge(statement: ast.stmt, module: UserModule, scope: _Scope, report: Report) -> None:
+    for node in ast.walk(statement):
         if not isinstance(node, ast.Attribute) or node.attr.startswith("_"):
             continue
-        group = _group_of(node.value, known)
-        if (
-            group is None
-            or group.listed
-            or node.attr in group.attributes
-            or node.attr in _MEMBERS[group.what]
-        ):
+        group = scope.group_of(node.value)
+        if group is None or group.listed or group.has(node.attr):
             continue
-        end = user.offset(node.end_lineno or node.lineno, node.end_col_offset or 0)
+        end = module.offset(node.end_lineno or node.lineno, node.end_col_offset or 0)
         report.add(
             _CODES[group.what],
-            user.source.span(end - len(node.attr), end),
+            module.source.span(end - len(node.attr), end),
             f"there is no {group.what} `{node.attr}`",
             label=did_you_mean(node.attr, group.attributes),
         )
-
-
-def _group_of(node: ast.expr, known: dict[str, _Group]) -> _Group | None:
-    """What is known of the object that an expression gives: `self.params.motors[0]`."""
-    if isinstance(node, ast.Subscript):
-        group = _group_of(node.value, known)
-        whole = not isinstance(node.slice, ast.Slice)
-        return _Group(group.what, group.attributes) if group and group.listed and whole else None
-    if not isinstance(node, ast.Attribute):
-        return None
-    if isinstance(node.value, ast.Name) and node.value.id == "self":
-        return known.get(node.attr)
-    group = _group_of(node.value, known)
-    return group.attributes.get(node.attr) if group and not group.listed else None
 
 
 _CODES = {"parameter": codes.UNKNOWN_PARAMETER, "operation": codes.UNKNOWN_OPERATION}

@@ -8,6 +8,7 @@ put into `.rcgen/` beside the pristine output.
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -22,53 +23,73 @@ CONFLICTS = f"{RECORD}conflicts"
 PATIENCE_S = 30.0
 
 
-def merged(folder: Path, files: Iterable[OutputFile], report: Report) -> Iterator[OutputFile]:
-    """What to write for `files`; those that are rewritten each time pass through."""
+def merged(
+    folder: Path, files: Iterable[OutputFile], report: Report, *, writes: bool = True
+) -> Iterator[OutputFile]:
+    """What to write for `files`; those that are rewritten each time pass through.
+
+    Without `writes` the findings say what would be done.
+    """
     for one in files:
-        if not one.keep:
+        if one.keep:
+            yield from _kept(folder, one, report, writes=writes)
+        else:
             yield one
-            continue
-        yield from _kept(folder, one, report)
-        yield OutputFile(f"{PRISTINE}/{one.path}", one.text)
 
 
-def _kept(folder: Path, new: OutputFile, report: Report) -> Iterator[OutputFile]:
+def _kept(folder: Path, new: OutputFile, report: Report, *, writes: bool) -> Iterator[OutputFile]:
+    """The user's file, or what it is now; and the pristine output that it contains."""
     path = folder / new.path
     mine, base = _read(path), _read(folder / PRISTINE / new.path)
-    if mine is None or base in (None, new.data) or mine == new.data:
-        yield new
-    elif path.is_symlink():
-        _report(path, mine, "the file is a link, so it stays as it is", report)
-        yield new
+    pristine = OutputFile(f"{PRISTINE}/{new.path}", new.text)
+    if mine is None or base is None or new.data in (base, mine):
+        yield from (new, pristine)
+    elif fixed := _fixed(path):
+        _report(path, mine, f"the file is {fixed}, so it stays as it is", report)
+        yield from (new, pristine)
     elif mine == base:
-        yield replace(new, keep=False, seen=mine)
+        yield from (replace(new, keep=False, seen=mine), pristine)
+    elif (result := _merge(mine, _as_mine(base, mine), _as_mine(new.data, mine))) is None:
+        said = "rcgen would write it anew; git could not merge, so it stays"
+        _report(path, mine, said, report, "install git and run rcgen again")
+        yield new  # the pristine output stays, too, so that the next run can merge
+    elif result[1]:
+        yield from (new, _proposal(path, new, mine, result[0], report, writes=writes), pristine)
     else:
-        yield from _three_ways(path, new, mine, base or b"", report)
+        _report_merged(path, mine, result[0], report, writes=writes)
+        text = result[0].decode("utf-8", "surrogateescape")
+        yield from (OutputFile(new.path, text, seen=mine), pristine)
 
 
-def _three_ways(
-    path: Path, new: OutputFile, mine: bytes, base: bytes, report: Report
-) -> Iterator[OutputFile]:
-    result = _merge(mine, _as_mine(base, mine), _as_mine(new.data, mine))
-    if result is None:
-        _report(path, mine, "rcgen would write it anew; git could not merge, so it stays", report)
-        yield new
+def _fixed(path: Path) -> str:
+    """What keeps rcgen from writing to a file of the user; nothing where it may."""
+    if path.is_symlink():
+        return "a link"
+    return "" if path.stat().st_mode & stat.S_IWUSR else "read-only"
+
+
+def _proposal(
+    path: Path, new: OutputFile, mine: bytes, data: bytes, report: Report, *, writes: bool
+) -> OutputFile:
+    """Both sides with conflict markers, for the user to choose from."""
+    proposal = f"{CONFLICTS}/{new.path}"
+    said = "you and rcgen changed the same lines, so it stays as it is"
+    where = f"both sides {'are' if writes else 'would be'} in {proposal}; take what you need"
+    _report(path, mine, said, report, where)
+    return OutputFile(proposal, data.decode("utf-8", "surrogateescape"))
+
+
+def _report_merged(path: Path, mine: bytes, data: bytes, report: Report, *, writes: bool) -> None:
+    """Say at which line the new text begins, if there is any."""
+    if data == mine:
         return
-    data, conflicts = result
-    text = data.decode("utf-8", "surrogateescape")
-    if conflicts:
-        proposal = f"{CONFLICTS}/{new.path}"
-        said = "you and rcgen changed the same lines, so it stays as it is"
-        _report(path, mine, said, report, f"both sides are in {proposal}; take what you need")
-        yield new
-        yield OutputFile(proposal, text)
-        return
-    if data != mine:
-        pairs = zip(data, mine, strict=False)
-        at = next((i for i, (a, b) in enumerate(pairs) if a != b), min(len(data), len(mine)))
-        said = "what the descriptions say of it is new; it is merged in"
-        _report(path, data, said, report, at=at)
-    yield OutputFile(new.path, text, seen=mine)
+    pairs = zip(data, mine, strict=False)
+    at = next((i for i, (a, b) in enumerate(pairs) if a != b), min(len(data), len(mine)))
+    shown = data if writes else mine
+    source = Source(path, shown.decode("utf-8", "replace"))
+    place = len(shown[:at].decode("utf-8", "replace"))
+    said = f"what the descriptions say of it is new; it {'is' if writes else 'would be'} merged in"
+    report.add(codes.MERGED, source.span(place, place), said)
 
 
 def _merge(mine: bytes, base: bytes, new: bytes) -> tuple[bytes, bool] | None:
@@ -109,10 +130,6 @@ def _read(path: Path) -> bytes | None:
         return None
 
 
-def _report(
-    path: Path, data: bytes, said: str, report: Report, help: str = "", at: int = 0
-) -> None:
+def _report(path: Path, data: bytes, said: str, report: Report, help: str = "") -> None:
     source = Source(path, data.decode("utf-8", "replace"))
-    place = len(data[:at].decode("utf-8", "replace"))
-    code = codes.NOT_MERGED if help or not at else codes.MERGED
-    report.add(code, source.span(place, place), said, help=help)
+    report.add(codes.NOT_MERGED, source.span(0, 0), said, help=help)

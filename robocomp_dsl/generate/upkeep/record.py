@@ -43,12 +43,12 @@ def written(
     methods: Mapping[str, Method], known: Mapping[str, Signature], user: UserModule | None
 ) -> OutputFile:
     """The record for the next time."""
-    has = (user and user.members) or {}
+    has = user.members if user else {}
     kept = {name: one for name, one in known.items() if name in has}
     for name, method in methods.items():
-        function = has.get(name)
+        member = has.get(name)
         old = known.get(name)
-        if function is None or old is None or follows(function, old, method.signature):
+        if member is None or old is None or follows(member.function, old, method.signature):
             kept[name] = method.signature
     rows = {
         name: {"arguments": [list(a) for a in one.arguments], "returns": one.returns}

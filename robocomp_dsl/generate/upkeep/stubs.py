@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.layout import STEP
+from robocomp_dsl.generate.upkeep.hierarchy import CLASS
 from robocomp_dsl.generate.upkeep.judge import near
 from robocomp_dsl.generate.upkeep.methods import Method
-from robocomp_dsl.generate.upkeep.user_module import CLASS, UserModule, bound
+from robocomp_dsl.generate.upkeep.user_module import Function, UserModule, bound, parsed
 from robocomp_dsl.source import Source
 
 TYPES = "generated.interfaces"
@@ -56,21 +57,35 @@ def added(user: UserModule, missing: Sequence[Method]) -> str:
     return text
 
 
-def report_added(user: UserModule, text: str, missing: Sequence[Method], report: Report) -> None:
+def report_added(
+    user: UserModule,
+    text: str,
+    missing: Sequence[Method],
+    methods: Mapping[str, Method],
+    report: Report,
+) -> None:
     """Say which stubs there are, at their new places."""
     source = Source(user.source.path, text)
-    at = 0
+    places = _places(source)
     for one in missing:
-        at = re.compile(rf"\bdef {one.name}\b").search(text, at).start() + len("def ")  # type: ignore[union-attr]
+        at = places[one.name]
         report.add(
             codes.MISSING_METHOD,
             source.span(at, at + len(one.name)),
             f"`{CLASS}` had no method for {one.what}; this stub is added",
-            label=f"is `{guess}` meant for it?" if (guess := near(user, one)) else "",
+            label=f"is `{guess}` meant for it?" if (guess := near(user, one, methods)) else "",
             notes=[one.origin],
             help="put your code into it"
             + ("; until then a caller is told that there is none" if one.code.call else ""),
         )
+
+
+def _places(source: Source) -> dict[str, int]:
+    """Where the names of the methods of the class are; a stub is the last of its name."""
+    module = parsed(source)
+    worker = module.worker
+    functions = [s for s in worker.body if isinstance(s, Function)] if worker else []
+    return {one.name: module.span_of(one).start for one in functions}
 
 
 def _class(user: UserModule) -> _Class:

@@ -10,17 +10,15 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TypeAlias
 
 from robocomp_dsl.diagnostics import Diagnostic, Report, nearest
 from robocomp_dsl.generate import codes
+from robocomp_dsl.generate.upkeep.hierarchy import CLASS, Hierarchy, hierarchy, statements
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
-
-CLASS = "SpecificWorker"
-BASE = "GenericWorker"
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
 """What `def` makes."""
@@ -28,16 +26,23 @@ Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
 _LINE_END = re.compile(r"\r\n?|\n")
 """What ends a line for Python."""
 
+_KEYWORDS = re.compile(r"(?:async[\s\\]+)?(?:def|class)[\s\\]+")
+"""What stands before the name of a function or a class."""
+
 
 @dataclass(frozen=True, eq=False)
 class UserModule:
-    """A module that Python can read. `worker` is None where the class is made in another way."""
+    """A module that Python can read.
+
+    `worker` is the class at the margin, where stubs can go; None where it is made in another way.
+    """
 
     source: Source
     data: bytes
     encoding: str
     tree: ast.Module
     worker: ast.ClassDef | None
+    _near: dict[str, UserModule | None] = field(default_factory=dict)
 
     @cached_property
     def starts(self) -> list[int]:
@@ -54,31 +59,46 @@ class UserModule:
     def span_of(self, node: ast.ClassDef | Function) -> Span:
         """The name of a class or function; the tree gives only where its statement begins."""
         start = self.offset(node.lineno, node.col_offset)
-        at = self.source.text.find(node.name, start + len("def "))
-        return self.source.span(at, at + len(node.name)) if at >= 0 else self.source.whole
+        found = _KEYWORDS.match(self.source.text, start)
+        at = found.end() if found else start
+        return self.source.span(at, at + len(node.name))
 
     @cached_property
-    def members(self) -> dict[str, Function | None] | None:
-        """Names in the class and its bases in this file; None if it has bases from elsewhere.
-
-        The value is the function, or None for what is no plain `def`.
-        """
-        if self.worker is None:
-            return None
-        return _members(self.worker, self._classes, set())
+    def hierarchy(self) -> Hierarchy:
+        """The class and its bases, as far as they are in this folder."""
+        return hierarchy(self)
 
     @cached_property
-    def hierarchy(self) -> list[ast.ClassDef]:
-        """The class and those of its bases that are in this file."""
-        found = [self.worker] if self.worker else []
-        for one in found:
-            names = {b.id for b in one.bases if isinstance(b, ast.Name)} & self._classes.keys()
-            found += [c for n in sorted(names) if (c := self._classes[n]) not in found]
+    def members(self) -> dict[str, Member | None]:
+        """Names in the class and its bases; None for what is no plain `def`."""
+        found: dict[str, Member | None] = {}
+        for module, one in reversed(self.hierarchy.classes):
+            for statement in statements(one.body):
+                plain = isinstance(statement, Function) and statement in one.body
+                member = Member(module, statement) if plain else None  # type: ignore[arg-type]
+                found |= dict.fromkeys(_defined(statement), member)
         return found
 
-    @cached_property
-    def _classes(self) -> dict[str, ast.ClassDef]:
-        return {c.name: c for c in self.tree.body if isinstance(c, ast.ClassDef)}
+    def beside(self, name: str) -> UserModule | None:
+        """The module of this dotted name in the same folder, if Python can read it."""
+        if name not in self._near:
+            path = self.source.path.parent.joinpath(*name.split("."))
+            places = (path.with_name(f"{path.name}.py"), path / "__init__.py")
+            self._near[name] = next(filter(None, map(_quietly, places)), None)
+        return self._near[name]
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A method, and the module that it stands in."""
+
+    module: UserModule
+    function: Function
+
+    @property
+    def span(self) -> Span:
+        """Where its name is."""
+        return self.module.span_of(self.function)
 
 
 def read(path: Path, report: Report) -> UserModule | None:
@@ -92,13 +112,19 @@ def read(path: Path, report: Report) -> UserModule | None:
     encoding, text = _decoded(data)
     source = Source(path, text)
     try:
-        tree = ast.parse(text)
+        user = parsed(source, data, encoding)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         _report_unreadable(source, error, report)
         return None
+    if CLASS not in bound(user.tree):
+        _report_no_class(source, user.tree, report)
+    return user
+
+
+def parsed(source: Source, data: bytes = b"", encoding: str = "utf-8") -> UserModule:
+    """The module of a text. Raises what Python's parser raises."""
+    tree = ast.parse(source.text)
     classes = [c for c in tree.body if isinstance(c, ast.ClassDef) and c.name == CLASS]
-    if not classes and CLASS not in bound(tree):
-        _report_no_class(source, tree, report)
     return UserModule(source, data, encoding, tree, classes[-1] if classes else None)
 
 
@@ -143,23 +169,12 @@ def _decoded(data: bytes) -> tuple[str, str]:
         raise UnreadableSource(f"it is not a text: {error}") from None
 
 
-def _members(
-    one: ast.ClassDef, classes: dict[str, ast.ClassDef], seen: set[str]
-) -> dict[str, Function | None] | None:
-    seen.add(one.name)
-    found: dict[str, Function | None] = {}
-    for base in one.bases:
-        name = base.id if isinstance(base, ast.Name) else getattr(base, "attr", "")
-        if name == BASE or name in seen:
-            continue
-        inherited = _members(classes[name], classes, seen) if name in classes else None
-        if inherited is None:
-            return None
-        found |= inherited
-    for statement in one.body:
-        function = statement if isinstance(statement, Function) else None
-        found |= dict.fromkeys(_defined(statement), function)
-    return found
+def _quietly(path: Path) -> UserModule | None:
+    """A module that is only looked into."""
+    try:
+        return read(path, Report())
+    except UnreadableSource:
+        return None
 
 
 def _defined(statement: ast.stmt) -> Iterator[str]:
