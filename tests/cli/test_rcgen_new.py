@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from rcgen_run import Rcgen
 
-from robocomp_dsl.cli.explain import all_codes
+from robocomp_dsl.cli.explain import _codes, all_codes
 
 
 def test_a_plain_component(rcgen: Rcgen, here: Path) -> None:
@@ -89,6 +89,10 @@ def test_explain_all(rcgen: Rcgen) -> None:
     run = rcgen("explain")
     assert run.code == 0
     assert len(run.out.splitlines()) == len(all_codes()) > 50
+
+
+def test_a_number_means_one_thing() -> None:
+    assert len(set(_codes())) == len(all_codes())
 
 
 @pytest.mark.parametrize("code", all_codes())
