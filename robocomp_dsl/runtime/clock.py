@@ -7,21 +7,52 @@ from __future__ import annotations
 
 import threading
 import time
+from collections.abc import Callable
 from typing import Protocol
+
+NANO = 1_000_000_000
+DIGITS = 9
+"""Moments are rounded to ns, so that sums of periods meet the times that a source tells."""
+
+
+class Wake(threading.Event):
+    """Ends a wait early. `over`: the component is to end, nothing holds it any more."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.over = False
+        self.listener: Callable[[], None] | None = None
+
+    def set(self) -> None:
+        """Something happened."""
+        super().set()
+        if self.listener:
+            self.listener()
+
+    def end(self) -> None:
+        """The component is to end."""
+        self.over = True
+        self.set()
 
 
 class Clock(Protocol):
     """A clock that a component lives by."""
 
-    def now(self) -> float:
-        """Seconds since some fixed moment; never goes back."""
+    @property
+    def epoch(self) -> int:
+        """How often time has begun anew; -1: it has not begun at all."""
 
-    def wait_until(self, moment: float | None, wake: threading.Event) -> None:
-        """Until `now()` is `moment` (None: for ever), or `wake` is set."""
+    def now(self) -> float:
+        """Seconds since some fixed moment; goes back only with another `epoch`."""
+
+    def wait_until(self, moment: float | None, wake: Wake) -> None:
+        """Until `now()` is `moment` (None: for ever), `wake` is set or the epoch is another."""
 
 
 class WallClock:
     """The time of the machine."""
+
+    epoch = 0
 
     def now(self) -> float:
         """See `Clock`."""

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import Protocol
 
-from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.clock import DIGITS, NANO, Clock, Wake
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe
@@ -74,7 +74,7 @@ class Lifecycle:
         self._statistics = statistics
         self._announce = announce
         self.machine: Machine | None = None
-        self._wake = threading.Event()
+        self._wake = Wake()
         self._stopping = threading.Event()
         self.state = State.INITIALIZE
         self.reason = ""
@@ -102,7 +102,7 @@ class Lifecycle:
     def stop(self) -> None:
         """End after what is being done now."""
         self._stopping.set()
-        self._wake.set()
+        self._wake.end()
 
     def set_period(self, period_ms: int) -> None:
         """From now on another period; 0: only events."""
@@ -124,25 +124,45 @@ class Lifecycle:
         self.state = state
         self._announce(state)
 
+    def _until_time_begins(self) -> None:
+        """A simulated clock is one only when its source has told the time."""
+        if self._clock.epoch >= 0:
+            return
+        while self._clock.epoch < 0 and not self._stopping.is_set():
+            self._clock.wait_until(0.0, self._wake)
+            if not self._stopping.is_set():
+                self._wake.clear()
+        if self.machine:
+            self.machine.restart_timers()
+
     def _loop(self) -> None:
-        due = self._clock.now()
-        last = 0
+        self._until_time_begins()
+        due, epoch = self._clock.now(), self._clock.epoch
+        last = 0.0
         while not self._stopping.is_set():
             period = self._period()
             if period is not None:
                 begun = time.perf_counter_ns()
+                now = self._clock.now()
                 if last:
-                    self._statistics.periods.add(begun - last)
-                last = begun
+                    self._statistics.periods.add(round((now - last) * NANO))
+                last = now
                 self._cycle()
                 self._statistics.computes.add(time.perf_counter_ns() - begun)
             elif self.machine:
                 self._attempt(self._move)
             due = self._next(due, period)
             self._clock.wait_until(due if period is not None else self._timer(), self._wake)
-            if self._wake.is_set() and not self._stopping.is_set():
+            if self._stopping.is_set():
+                return
+            if self._clock.epoch != epoch:
+                epoch = self._clock.epoch
+                due, last = self._clock.now(), 0.0
+                if self.machine:
+                    self.machine.restart_timers()
+            if self._wake.is_set():
                 self._wake.clear()
-                due, last = self._clock.now(), 0
+                due, last = self._clock.now(), 0.0
 
     def _period(self) -> float | None:
         """Seconds until the next cycle after one; None: there is none."""
@@ -160,7 +180,7 @@ class Lifecycle:
             self._statistics.overruns += 1
             # Keeps to the grid, so that a slow cycle does not shift all that follow.
             due += ((now - due) // period) * period
-        return due
+        return round(due, DIGITS)
 
     def _cycle(self) -> None:
         if self.state is State.COMPUTE:
@@ -187,8 +207,9 @@ class Lifecycle:
         return self.machine.due() if self.machine else None
 
     def wake(self) -> None:
-        """Something is to be done at another time than before."""
-        self._wake.set()
+        """A timer has another moment than before; with a period it is looked at once a period."""
+        if not self.period_ms:
+            self._wake.set()
 
     def _recover(self) -> None:
         self._hooks.emergency()

@@ -18,6 +18,7 @@ from pathlib import Path
 
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime import logs
+from robocomp_dsl.runtime.clock_settings import ClockSettings, parse_clock
 from robocomp_dsl.runtime.component import Component
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware import UnknownMiddleware
@@ -144,6 +145,13 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         default=[],
         help="reliable|best_effort,depth=N,priority=high,deadline=MS",
     )
+    add(
+        "--clock",
+        metavar="CLOCK",
+        type=parse_clock,
+        default=ClockSettings(),
+        help="wall, or sim|lockstep,from=COMPONENT: the time that it publishes (wall)",
+    )
     add("--listen-port", metavar="N", type=int, default=0, help="listen there on loopback, too")
     add("--log-level", choices=logs.LEVELS, default=_level(), help="(info, or LOG_LEVEL)")
     add("--log-format", choices=("text", "json"), default="text")
@@ -181,6 +189,7 @@ def _settings(said: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         qualities=qualities,
         remaps=remaps,
         listen_port=said.listen_port,
+        clock=said.clock,
     )
 
 

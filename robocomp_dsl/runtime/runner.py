@@ -14,7 +14,7 @@ from collections.abc import Callable
 from queue import SimpleQueue
 from typing import Any
 
-from robocomp_dsl.runtime.clock import Clock, WallClock
+from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component import Component
 from robocomp_dsl.runtime.component_interface import COMPONENT
 from robocomp_dsl.runtime.execution import Execution
@@ -28,6 +28,7 @@ from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.runtime.spec import ServedPort
 from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.timing import Owner, timing_of
 
 PATIENCE_S = 1.5
 """What a component has, once it was told to stop, before calls that wait are interrupted."""
@@ -59,7 +60,10 @@ class Runner:
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
-        self.worker = self._worker(component, clock or WallClock())
+        owner = Owner(self.name, self.spec, self.fail, self._is_restless)
+        self._timing = timing_of(settings.clock.under(settings.prefix), owner, self.middleware)
+        self._failed = False
+        self.worker = self._worker(component, clock or self._timing.clock)
         self.lifecycle = Lifecycle(
             self.worker,
             self.spec.period,
@@ -87,7 +91,8 @@ class Runner:
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
             at = self._endpoint(port.name, port.proxy.INTERFACE, looks=not publishes)
-            link = self.middleware.advertise(at) if publishes else self.middleware.proxy(at)
+            ports = self._timing.ports
+            link = ports.advertise(at) if publishes else ports.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
@@ -102,9 +107,10 @@ class Runner:
     def _open(self) -> None:
         """Let others call."""
         for port in self.spec.implements:
-            self._serve(port, self.middleware.serve)
+            self._serve(port, self._timing.ports.serve)
         for port in self.spec.subscribes:
-            self._serve(port, self.middleware.subscribe, looks=True)
+            self._serve(port, self._timing.ports.subscribe, looks=True)
+        self._timing.open()
 
     def _serve(self, port: ServedPort, serve: Callable[..., Any], *, looks: bool = False) -> None:
         handlers: dict[str, Bound] = {
@@ -141,6 +147,16 @@ class Runner:
         """Bring it to an end; returns at once, from any thread or signal handler."""
         self._asked.put(None)
 
+    def fail(self, reason: str) -> None:
+        """Bring it to an end that is none in order."""
+        log.error("%s", reason)
+        self._failed = True
+        self.stop()
+
+    def _is_restless(self) -> bool:
+        """Whether it has things to do at moments that handlers may bring about."""
+        return bool(self.spec.machine) or not self.lifecycle.period_ms
+
     def wait(self) -> bool:
         """Until it has ended; tells whether all went well. Signals are handled meanwhile."""
         self._asked.get()
@@ -152,7 +168,7 @@ class Runner:
             log.error("%s does not come to an end and is left behind", self.lifecycle.state.value)
         self.middleware.announce("")
         self.middleware.close()
-        return ended and self._well
+        return ended and self._well and not self._failed
 
     @property
     def state(self) -> State:

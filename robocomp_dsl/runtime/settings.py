@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from robocomp_dsl.runtime.clock_settings import ClockSettings
 from robocomp_dsl.runtime.middleware.base import Qos
 from robocomp_dsl.runtime.naming import ANY, within
 
@@ -42,6 +43,7 @@ class RunSettings:
     qualities: dict[str, Qos] = field(default_factory=dict)
     remaps: dict[str, str] = field(default_factory=dict)
     listen_port: int = 0
+    clock: ClockSettings = field(default_factory=ClockSettings)
 
     def whole_name(self, component: str) -> str:
         """The name of the instance as others see it; `component` is that of its kind."""

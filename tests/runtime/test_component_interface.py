@@ -1,27 +1,40 @@
-"""The Python side of `Component` is what rcgen makes of its IDSL file."""
+"""The Python side of the runtime's own interfaces is what rcgen makes of their IDSL files."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from click.testing import CliRunner
 
 from robocomp_dsl.cli.rcgen import program
 
 ROOT = Path(__file__).parents[2]
-CDSL = """\
+COMPONENT = """\
 import "Component.idsl";
 Component x { Communications { implements Component; requires Component; }; language Python; };
 """
+CLOCK = """\
+import "LockStep.idsl";
+import "Clock.idsl";
+Component x
+{
+    Communications { implements Follower; requires Follower; publishes Clock; };
+    language Python;
+};
+"""
 
 
-def test_the_generated_module_is_fresh(tmp_path: Path) -> None:
-    (tmp_path / "x.cdsl").write_text(CDSL)
+@pytest.mark.parametrize(
+    ("cdsl", "name"), [(COMPONENT, "component_interface"), (CLOCK, "clock_interface")]
+)
+def test_the_generated_module_is_fresh(tmp_path: Path, cdsl: str, name: str) -> None:
+    (tmp_path / "x.cdsl").write_text(cdsl)
     made = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
     assert made.exit_code == 0, made.output
     fresh = (tmp_path / "generated/interfaces.py").read_text()
-    module = ROOT / "robocomp_dsl/runtime/component_interface.py"
+    module = ROOT / f"robocomp_dsl/runtime/{name}.py"
     assert module.read_text() == fresh, (
-        "interfaces/Component.idsl or the generator has changed:"
+        "an IDSL file in interfaces/ or the generator has changed:"
         f" put the new generated/interfaces.py into {module.relative_to(ROOT)}"
     )

@@ -9,14 +9,14 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from functools import partial
 from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import Any
 
-from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.clock import DIGITS, Clock
 from robocomp_dsl.runtime.machine.spec import MachineSpec
 
 log = logging.getLogger("robocomp")
@@ -34,6 +34,7 @@ class _Due:
     number: int
     fire: Callable[[], None]
     id: str
+    delay: float
 
 
 class Machine:
@@ -121,6 +122,13 @@ class Machine:
         with self._lock:
             return self._due[0].moment if self._due else None
 
+    def restart_timers(self) -> None:
+        """Time has begun anew: what waits for its moment waits in full again."""
+        now = self._clock.now()
+        with self._lock:
+            again = [replace(one, moment=round(now + one.delay, DIGITS)) for one in self._due]
+            self._due = sorted(again)
+
     def fire_due(self) -> None:
         """Take the events whose time has come."""
         while (one := self._next_due()) is not None:
@@ -166,7 +174,8 @@ class Machine:
 
     def _add(self, delay: float, fire: Callable[[], None], id_: str) -> None:
         with self._lock:
-            one = _Due(self._clock.now() + delay, next(self._numbers), fire, id_)
+            moment = round(self._clock.now() + delay, DIGITS)
+            one = _Due(moment, next(self._numbers), fire, id_, delay)
             heappush(self._due, one)
         self._changed()
 

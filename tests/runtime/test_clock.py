@@ -1,0 +1,280 @@
+"""Simulated time: the clock of its source, the clocks that follow it, and `--clock`."""
+
+from __future__ import annotations
+
+import argparse
+import threading
+import time
+import uuid
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from robocomp_dsl.runtime import Component, ComponentSpec
+from robocomp_dsl.runtime.clock import Wake
+from robocomp_dsl.runtime.clock_interface import ClockProxy, Tick
+from robocomp_dsl.runtime.clock_settings import ClockSettings, parse_clock
+from robocomp_dsl.runtime.clock_source import ClockSource
+from robocomp_dsl.runtime.lifecycle import State
+from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
+from robocomp_dsl.runtime.parameters import Parameters
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.runtime.simulated_clock import SimulatedClock
+from robocomp_dsl.runtime.spec import CalledPort
+
+DEADLINE = 10.0
+NANO = 1_000_000_000
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("wall", ClockSettings()),
+        ("sim", ClockSettings("sim")),
+        ("sim,from=body", ClockSettings("sim", "body")),
+        ("lockstep,from=body,with=b+a", ClockSettings("lockstep", "body", ("a", "b"))),
+        ("lockstep,limit=2.5,lost=stop", ClockSettings("lockstep", limit=2.5, stops=True)),
+    ],
+)
+def test_words_of_the_option(text: str, meant: ClockSettings) -> None:
+    assert parse_clock(text) == meant
+    assert parse_clock(meant.as_text()) == meant
+
+
+@pytest.mark.parametrize(
+    "text", ["", "ros", "sim,from=", "sim,by=x", "lockstep,limit=0", "lockstep,lost=maybe", "sim,"]
+)
+def test_words_that_are_none(text: str) -> None:
+    with pytest.raises(argparse.ArgumentTypeError):
+        parse_clock(text)
+
+
+class Wall:
+    """A wall clock that goes on by itself, a little at each look."""
+
+    def __init__(self, tick: float = 0.001) -> None:
+        self.moment = 100.0
+        self.tick = tick
+
+    def __call__(self) -> float:
+        self.moment += self.tick
+        return self.moment
+
+
+def began(speed: float = 1.0, tick: float = 0.001) -> tuple[ClockSource, list[Tick], Wall]:
+    told: list[Tick] = []
+    wall = Wall(tick)
+    source = ClockSource(told.append, speed=speed, wall=wall)
+    assert source.epoch == -1
+    source.wait_until(0.0, Wake())
+    return source, told, wall
+
+
+@pytest.mark.parametrize(("speed", "least"), [(1, 0.4), (4, 0.1), (0, 0.0)])
+def test_a_source_paces_itself(speed: float, least: float) -> None:
+    told: list[Tick] = []
+    source = ClockSource(told.append, speed=speed)
+    source.wait_until(0.0, Wake())
+    begun = time.monotonic()
+    for number in range(1, 51):
+        source.wait_until(number / 100, Wake())
+        assert source.now() == number / 100
+    took = time.monotonic() - begun
+    assert took >= least
+    assert [one.time for one in told] == [n * 10_000_000 for n in range(51)]
+    # another load on the machine may hold it up, so there is no upper bound in time
+
+
+def test_a_source_that_was_held_up_tells_a_smaller_factor() -> None:
+    source, told, wall = began(tick=0.0)
+    for number in range(1, 200):
+        wall.moment += 0.02  # each step of 10 ms takes 20
+        source.wait_until(number / 100, Wake())
+    assert told[-1].realTimeFactor == pytest.approx(0.5, abs=0.03)
+
+
+def test_a_pause_holds_and_a_step_lets_one_moment_come() -> None:
+    source, told, _ = began(speed=0)
+    source.pause()
+    reached = threading.Event()
+
+    def live() -> None:
+        source.wait_until(0.01, Wake())
+        reached.set()
+
+    thread = threading.Thread(target=live)
+    thread.start()
+    until(lambda: told[-1].paused)
+    assert source.now() == 0.0
+    assert not reached.is_set()
+    source.step()
+    thread.join(DEADLINE)
+    assert source.now() == 0.01
+    assert source.paused
+    source.resume()
+    source.wait_until(0.02, Wake())
+    assert source.now() == 0.02
+    assert not told[-1].paused
+
+
+def test_a_reset_ends_the_wait() -> None:
+    source, told, _ = began(speed=0)
+    source.wait_until(5.0, Wake())
+    source.reset()
+    source.wait_until(5.01, Wake())
+    assert (source.now(), source.epoch) == (0.0, 1)
+    source.wait_until(0.01, Wake())
+    assert told[-1].time == 10_000_000
+    assert told[-1].epoch == 1
+
+
+@pytest.mark.parametrize("speed", [-1.0, float("nan"), float("inf")])
+def test_speeds_that_are_none(speed: float) -> None:
+    source, _, _ = began()
+    with pytest.raises(ValueError, match="is no speed"):
+        source.set_speed(speed)
+
+
+def until(condition: Callable[[], Any]) -> None:
+    end = time.monotonic() + DEADLINE
+    turn = threading.Event()
+    while not condition():
+        assert time.monotonic() < end, "it did not come to pass"
+        turn.wait(0.002)
+
+
+class Counter(Component):
+    """Writes down the time of each compute."""
+
+    SPEC = ComponentSpec(name="counter", period=20, middleware="inproc")
+
+    def __init__(self) -> None:
+        self.times: list[float] = []
+
+    def compute(self) -> None:
+        self.times.append(self.clock.now())
+
+
+class Sleeper(Component):
+    """A state machine that only time moves."""
+
+    SPEC = ComponentSpec(
+        name="sleeper",
+        period=0,
+        middleware="inproc",
+        machine=MachineSpec(
+            "nap",
+            (StateSpec("asleep", initial=True), StateSpec("awake")),
+            (TransitionSpec("asleep", "awake", after=1.0),),
+        ),
+    )
+
+    def __init__(self) -> None:
+        self.woken: list[float] = []
+
+    def on_enter_awake(self) -> None:
+        self.woken.append(self.clock.now())
+
+
+class Source(Component):
+    """Makes the time."""
+
+    SPEC = ComponentSpec(
+        name="source",
+        period=10,
+        middleware="inproc",
+        publishes=(CalledPort("Clock", ClockProxy, "clock_proxy"),),
+    )
+    clock_proxy: ClockProxy
+    last = 2.0
+
+    def initialize(self) -> None:
+        assert isinstance(self.clock, ClockSource)
+        self.clock.set_speed(0)
+        self.times: list[float] = []
+
+    def compute(self) -> None:
+        self.times.append(self.clock.now())
+        if self.clock.now() >= self.last:
+            assert isinstance(self.clock, ClockSource)
+            self.clock.pause()
+
+
+@contextmanager
+def running(kind: type[Component], domain: str, clock: str) -> Iterator[Runner]:
+    runner = Runner(kind, Parameters(), RunSettings(domain=domain, clock=parse_clock(clock)))
+    runner.start()
+    try:
+        yield runner
+    finally:
+        runner.stop()
+        assert runner.wait()
+
+
+def test_components_wait_for_the_first_tick_and_follow() -> None:
+    domain = uuid.uuid4().hex
+    with running(Counter, domain, "sim") as counter, running(Sleeper, domain, "sim") as sleeper:
+        until(lambda: counter.state is sleeper.state is State.COMPUTE)
+        assert isinstance(clock := counter.worker.clock, SimulatedClock)
+        ticks = hearing(counter), hearing(sleeper)
+        assert counter.worker.times == []
+        for number in range(101):
+            for tick in ticks:
+                tick(Tick(number * 10_000_000))
+            if number % 2 == 0:
+                until(lambda n=number: len(counter.worker.times) == n // 2 + 1)
+        assert counter.worker.times == [n * 20 / 1000 for n in range(51)]
+        until(lambda: sleeper.worker.woken == [1.0])
+        assert clock.now() == 1.0
+
+        # a reset: the grid begins anew
+        for tick in ticks:
+            tick(Tick(5_000_000, epoch=1))
+        until(lambda: counter.worker.times[51:] == [0.005])
+        for tick in ticks:
+            tick(Tick(25_000_000, epoch=1))
+        until(lambda: counter.worker.times[51:] == [0.005, 0.025])
+
+
+def hearing(runner: Runner) -> Callable[[Tick], None]:
+    clock = runner.worker.clock
+    assert isinstance(clock, SimulatedClock)
+    return clock.hear
+
+
+def test_a_timer_begins_again_with_the_time() -> None:
+    with running(Sleeper, uuid.uuid4().hex, "sim") as sleeper:
+        until(lambda: sleeper.state is State.COMPUTE)
+        tick = hearing(sleeper)
+        tick(Tick(7 * NANO))  # it came late
+        until(lambda: sleeper.lifecycle.machine.due() == 8.0)
+        tick(Tick(7 * NANO + NANO // 2))
+        tick(Tick(0, epoch=1))
+        until(lambda: sleeper.lifecycle.machine.due() == 1.0)
+        assert sleeper.worker.woken == []
+        tick(Tick(NANO, epoch=1))
+        until(lambda: sleeper.worker.woken == [1.0])
+
+
+def test_a_source_and_who_follows_it() -> None:
+    domain = uuid.uuid4().hex
+    with running(Counter, domain, "sim") as counter:
+        until(lambda: counter.state is State.COMPUTE)
+        with running(Source, domain, "sim") as source:
+            until(lambda: source.worker.clock.paused)
+            assert source.worker.times == [n / 100 for n in range(201)]
+            until(lambda: counter.worker.clock.now() == 2.0)
+            assert len(counter.worker.times) > 0
+            assert counter.worker.times == sorted(counter.worker.times)
+            source.worker.last = 3.0
+            source.worker.clock.resume()
+            until(lambda: counter.worker.clock.now() == 3.0)
+
+
+def test_the_wall_clock_stays_the_default() -> None:
+    with running(Counter, uuid.uuid4().hex, "wall") as counter:
+        until(lambda: len(counter.worker.times) > 2)
+        assert abs(counter.worker.times[-1] - time.monotonic()) < DEADLINE
