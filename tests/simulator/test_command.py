@@ -12,6 +12,10 @@ device    kind               interface          port
 robot     differentialrobot  DifferentialRobot  robot
 platform  omnirobot          OmniRobot          platform
 laser     laser              Laser              laser
+neck      joint              JointMotor         JointMotor
+neck      joint              ControlBoard       ControlBoard
+inertia   imu                IMU                inertia
+bump      touchsensor        TouchSensor        TouchSensor
 """
 
 

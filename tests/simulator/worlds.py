@@ -36,6 +36,9 @@ ROOM = f"""\
       <translation id="laser_pose" ty="140" tz="200">
         <laser id="laser" measures="101" min="100" max="30000" angle="1"/>
       </translation>
+      <imu id="inertia"/>
+      <touchsensor id="bump" type="bumper"/>
+      <joint id="neck" axis="y" min="-1" max="1"/>
       <plane id="hull" nz="-1" py="100" size="400,190,400"/>
     </differentialrobot>
     <omnirobot id="platform" tx="-2000"/>

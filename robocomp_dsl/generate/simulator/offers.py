@@ -34,6 +34,8 @@ OFFERS = (
     Offer("prismaticjoint", "JointMotor", shared=True),
     Offer("joint", "ControlBoard", shared=True),
     Offer("prismaticjoint", "ControlBoard", shared=True),
+    Offer("imu", "IMU"),
+    Offer("touchsensor", "TouchSensor", shared=True),
 )
 
 
@@ -52,6 +54,7 @@ TOPICS = (
     Topic("OmniRobot", "getBaseState", "OmniRobotPub", "pushBaseState", "OmniRobotPub"),
     Topic("JointMotor", "getAllMotorState", "JointMotorPub", "motorStates", "JointMotorPub"),
     Topic("ControlBoard", "getState", "ControlBoardState", "boardState", "ControlBoard"),
+    Topic("IMU", "getDataImu", "IMUPub", "publish", "IMUPub"),
 )
 
 

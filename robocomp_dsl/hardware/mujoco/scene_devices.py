@@ -12,11 +12,13 @@ from typing import Any
 
 from robocomp_dsl.hardware.laser import LaserSettings
 from robocomp_dsl.hardware.mobile_base import BaseLimits
+from robocomp_dsl.hardware.mujoco.imu import Imu
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
+from robocomp_dsl.hardware.mujoco.touch_sensor import TouchSensor, TouchSettings
 from robocomp_dsl.hardware.scene import ROOT, Device, Scene
 
 
@@ -59,10 +61,27 @@ def _base(site: Site, device: Device) -> MobileBase:
     return MobileBase(limits, site.noise, name=device.id, noise=noise)
 
 
+def _imu(site: Site, device: Device) -> Imu:  # noqa: ARG001 - as all of them
+    return Imu(body_name(device.frame), name=device.id)
+
+
+def _touch(site: Site, device: Device) -> TouchSensor:  # noqa: ARG001
+    given = device.settings
+    settings = TouchSettings(
+        (float(given["nx"]), float(given["ny"]), float(given["nz"])),
+        float(given.get("min", 0.0)),
+        float(given.get("max", math.inf)),
+        bumper=given["type"] == "bumper",
+    )
+    return TouchSensor(settings, body_name(device.frame), name=device.id)
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
     "omnirobot": _base,
+    "imu": _imu,
+    "touchsensor": _touch,
 }
 """Kinds of devices that are simulated one by one."""
 

@@ -10,9 +10,11 @@ from collections.abc import Mapping
 
 from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.servants.touch_sensor import TouchSensorServant
 
 __all__ = ["SERVANTS"]
 
@@ -22,5 +24,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompLaser::Laser": LaserServant,
     "RoboCompJointMotor::JointMotor": JointMotorServant,
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
+    "RoboCompIMU::IMU": ImuServant,
+    "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
 }
 """The servant of each interface."""

@@ -1,0 +1,21 @@
+"""`TouchSensor` over touch sensors: one port tells of all of them."""
+
+# ruff: noqa: N802  called as in the interface
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.hardware.servants.servant import Servant
+
+
+class TouchSensorServant(Servant):
+    """All sensors of the port; one that was removed is left out."""
+
+    def getValues(self) -> dict[str, Any]:
+        """The values by the sensors' names."""
+        return {
+            name: self.types.SensorState(name=name, value=self.device(name).value())
+            for name in self.ids
+            if name in self._devices
+        }
