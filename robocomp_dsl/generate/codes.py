@@ -175,7 +175,7 @@ NO_SIMULATION = Code(
 )
 
 IMPOSSIBLE_WORLD = Code(
-    "RC642",
+    "RC632",
     Severity.ERROR,
     "the world cannot be simulated",
     """The file is well formed, but MuJoCo cannot build what it describes; the message is MuJoCo's
@@ -184,7 +184,7 @@ are not finite.""",
 )
 
 SIMPLIFIED_WORLD = Code(
-    "RC643",
+    "RC633",
     Severity.WARNING,
     "something is simulated otherwise than described",
     """The world is built, with something simpler in the place of what was described: a mesh whose
