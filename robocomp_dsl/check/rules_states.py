@@ -6,8 +6,6 @@ transitions that are never taken.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from robocomp_dsl.check import codes
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
@@ -21,19 +19,12 @@ def judge_machine(machine: StateMachine, report: Report) -> None:
     _judge_repeats(machine, report)
 
 
-def every_state(states: tuple[State, ...]) -> Iterator[State]:
-    """The states and all inside them, outer ones first."""
-    for one in states:
-        yield one
-        yield from every_state(one.inside)
-
-
 class _Reached:
     """`states` are the names of those that can become active."""
 
     def __init__(self, machine: StateMachine) -> None:
         self.states: set[str] = set()
-        self._known = {one.name: one for one in every_state(machine.states)}
+        self._known = {one.name: one for one in machine.every_state()}
         self._around = {
             inner.name: outer for outer in self._known.values() for inner in outer.inside
         }
@@ -92,7 +83,7 @@ def _judge_ends(machine: StateMachine, report: Report) -> None:
     ways: dict[str, Transition] = {}
     for way in machine.transitions:
         ways.setdefault(way.source, way)
-    for state in every_state(machine.states):
+    for state in machine.every_state():
         if state.final and state.name in ways:
             report.add(
                 codes.END_WITH_WAY_OUT,

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import click
 
-from robocomp_dsl.check import CHECKS, check_file, check_syntax
+from robocomp_dsl.check import check_file, check_syntax
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
+from robocomp_dsl.cli.given import descriptions
 from robocomp_dsl.cli.listing import listed
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
 
 Judge = Callable[[Path, Workspace, Report], object]
-
-SKIPPED = ("__pycache__", "build", "node_modules")
-"""Folders in a given folder that hold no descriptions; hidden ones are skipped as well."""
 
 
 @click.command()
@@ -55,7 +52,7 @@ def command(
     report = Report()
     workspace = Workspace(folders)
     judge = check_syntax if syntax else check_file
-    paths = list(dict.fromkeys(p for given in files for p in described(given)))
+    paths = descriptions(files)
     if fixing:
         _fix(paths, judge, workspace, diff)
     if diff:
@@ -85,15 +82,3 @@ def _fix(paths: list[Path], judge: Judge, workspace: Workspace, diff: bool) -> N
         except CannotWrite as error:
             options.complain(str(error))
             sys.exit(FINDINGS)
-
-
-def described(given: Path) -> Iterator[Path]:
-    """The file itself, or those of a folder whose language is known, sorted."""
-    if not given.is_dir():
-        yield given
-        return
-    # An XML file may be anything; in a folder only those named by the user count.
-    suffixes = tuple(s for s in CHECKS if s != ".xml")
-    for folder, below, names in os.walk(given):
-        below[:] = sorted(b for b in below if b not in SKIPPED and not b.startswith("."))
-        yield from (Path(folder, n) for n in sorted(names) if n.lower().endswith(suffixes))

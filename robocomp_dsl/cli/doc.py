@@ -14,7 +14,7 @@ import click
 
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
-from robocomp_dsl.cli.check import described
+from robocomp_dsl.cli.given import descriptions
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
 
@@ -90,13 +90,10 @@ def command(
 
 def _paths(files: Sequence[Path]) -> list[Path]:
     """The descriptions meant; leaves with 1 where there are none."""
-    paths = list(dict.fromkeys(path for given in files for path in described(given)))
+    paths = descriptions(files)
     for path in paths:
         if path.suffix.lower() == ".xml":
             raise click.UsageError(f"`{path}`: bodies have no documentation, leave it out")
-    if not paths:
-        options.complain(f"there are no descriptions in {', '.join(f'`{one}`' for one in files)}")
-        sys.exit(FINDINGS)
     return paths
 
 

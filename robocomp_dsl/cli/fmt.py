@@ -11,7 +11,7 @@ import click
 from robocomp_dsl.check import check_syntax
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
-from robocomp_dsl.cli.check import described
+from robocomp_dsl.cli.given import descriptions
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.cli.rewriting import BOM, difference, rewrite
 from robocomp_dsl.diagnostics import Report, Severity
@@ -54,7 +54,7 @@ def command(
     if name:
         run.take_stdin(name)
     else:
-        run.take(list(dict.fromkeys(path for given in files for path in described(given))))
+        run.take(descriptions(files))
     if diff:
         run.show_differences()
     elif checking:

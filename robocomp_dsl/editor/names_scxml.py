@@ -13,7 +13,7 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.editor.index import Mention, Symbol
 from robocomp_dsl.editor.names_innermodel import elements, inside_quotes
-from robocomp_dsl.editor.names_smdsl import Event, StateInMachine, every_state
+from robocomp_dsl.editor.names_smdsl import Event, StateInMachine
 from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax import parse_scxml
@@ -58,7 +58,7 @@ def _states(
 ) -> dict[str, Symbol]:
     """The symbol of each state; of two with one id the first counts."""
     ways = machine.transitions if machine else ()
-    things = {one.name: one for one in every_state(machine.states)} if machine else {}
+    things = {one.name: one for one in machine.every_state()} if machine else {}
     made: dict[str, Symbol] = {}
     for element in found:
         if local(element) in STATES:

@@ -57,7 +57,7 @@ class _Names:
         self._blocks = blocks
         self._machine = machine
         self._events: dict[str, Symbol] = {}
-        things = {one.span.start: one for one in every_state(machine.states)} if machine else {}
+        things = {one.span.start: one for one in machine.every_state()} if machine else {}
         self._states: dict[str, Symbol] = {}
         for block in blocks:
             for name in block.all_states:
@@ -103,10 +103,3 @@ class _Names:
             self._events[name.text] = first
             return Mention(name.span, first, declares=True)
         return Mention(name.span, first)
-
-
-def every_state(states: tuple[State, ...]) -> Iterator[State]:
-    """The states and all that are inside of them."""
-    for one in states:
-        yield one
-        yield from every_state(one.inside)

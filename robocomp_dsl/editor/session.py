@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 from pygls.uris import from_fs_path, to_fs_path
 
 from robocomp_dsl.check import CHECKS, PARSERS, check_file
+from robocomp_dsl.check.described import described
 from robocomp_dsl.check.files import Parsed, identity
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Diagnostic, Report
@@ -26,7 +27,6 @@ from robocomp_dsl.source import Source, UnreadableSource
 if TYPE_CHECKING:
     from robocomp_dsl.check import Model
 
-SKIPPED = ("__pycache__", "build", "node_modules")
 HUGE = 300_000
 """Characters from which on a file is checked aside: some ten thousand lines, half a second."""
 MOST_FILES = 5000
@@ -211,18 +211,8 @@ class Session:
         """The open files and the descriptions in the workspace folders, each once."""
         found = {key: document.path for key, document in self.documents.items()}
         for folder in self.folders:
-            for path in _described(folder):
+            for path in described(folder):
                 if len(found) >= MOST_FILES:
                     break
                 found.setdefault(identity(path), path)
         return found.values()
-
-
-def _described(folder: Path) -> Iterable[Path]:
-    for home, below, names in os.walk(folder):
-        below[:] = sorted(b for b in below if b not in SKIPPED and not b.startswith("."))
-        for name in sorted(names):
-            suffix = Path(name).suffix.lower()
-            # An XML file may be anything; it counts when it is open.
-            if suffix in CHECKS and suffix != ".xml":
-                yield Path(home, name)

@@ -54,7 +54,7 @@ class MachineCode:
 
 def machine_code(machine: StateMachine) -> MachineCode:
     """Everything that the templates print of it."""
-    states = [one for top in machine.states for one in _walk(top)]
+    states = [one for one in machine.every_state() if not one.history]
     suffixes = _suffixes(states)
     methods = tuple(
         StateMethod(f"{verb}_{suffixes[one]}", one, verb, _doc(one, text))
@@ -69,19 +69,12 @@ def machine_code(machine: StateMachine) -> MachineCode:
 
 def method_names(machine: StateMachine) -> set[str]:
     """What the methods of its states are called."""
-    states = [one for top in machine.states for one in _walk(top)]
+    states = [one for one in machine.every_state() if not one.history]
     return {f"{verb}_{suffix}" for suffix in _suffixes(states).values() for verb in METHODS}
 
 
 def _suffixes(states: list[State]) -> dict[State, str]:
     return dict(zip(states, names.unique([_word(s.name) for s in states]), strict=True))
-
-
-def _walk(one: State) -> list[State]:
-    """Itself and those within; a way back into a history is no state."""
-    if one.history:
-        return []
-    return [one, *(inner for part in one.inside for inner in _walk(part))]
 
 
 def _word(name: str) -> str:

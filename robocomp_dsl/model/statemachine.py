@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -75,3 +76,11 @@ class StateMachine:
     start: tuple[str, ...] = ()
     language: str = ""
     data: str = ""
+
+    def every_state(self) -> Iterator[State]:
+        """The states and all inside them, outer ones first; histories are among them."""
+        todo = list(reversed(self.states))
+        while todo:
+            one = todo.pop()
+            yield one
+            todo.extend(reversed(one.inside))

@@ -138,3 +138,13 @@ def test_colours_only_where_they_are_wanted(
     (here / "a.cdsl").write_text(BAD)
     monkeypatch.delenv("NO_COLOR")
     assert "\x1b[" not in rcgen("check", "a.cdsl").out
+
+
+@pytest.mark.parametrize("command", ["check", "fmt", "doc"])
+def test_a_folder_without_descriptions_is_no_success(
+    rcgen: Rcgen, here: Path, command: str
+) -> None:
+    (here / "nothing").mkdir()
+    done = rcgen(command, "nothing")
+    assert done.code == 1
+    assert done.err == "error: there are no descriptions in `nothing`\n"

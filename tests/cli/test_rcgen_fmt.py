@@ -60,10 +60,6 @@ def test_a_folder(rcgen: Rcgen, here: Path) -> None:
     assert Path("x/w.xml").read_text() == "<a/>\n"
 
 
-def test_an_empty_folder(rcgen: Rcgen, here: Path) -> None:
-    assert rcgen("fmt", ".") == Run(0, "", "0 files formatted\n")
-
-
 def test_check(rcgen: Rcgen, here: Path) -> None:
     Path("a.cdsl").write_text(MESSY)
     Path("b.cdsl").write_text(NEAT)

@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robocomp_dsl.check import check_file
-from robocomp_dsl.check.rules_states import every_state
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component
@@ -30,7 +29,7 @@ def test_the_model() -> None:
     assert (machine.name, machine.language, machine.start) == ("game", "ecmascript", ("waiting",))
     assert machine.data.startswith("<datamodel>")
     assert machine.data.endswith("points = 1 &lt; 2;</script>")
-    states = {one.name: one for one in every_state(machine.states)}
+    states = {one.name: one for one in machine.every_state()}
     assert [one.name for one in machine.states] == ["waiting", "playing", "paused", "over"]
     assert [name for name, one in states.items() if one.initial] == ["waiting", "silent", "dark"]
     assert [name for name, one in states.items() if one.parallel] == ["playing"]
@@ -67,7 +66,7 @@ def test_both_languages_say_the_same(tmp_path: Path) -> None:
         assert list(report) == []
         states = {
             (s.name, s.initial, s.final, s.start, tuple(i.name for i in s.inside))
-            for s in every_state(machine.states)
+            for s in machine.every_state()
         }
         ways = {(w.source, w.event, w.targets) for w in machine.transitions}
         shapes.append((machine.name, machine.start, states, ways))
