@@ -104,11 +104,21 @@ def _earlier(path: Path, against: str) -> Iterator[Path]:
     revision = _git(where, "rev-parse", "--verify", "--quiet", f"{against}^{{commit}}")
     data = _git(top, "archive", "--format=tar", revision.decode().strip())
     with tempfile.TemporaryDirectory() as made:
-        with tarfile.open(fileobj=io.BytesIO(data)) as archive:
-            wanted = [m for m in archive if Path(m.name).suffix.lower() in SUFFIXES]
-            archive.extractall(made, wanted, filter="data")
+        _unpack(data, Path(made))
         inside = path.resolve().relative_to(top.resolve())
         yield Path(made) / inside
+
+
+def _unpack(data: bytes, folder: Path) -> None:
+    """The descriptions of an archive; links are left out, they may lead anywhere."""
+    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+        for member in archive:
+            content = archive.extractfile(member) if member.isfile() else None
+            path = folder / member.name
+            inside = path.resolve().is_relative_to(folder.resolve())
+            if content and inside and path.suffix.lower() in SUFFIXES:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content.read())
 
 
 def _git(where: Path, *arguments: str) -> bytes:
