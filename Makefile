@@ -13,7 +13,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: fuzz highlight demo test test-slow lint format bench golden clean test-editors vsix
+.PHONY: test-tools fuzz highlight demo test test-slow lint format bench golden clean test-editors vsix
 
 demo: $(READY)
 	$(BIN)/python components/wander/demo.py
@@ -34,8 +34,11 @@ fuzz: $(READY)
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-test-editors: $(READY)
+# What tests meet that is not Python: editors, and the Slice compiler.
+test-tools: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
+
+test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
 
 vsix:

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the real editors that `make test-editors` runs. In: the Python of the project's .venv.
+# Installs what tests meet that is not Python: real editors, and ZeroC's Slice compiler.
+# In: the Python of the project's .venv.
 # Debian packages need root or sudo; without them it is said what to install, and the tests of
 # what is missing are skipped (in CI, where the variable CI is set, they fail).
 set -euo pipefail
@@ -16,6 +17,7 @@ debian=(
   "kate-syntax-highlighter:libkf5syntaxhighlighting-tools"
   "g++:g++"
   "chromium:chromium"
+  "slice2py:zeroc-ice-compilers"
 )
 
 missing=()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import tempfile
@@ -17,18 +18,19 @@ from robocomp_dsl.resources import INTERFACES
 
 SLICE2PY = shutil.which("slice2py")
 compiled = pytest.mark.skipif(
-    SLICE2PY is None,
-    reason="needs slice2py: package zeroc-ice-compilers of Debian, or zeroc-ice of PyPI",
+    SLICE2PY is None and "CI" not in os.environ,  # there it must not be missing
+    reason="needs slice2py: `make test-tools`, or package zeroc-ice-compilers of Debian",
 )
 
 
 def slice2py(folder: Path) -> str:
     """What the compiler says of all files of a folder; nothing if they are right."""
+    assert SLICE2PY, "no slice2py"
     out = folder / "out"
     out.mkdir(exist_ok=True)
     files = sorted(map(str, folder.glob("*.ice")))
     done = subprocess.run(
-        [str(SLICE2PY), "--output-dir", str(out), *files],
+        [SLICE2PY, "--output-dir", str(out), *files],
         capture_output=True,
         text=True,
         check=False,
