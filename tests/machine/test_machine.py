@@ -199,3 +199,109 @@ def test_somebody_is_told(worker: Worker, clock: HandClock) -> None:
     assert not told
     machine.go("start")
     assert told
+
+
+def test_many_threads_lose_nothing(clock: HandClock) -> None:
+    threads, each = 8, 300
+    inside: list[int] = []
+    most: list[int] = []
+
+    class Counting:
+        entered = 0
+
+        def on_enter_a(self) -> None:
+            inside.append(1)
+            most.append(len(inside))
+            self.entered += 1
+            inside.pop()
+
+    spec = MachineSpec(
+        "counter", (StateSpec("a", initial=True),), (TransitionSpec("a", "a", "again"),)
+    )
+    worker = Counting()
+    machine = made(spec, worker, clock)
+    begin = threading.Barrier(threads)
+
+    def fire() -> None:
+        begin.wait(10.0)
+        for _ in range(each):
+            machine.go("again")
+
+    running = [threading.Thread(target=fire) for _ in range(threads)]
+    for one in running:
+        one.start()
+    for one in running:
+        one.join()
+    assert worker.entered == 1 + threads * each
+    assert max(most) == 1
+    assert machine.states == ("a",)
+
+
+def test_nobody_waits_for_a_thread_that_is_at_it(clock: HandClock) -> None:
+    entered, leave = threading.Event(), threading.Event()
+
+    class Slow:
+        def on_enter_playing(self) -> None:
+            entered.set()
+            assert leave.wait(10.0)
+
+    machine = made(GAME, Slow(), clock)
+    other = threading.Thread(target=machine.go, args=("start",))
+    other.start()
+    assert entered.wait(10.0)
+    assert machine.go("pause") is False, "it is left to the other thread"
+    assert not machine.is_in("paused")
+    leave.set()
+    other.join()
+    assert machine.states == ("paused",)
+
+
+def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
+    entered, leave = threading.Event(), threading.Event()
+    failures: list[BaseException] = []
+
+    class Failing:
+        def on_enter_playing(self) -> None:
+            machine.go("pause")
+            entered.set()
+            assert leave.wait(10.0)
+            raise ZeroDivisionError
+
+        def on_enter_paused(self) -> None:
+            raise AssertionError
+
+    machine = made(GAME, Failing(), clock)
+
+    def start() -> None:
+        try:
+            machine.go("start")
+        except ZeroDivisionError as failure:
+            failures.append(failure)
+
+    other = threading.Thread(target=start)
+    other.start()
+    assert entered.wait(10.0)
+    assert machine.go("start") is False
+    leave.set()
+    other.join()
+    assert len(failures) == 1, "the second one was logged"
+    assert machine.states == ("waiting",)
+
+
+def test_a_timer_whose_transition_failed_is_due_again(clock: HandClock) -> None:
+    class Once:
+        failed = False
+
+        def on_enter_paused(self) -> None:
+            if not self.failed:
+                self.failed = True
+                raise ZeroDivisionError
+
+    machine = made(GAME, Once(), clock)
+    machine.go("start")
+    clock.moment = 61.0
+    with pytest.raises(ZeroDivisionError):
+        machine.fire_due()
+    assert machine.is_in("playing")
+    machine.fire_due()
+    assert machine.states == ("paused",)

@@ -18,6 +18,7 @@ from typing import Any
 
 from robocomp_dsl.runtime.clock import DIGITS, Clock
 from robocomp_dsl.runtime.machine.spec import MachineSpec
+from robocomp_dsl.runtime.machine.turns import Turns
 
 log = logging.getLogger("robocomp")
 
@@ -59,6 +60,7 @@ class Machine:
         self._due: list[_Due] = []
         self._numbers = count()
         self._lock = threading.Lock()
+        self._turns = Turns()
         self._chart: Any = None
         self._running = False
         self._entries = 0
@@ -68,9 +70,15 @@ class Machine:
         """Enter the first states. Raises what the worker's methods raise."""
         from robocomp_dsl.runtime.machine.chart import chart_of  # noqa: PLC0415 - 0.1 s to load
 
-        chart_of(self.spec)(self._later, self._cancel, self._begun, [_Listener(self)])
-        self._running = True
-        self._settle()
+        chart = chart_of(self.spec)
+
+        def enter() -> bool:
+            chart(self._later, self._cancel, self._begun, [_Listener(self)])
+            self._running = True
+            self._settle()
+            return True
+
+        self._turns.take(enter)
 
     def _begun(self, chart: Any) -> None:
         self._chart = chart
@@ -95,27 +103,30 @@ class Machine:
         """Fire an event: the transitions that wait for it are taken; whether there was one.
 
         `data` is for the conditions of an SCXML document (`_event.data`). Called from a method
-        that a transition calls, it is taken when that transition is done. Raises `UnknownEvent`.
+        that a transition calls, or while another thread is at it, it is taken when that is done,
+        and False is returned. Raises `UnknownEvent`.
         """
         if self._chart is None:
             raise UnknownEvent(f"`{event}`: the state machine begins behind `initialize`")
         if event not in self._events and not self._is_pattern(event):
             raise UnknownEvent(f"there is no event `{event}`{_near(event, self._events)}")
-        before = self._entries
-        self._take(partial(self._chart.send, event, **data))
-        return self._entries != before
+        return self._turns.take(partial(self._happen, partial(self._chart.send, event, **data)))
 
-    def _take(self, fire: Callable[[], None]) -> None:
-        """Let something happen; where a method of the worker raises, it has not happened."""
-        waiting = list(self._due)
+    def _happen(self, fire: Callable[[], None], timer: _Due | None = None) -> bool:
+        """Let something happen; whether a state was entered.
+
+        Where a method of the worker raises, it has not happened, and a timer is still due.
+        """
+        before, waiting = self._entries, list(self._due)
         try:
             fire()
         except BaseException:
             with self._lock:
-                self._due = waiting
+                self._due = sorted([*waiting, timer] if timer else waiting)
             raise
         finally:
             self._settle()
+        return self._entries != before
 
     def due(self) -> float | None:
         """When the next event comes by itself; None: none does."""
@@ -131,8 +142,16 @@ class Machine:
 
     def fire_due(self) -> None:
         """Take the events whose time has come."""
-        while (one := self._next_due()) is not None:
-            self._take(one.fire)
+        self._turns.take(self._fire_next)
+
+    def _fire_next(self) -> bool:
+        """The first event whose time has come, and then the next, behind what they cause."""
+        one = self._next_due()
+        if one is None:
+            return False
+        moved = self._happen(one.fire, one)
+        self._turns.take(self._fire_next)
+        return moved
 
     def beat(self) -> None:
         """Call the `state_…` methods of the active states, outer ones first."""
