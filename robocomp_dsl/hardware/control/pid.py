@@ -39,7 +39,7 @@ _COLUMNS = tuple(one.name for one in fields(Gains))
 def default_gains(spec: BoardSpec) -> tuple[Gains, ...]:
     """Position gains in proportion to the joint's torque: all of it at 0.1 rad of error."""
     return tuple(
-        Gains(10 * t, 5 * t, 0.5 * t, max_output=t, max_integral=0.5 * t)
+        Gains(10 * t, 20 * t, 0.5 * t, max_output=t, max_integral=0.5 * t)
         for t in (joint.torque_limit for joint in spec.joints)
     )
 

@@ -52,6 +52,7 @@ class SimulatedBoard:
         self._zero = np.zeros(n) if encoder_zero is None else encoder_zero
         self._plain = bool(np.array_equal(robot_board.transmission, np.eye(n)))
         self._to_joint = np.linalg.inv(robot_board.transmission)
+        self._from_board = robot_board.transmission
         self._to_board = robot_board.transmission.T
 
     def build(self, spec: Any) -> None:
@@ -63,6 +64,7 @@ class SimulatedBoard:
         self._where, self._speed, self._motor = (
             np.array([self._find(model, name)[i] for name in self._joints]) for i in range(3)
         )
+        self._damping = model.dof_damping[self._speed].copy()
         self.board.begin(*self._measure())
 
     def before_step(self, dt: float) -> None:
@@ -81,9 +83,12 @@ class SimulatedBoard:
         return q + self._zero, dq
 
     def _weight(self) -> Floats:
-        """Torques that hold the arm against gravity and its own swing."""
-        weight: Floats = self._data.qfrc_bias[self._speed]
-        return weight if self._plain else self._to_board @ weight
+        """Torques that hold the arm against gravity, its own swing and the drag of its joints."""
+        wanted = self.board.references.velocity
+        if self._plain:
+            return self._data.qfrc_bias[self._speed] + self._damping * wanted
+        drag = self._damping * (self._from_board @ wanted)
+        return self._to_board @ (self._data.qfrc_bias[self._speed] + drag)
 
     def after_step(self, dt: float) -> None:
         """Motors warm up by their current and cool down in the room; slowly, so now and then."""
