@@ -30,15 +30,12 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.component import Moved, interface_files, move_component
 from robocomp_dsl.migrate.ddsl import PEERS, ddsl_text, interfaces_in, peer_files
-from robocomp_dsl.migrate.deployment import Draft, by_identity, draft
+from robocomp_dsl.migrate.deployment import COMMON, Draft, by_identity, draft
 from robocomp_dsl.migrate.manager import Node, read_manager
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import Source, UnreadableSource
 
 __all__ = ["Plan", "move_over"]
-
-UNTOLD = ("commonbehavior", "agmcommonbehavior")
-"""Identities that say nothing about what a component is."""
 
 
 @dataclass(slots=True)
@@ -122,12 +119,12 @@ def _deploy(
     places = {id(moved): place for place, moved in plan.components}
     plan.files.append(OutputFile(plan.deployment, ddsl_text(plan.name, made, places, doc)))
     plan.became.append((managers[0].name if managers else "etc/*", plan.deployment))
-    peers = list(peer_files(made, modules))
-    plan.files += peers
-    if peers:
-        used = [modules[i.module] for o in made.instances for i in o.peer if i.module in modules]
-        closure = dict.fromkeys(m for one in used for m in one.closure())
-        plan.files += [_below(f"{PEERS}/", f) for f in interface_files(list(closure), workspace)]
+    plan.files += peer_files(made, modules)
+    for one in made.instances:
+        used = [modules[i.module] for i in one.peer if i.module in modules]
+        closure = dict.fromkeys(m for module in used for m in module.closure())
+        beside = f"{PEERS}/{one.name}/"
+        plan.files += [_below(beside, f) for f in interface_files(list(closure), workspace)]
 
 
 def _modules(
@@ -142,7 +139,7 @@ def _modules(
     }
     if not any(one.moved is None and not one.peer for one in made.instances):
         return found
-    root = out / PEERS / "x.cdsl"
+    root = out / "x.cdsl"
     for name in workspace.search.known(root):
         path = workspace.search.find(name, root)
         if path is None:
@@ -164,7 +161,7 @@ def _fill_stand_ins(made: Draft, modules: dict[str, Module], report: Report) -> 
             continue
         identity = next((a.identity for a in one.listens if a.identity), "")
         found = by_identity(identity, interfaces_in(modules))
-        if found is not None and identity.lower() not in UNTOLD:
+        if found is not None and not identity.lower().endswith(COMMON):
             one.peer.append(found)
         served = f"serves {found.name}" if one.peer and found else "serves nothing that is known"
         said = f"`{one.name}` is not among the folders; its stand-in {served}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 from robocomp_dsl.diagnostics import Code, Severity
 
 UNREADABLE_FILE = Code(
-    "RC901",
+    "RC921",
     Severity.ERROR,
     "a file of the old component could not be read",
     """The file is no text, too large, or not in the form that its name promises (a configuration
@@ -18,7 +18,7 @@ file in the old folder, remove the new folder and run `rcgen migrate` again.""",
 )
 
 NO_DESCRIPTION = Code(
-    "RC902",
+    "RC922",
     Severity.ERROR,
     "there is no CDSL file to begin with, or there are several",
     """A component is what its CDSL file says. The folder must hold exactly one, directly in it:
@@ -29,7 +29,7 @@ Components that were written before there was CDSL can be begun with `rcgen new`
 )
 
 BROKEN_DESCRIPTION = Code(
-    "RC903",
+    "RC923",
     Severity.ERROR,
     "the description has errors, so no code was generated",
     """The CDSL file, or an interface that it imports, has errors; they are listed beside this
@@ -39,7 +39,7 @@ remove the new folder and run `rcgen migrate` again.""",
 )
 
 CONFIG_LINE = Code(
-    "RC911",
+    "RC931",
     Severity.WARNING,
     "a line of a configuration says nothing",
     """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so this
@@ -47,7 +47,7 @@ one had no effect; it has none in the new configuration either.""",
 )
 
 CONFIG_TWICE = Code(
-    "RC912",
+    "RC932",
     Severity.WARNING,
     "a configuration gives a key twice",
     """The last value is the one that counted, so it is the one that was carried over. Is it the
@@ -55,7 +55,7 @@ one that was meant?""",
 )
 
 CONFIG_CLASH = Code(
-    "RC913",
+    "RC933",
     Severity.ERROR,
     "two configurations give a key in forms that do not fit together",
     """A key is a group in one place and a value or a list in another: the first form became the
@@ -64,7 +64,7 @@ name.""",
 )
 
 RENAMED_KEY = Code(
-    "RC914",
+    "RC934",
     Severity.WARNING,
     "a parameter is called otherwise",
     """The old key is no name of PDSL (a letter or `_`, then letters, digits and `_`), or two keys
@@ -73,7 +73,7 @@ code still gets the old key.""",
 )
 
 TEXT_LIST = Code(
-    "RC915",
+    "RC935",
     Severity.NOTE,
     "a list in a text stays a text",
     """The value looks like a list, `1,2,3`, which the old code splits itself; so it became a
@@ -83,7 +83,7 @@ string. For a typed list write a list of groups into the PDSL and the YAML:
 )
 
 MISSING_KEY = Code(
-    "RC916",
+    "RC936",
     Severity.WARNING,
     "a configuration lacks a key that another one has",
     """All configurations of a component have the same parameters now. Where a file does not give
@@ -92,7 +92,7 @@ this configuration?""",
 )
 
 NOT_SUPPORTED_VALUE = Code(
-    "RC917",
+    "RC937",
     Severity.WARNING,
     "a value became a text",
     """There is no type for it in PDSL (lists of lists, dates, lists of different things), or the
@@ -100,7 +100,7 @@ configurations give values of different kinds. It is written as JSON or as it st
 )
 
 ICE_SETTING = Code(
-    "RC921",
+    "RC941",
     Severity.NOTE,
     "a setting of Ice is not needed any more",
     """`Ice.*` and the endpoint of IceStorm's topic manager tuned a middleware that the new
@@ -108,14 +108,14 @@ component does not use: components find each other by name, and topics need no b
 )
 
 WIRED = Code(
-    "RC922",
+    "RC942",
     Severity.NOTE,
     "an endpoint or a proxy became part of the deployment",
     """`X.Endpoints` is a `port` of the component, `XProxy` a `connect` line in the DDSL file.""",
 )
 
 STAND_IN = Code(
-    "RC923",
+    "RC943",
     Severity.WARNING,
     "another component is only known by its address",
     """The configuration names a component by host and port, and its description is not here. A
@@ -126,7 +126,7 @@ real component in its place before you start the deployment; or hand all folders
 )
 
 UNKNOWN_PROXY = Code(
-    "RC924",
+    "RC944",
     Severity.WARNING,
     "an address belongs to no port of the component",
     """The configuration has an endpoint or a proxy for an interface that the CDSL file does not
@@ -135,7 +135,7 @@ used it.""",
 )
 
 NOT_PYTHON = Code(
-    "RC931",
+    "RC951",
     Severity.ERROR,
     "code in C++ is not carried over",
     """There is a generator for Python only. The descriptions, parameters and configurations are
@@ -145,7 +145,7 @@ through a bridge.""",
 )
 
 UNREADABLE_PYTHON = Code(
-    "RC932",
+    "RC952",
     Severity.ERROR,
     "Python cannot read the old worker",
     """Most often it is Python 2 (`print x`). It was copied beside the new, empty
@@ -154,14 +154,14 @@ UNREADABLE_PYTHON = Code(
 )
 
 NO_WORKER = Code(
-    "RC933",
+    "RC953",
     Severity.WARNING,
     "there is no class SpecificWorker to carry over",
     """`src/specificworker.py` is missing or has no such class; the new one has empty methods.""",
 )
 
 CARRIED_OVER = Code(
-    "RC934",
+    "RC954",
     Severity.NOTE,
     "an import of the old worker was adapted",
     """Modules that RoboComp generated or brought along (`genericworker`, `interfaces`, `Ice`,
@@ -170,7 +170,7 @@ use. The methods themselves are as they were, byte by byte.""",
 )
 
 NEEDS_QT = Code(
-    "RC935",
+    "RC955",
     Severity.WARNING,
     "the worker uses Qt",
     """Windows and timers of Qt need Qt's event loop, which the new component does not run:
@@ -179,7 +179,7 @@ program of its own that talks to the component.""",
 )
 
 NAME_TAKEN = Code(
-    "RC936",
+    "RC956",
     Severity.WARNING,
     "the worker sets an attribute that the component needs",
     """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns one
@@ -187,7 +187,7 @@ of them hides it from the new base class. Rename the attribute in your class."""
 )
 
 PERIOD = Code(
-    "RC937",
+    "RC957",
     Severity.NOTE,
     "the period stands in the description",
     """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file. `compute`
@@ -195,7 +195,7 @@ is called with it; `self.timer` is a stand-in that starts nothing.""",
 )
 
 NOT_COPIED = Code(
-    "RC941",
+    "RC961",
     Severity.WARNING,
     "a file was not copied",
     """It is too large, cannot be read, is a link, or there is no place for it. Copy it by hand if
@@ -203,7 +203,7 @@ the component needs it.""",
 )
 
 REPLACED = Code(
-    "RC942",
+    "RC962",
     Severity.NOTE,
     "a file that RoboComp generated has no successor",
     """Build files and generated code are not needed any more: `rcgen component` writes `main.py`
@@ -211,7 +211,7 @@ and `generated/`.""",
 )
 
 INTERFACE_WINDOW = Code(
-    "RC943",
+    "RC963",
     Severity.ERROR,
     "a window is not carried over",
     """A `.ui` file describes a window of Qt; generated components have none. Parameters and
@@ -220,7 +220,7 @@ the component.""",
 )
 
 NODE_DROPPED = Code(
-    "RC951",
+    "RC971",
     Severity.NOTE,
     "a process of the old manager is not needed any more",
     """`rcnode` and `icebox` ran IceStorm's broker for topics. Topics go directly from publisher
@@ -228,14 +228,14 @@ to subscriber now.""",
 )
 
 NODE_INCOMPLETE = Code(
-    "RC952",
+    "RC972",
     Severity.ERROR,
     "an entry of the old manager could not be understood",
     """It has no name, or the name is taken; so it is not in the deployment.""",
 )
 
 DEPENDENCE_DROPPED = Code(
-    "RC953",
+    "RC973",
     Severity.WARNING,
     "a dependence was left out",
     """It names an entry that does not exist, or it would close a circle, in which everybody waits
@@ -243,7 +243,7 @@ for everybody. The old manager started such components in some order all the sam
 )
 
 COMMAND = Code(
-    "RC954",
+    "RC974",
     Severity.NOTE,
     "a command of the old manager is not used",
     """The deployment starts components itself, `python3 main.py` in their folders. The old
@@ -251,7 +251,7 @@ command stands as a comment in the DDSL file; `executable "…";` sets another o
 )
 
 MANAGER_SETTING = Code(
-    "RC955",
+    "RC975",
     Severity.WARNING,
     "a part of the manager's file was not carried over",
     """The configuration it names is not one of the component's, or the address is not one that a

@@ -21,7 +21,7 @@ def ddsl_text(name: str, draft: Draft, places: Mapping[int, str], doc: str) -> s
     hosts = hosts_of(draft.instances)
     used = {id(one.moved): one.moved for one in draft.instances if one.moved}
     imports = [relative(m.description, places[key]) for key, m in used.items()]
-    imports += [f"{PEERS}/{one.name}.cdsl" for one in draft.instances if one.moved is None]
+    imports += [peer_path(one) for one in draft.instances if one.moved is None]
     rows = [f'import "{path}";' for path in imports]
     rows += ["", f"/** {doc} */", f"Deployment {name}", "{"]
     for address, (called, user) in hosts.items():
@@ -52,11 +52,16 @@ def _instance(one: Instance, hosts: Mapping[str, str], places: Mapping[int, str]
     yield f"{STEP}component {one.name}{kind}{place}{body};"
 
 
+def peer_path(one: Instance) -> str:
+    """Where the description of a stand-in is: in a folder of its own, as for any component."""
+    return f"{PEERS}/{one.name}/{one.name}.cdsl"
+
+
 def peer_files(draft: Draft, modules: Mapping[str, Module]) -> Iterator[OutputFile]:
     """The CDSL files of the stand-ins; `modules` are those of the interfaces, by name."""
     for one in draft.instances:
         if one.moved is None:
-            yield OutputFile(f"{PEERS}/{one.name}.cdsl", peer_text(one, modules))
+            yield OutputFile(peer_path(one), peer_text(one, modules))
 
 
 def peer_text(one: Instance, modules: Mapping[str, Module]) -> str:

@@ -21,6 +21,8 @@ from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.source import Span
 
 HERE = ("", "localhost", "*", "::1")
+COMMON = "commonbehavior"
+"""The end of the interfaces by which RoboComp watched every component."""
 FIRST_PORT, LAST_PORT = 1024, 65535
 
 
@@ -258,7 +260,8 @@ def _give_ports(instances: Sequence[Instance]) -> None:
     """The TCP port of each instance: the first of its addresses that is free on its host."""
     taken: set[tuple[str, int]] = set()
     for one in instances:
-        listed = [a for a in one.listens if a.name != "CommonBehavior"]
+        listed = [a for a in one.listens if not a.name.lower().endswith(COMMON)]
+        listed = [a for a in listed if not a.identity.lower().endswith(COMMON)]
         for address in listed:
             key = (_host(one.host), address.port)
             if FIRST_PORT <= address.port <= LAST_PORT and key not in taken and not one.port:

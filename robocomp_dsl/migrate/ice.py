@@ -82,9 +82,8 @@ def _address(one: Entry) -> Address | None:
     if _is_endpoint(one):
         name = one.path[-1] if one.path[0] == "Endpoints" else ".".join(one.path[:-1])
         return address(name, one.value, one.span) if _ENDPOINT.fullmatch(one.value) else None
-    if (name := _proxy_name(one)) is None:
-        return None
-    found = address(name, one.value, one.span)
+    called = _proxy_name(one)
+    found = address(called, one.value, one.span) if called else None
     return found if found and found.identity else None
 
 

@@ -9,7 +9,7 @@ import re
 import shlex
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import PurePosixPath
 
 from robocomp_dsl.diagnostics import Report
@@ -58,6 +58,8 @@ def read_manager(source: Source, report: Report) -> list[Node] | None:
 
 def _unique(nodes: Iterator[Node], report: Report) -> Iterator[Node]:
     seen: dict[str, Node] = {}
+    brokers = set()
+    kept = []
     for one in nodes:
         if one.name in seen:
             report.add(codes.NODE_INCOMPLETE, one.span, f"there are two entries `{one.name}`")
@@ -66,8 +68,11 @@ def _unique(nodes: Iterator[Node], report: Report) -> Iterator[Node]:
         words = f"{one.address.identity if one.address else ''} {one.command}".lower()
         if any(re.search(rf"\b{broker}\b", words) for broker in BROKERS):
             report.add(codes.NODE_DROPPED, one.span, f"`{one.name}` is not needed any more")
-            continue
-        yield one
+            brokers.add(one.name)
+        else:
+            kept.append(one)
+    for one in kept:
+        yield replace(one, after=tuple(a for a in one.after if a[0] not in brokers))
 
 
 def _xml_nodes(root: Element, report: Report) -> Iterator[Node]:

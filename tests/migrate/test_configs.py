@@ -181,7 +181,7 @@ def test_findings_say_file_and_line() -> None:
         {"config": "a = 1\na = 2\nnonsense\nb.c = 1\nb = 2\n", "other": "a = 5\nb.c=2"}
     )
     said = [(d.code.id, d.span.source.path.name, d.span.begin[0]) for d in report.sorted()]
-    assert said == [("RC912", "config", 1), ("RC911", "config", 3), ("RC913", "config", 5)]
+    assert said == [("RC932", "config", 1), ("RC931", "config", 3), ("RC933", "config", 5)]
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,7 @@ def test_broken_toml_is_told_with_its_line(text: str, line: int) -> None:
     report = Report()
     assert read_config(Source(Path("config.toml"), text), report) is None
     (told,) = report
-    assert (told.code.id, told.span.begin[0]) == ("RC901", line)
+    assert (told.code.id, told.span.begin[0]) == ("RC921", line)
 
 
 def test_addresses_of_text_and_toml() -> None:

@@ -1,0 +1,72 @@
+"""Migrated components as processes that say what they do."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+DEADLINE_S = 60.0
+
+
+class Process:
+    """One component; its lines are collected while it runs."""
+
+    def __init__(self, folder: Path, *options: str) -> None:
+        self.lines: list[str] = []
+        self._changed = threading.Condition()
+        self._process = subprocess.Popen(
+            [sys.executable, "main.py", *options],
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env=os.environ | {"PYTHONUNBUFFERED": "1"},
+        )
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self) -> None:
+        assert self._process.stdout is not None
+        for line in self._process.stdout:
+            with self._changed:
+                self.lines.append(line.rstrip())
+                self._changed.notify_all()
+        with self._changed:
+            self._changed.notify_all()
+
+    def wait_for(self, words: str) -> str:
+        """The first line with `words`; fails when there is none in time."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._found(words) is not None, DEADLINE_S)
+            found = self._found(words)
+        assert found is not None, "\n".join(self.lines[-40:])
+        return found
+
+    def _found(self, words: str) -> str | None:
+        return next((line for line in self.lines if words in line), None)
+
+    def stop(self) -> int:
+        """End it; its exit code."""
+        self._process.terminate()
+        try:
+            code = self._process.wait(DEADLINE_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            code = self._process.wait()
+        self._reader.join()
+        return code
+
+
+@contextmanager
+def running(folder: Path, *options: str) -> Iterator[Process]:
+    """A component that runs inside the block."""
+    one = Process(folder, *options)
+    try:
+        yield one
+    finally:
+        one.stop()

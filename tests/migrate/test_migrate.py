@@ -1,0 +1,229 @@
+"""`rcgen migrate` from end to end: folders as RoboComp has them become components that run."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import uuid
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from processes import running
+
+from robocomp_dsl.check import check_ddsl
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+
+Rcgen = Callable[..., object]
+
+
+def digest(folder: Path) -> dict[str, str]:
+    return {
+        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_a_python_component_moves_over_and_checks_clean(rcgen, old: Path, tmp_path: Path) -> None:
+    before = digest(old)
+    out = tmp_path / "new"
+    done = rcgen("migrate", old / "follow", "-o", out)
+    assert done.code == 0, done.err
+    assert digest(old) == before
+    assert rcgen("check", out).code == 0
+    assert rcgen("component", "--check", out / "follow.cdsl").code == 0
+    text = (out / "follow.cdsl").read_text()
+    assert 'parameters "follow.pdsl";' in text
+    assert "period 50;" in text
+    assert (out / "steering.py").read_bytes() == (old / "follow/src/steering.py").read_bytes()
+    assert (out / "etc/room.xml").is_file()
+    report = (out / "MIGRATION.md").read_text()
+    for said in ("`follow/etc/config:16`", "`follow/src/genericworker.py`", "`laser` stands for"):
+        assert said in report
+    assert str(tmp_path) not in report
+
+
+def test_methods_are_the_same_bytes(rcgen, old: Path, tmp_path: Path) -> None:
+    rcgen("migrate", old / "follow", "-o", tmp_path / "new")
+    was = (old / "follow/src/specificworker.py").read_bytes()
+    now = (tmp_path / "new/specificworker.py").read_bytes()
+    body = was[was.index(b"sys.path.append") :]
+    assert body in now
+    added = now[now.index(body) + len(body) - 1 :].decode()
+    assert added.strip() == "Mood_setSpeed = setSpeed"
+
+
+def test_it_computes_at_once(rcgen, old: Path, tmp_path: Path) -> None:
+    rcgen("migrate", old / "follow", "-o", tmp_path / "new")
+    with running(tmp_path / "new", "--middleware", "inproc") as follow:
+        follow.wait_for("no robot: NoServer")
+        assert follow.stop() == 0
+
+
+def test_three_components_of_a_manager_work_together(rcgen, old: Path, tmp_path: Path) -> None:
+    folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
+    out = tmp_path / "robot"
+    done = rcgen("migrate", old / "robot.xml", *folders, "-o", out)
+    assert done.code == 0, done.err
+    report = Report()
+    found = check_ddsl(out / "robot.ddsl", Workspace(), report)
+    assert not report.failed
+    assert found is not None
+    domain = f"migrated-{uuid.uuid4().hex[:12]}"
+    wires = ("--connect", "Laser=laser", "--connect", "DifferentialRobot=base")
+    slow = ("--config", "etc/config_slow.yaml")
+    with (
+        running(out / "laser_sim", "--domain", domain, "--name", "laser"),
+        running(out / "base_sim", "--domain", domain, "--name", "base") as base,
+        running(out / "follow", "--domain", domain, *slow, *wires),
+    ):
+        # 300 mm ahead, nearer than 900: the advance of config_slow, and a turn.
+        base.wait_for("SPEED 50.0 0.6")
+
+
+def test_a_manager_becomes_a_deployment(rcgen, old: Path, tmp_path: Path) -> None:
+    folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
+    out = tmp_path / "robot"
+    assert rcgen("migrate", old / "robot.xml", *folders, "-o", out).code == 0
+    found = check_ddsl(out / "robot.ddsl", Workspace(), Report())
+    assert found is not None
+    rows = [
+        (one.name, one.component.name, one.host.address, one.port, one.after)
+        for one in found.instances
+    ]
+    assert rows == [
+        ("laser", "laser_sim", "127.0.0.1", 10003, ()),
+        ("base", "base_sim", "127.0.0.1", 10004, ("laser",)),
+        ("follow_me", "follow", "127.0.0.1", 11010, ("laser", "base")),
+        ("rgbd", "rgbd", "10.0.30.33", 10096, ()),
+    ]
+    assert found.instances[2].config == out / "follow/etc/config_slow.yaml"
+    assert found.instances[3].host.user == "robolab"
+    wires = {
+        (w.source.name, w.source_port.name, w.target.name, w.implied) for w in found.connections
+    }
+    assert wires == {
+        ("follow_me", "Laser", "laser", False),
+        ("follow_me", "DifferentialRobot", "base", False),
+    }
+
+
+def test_a_manager_alone_gives_stand_ins(rcgen, old: Path, tmp_path: Path) -> None:
+    out = tmp_path / "robot"
+    done = rcgen("migrate", old / "robot.xml", "-o", out)
+    assert done.code == 0, done.err
+    assert rcgen("check", out).code == 0
+    assert "implements Laser;" in (out / "peers/laser/laser.cdsl").read_text()
+    assert "implements RGBD;" in (out / "peers/rgbd/rgbd.cdsl").read_text()
+    assert rcgen("component", out / "peers/laser/laser.cdsl").code == 0
+    assert (out / "peers/laser/main.py").is_file()
+
+
+def test_the_new_folder_is_never_an_old_one(rcgen, old: Path, tmp_path: Path) -> None:
+    mine = tmp_path / "follow"
+    shutil.copytree(old / "follow", mine)
+    before = digest(mine)
+    for out in (mine, mine / "new", tmp_path):
+        done = rcgen("migrate", mine, "-o", out)
+        assert done.code == 2, out
+    assert digest(mine) == before
+    assert rcgen("migrate", mine).code == 0
+    assert (tmp_path / "follow-migrated/MIGRATION.md").is_file()
+    assert rcgen("migrate", mine).code == 2
+    assert digest(mine) == before
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "code", "line"),
+    [
+        ("etc/config_bad", b"\x00\x01\x02", "RC921", 1),
+        ("etc/config.toml", b"a = 1\nb = \n", "RC921", 2),
+        ("etc/config_big", b"a = 1\n" * 900_000, "RC921", 1),
+        ("src/specificworker.py", b"class A:\n    def f(self):\n        print 'x'\n", "RC952", 3),
+        ("src/specificworker.py", b"\xff\xfe\x00", "RC952", 1),
+        ("src/helper.py", b"def f(:\n", "RC952", 1),
+        ("src/window.ui", b"<ui/>", "RC963", 1),
+        ("src/eyes.cpp", b"int main() {}", "RC951", 1),
+        ("follow.cdsl", b"Component follow { ", "RC923", 1),
+        ("follow.cdsl", b"import \"Nowhere.idsl\"; Component follow { Communications { requires"
+            b" Nowhere; }; language Python; };", "RC923", 1),
+        ("follow.cdsl", b"\x00", "RC921", 1),
+        ("Mood.idsl", b"module M { struct", "RC923", 1),
+        ("second.cdsl", b"Component second { };", None, 0),
+    ],
+)  # fmt: skip
+def test_what_is_broken_is_told_and_the_rest_goes_on(
+    rcgen, old: Path, tmp_path: Path, name: str, data: bytes, code: str | None, line: int
+) -> None:
+    folder = tmp_path / "follow"
+    shutil.copytree(old / "follow", folder)
+    (folder / name).write_bytes(data)
+    done = rcgen("migrate", folder, "--format", "concise")
+    if code is None:
+        assert done.code == 0, done.err
+        return
+    assert done.code == 1, done.err
+    told = [row for row in done.err.splitlines() if code in row]
+    assert any(f"{name.rpartition('/')[2]}:{line}" in row for row in told) or code == "RC923", told
+    assert told
+    assert "Traceback" not in done.err
+    if name != "follow.cdsl" or code != "RC921":
+        out = tmp_path / "follow-migrated"
+        assert code in (out / "MIGRATION.md").read_text()
+        assert (out / "etc/config.yaml").is_file()
+        assert (out / "follow.cdsl").is_file()
+
+
+def test_cpp_keeps_its_descriptions(rcgen, tmp_path: Path) -> None:
+    folder = tmp_path / "eyes"
+    (folder / "etc").mkdir(parents=True)
+    (folder / "src").mkdir()
+    (folder / "eyes.cdsl").write_text(
+        'import "Laser.idsl";\nComponent eyes\n{\n\tCommunications\n\t{\n\t\timplements Laser;\n'
+        "\t};\n\tlanguage Cpp11;\n\tgui Qt(QWidget);\n};\n"
+    )
+    (folder / "etc/config").write_text("Laser.Endpoints=tcp -p 10003\nRate = 30\n")
+    for name in ("specificworker.cpp", "specificworker.h", "genericworker.cpp", "CMakeLists.txt"):
+        (folder / "src" / name).write_text("// code\n")
+    done = rcgen("migrate", folder)
+    assert done.code == 1
+    out = tmp_path / "eyes-migrated"
+    report = (out / "MIGRATION.md").read_text()
+    assert "`eyes/src/specificworker.cpp` code in C++ is not carried over" in report
+    assert "`eyes/src/genericworker.cpp`" in report.partition("For information")[2]
+    assert "language Python;" in (out / "eyes.cdsl").read_text()
+    assert rcgen("check", out).code == 0
+    assert rcgen("component", "--check", out / "eyes.cdsl").code == 0
+    with running(out, "--middleware", "inproc") as eyes:
+        eyes.wait_for("running")
+
+
+def test_toml_goes_to_the_worker_as_tables(rcgen, tmp_path: Path) -> None:
+    folder = tmp_path / "eyes"
+    (folder / "etc").mkdir(parents=True)
+    (folder / "src").mkdir()
+    (folder / "eyes.cdsl").write_text("Component eyes { Communications { }; language python; };")
+    (folder / "etc/config.toml").write_text(
+        '[Period]\nCompute = 20\n[Config]\nExtrinsic = [0, 1.5]\nDisplay = true\nName = "a"\n'
+    )
+    (folder / "src/specificworker.py").write_text(
+        "from PySide6.QtCore import QTimer\nfrom genericworker import *\n"
+        "class SpecificWorker(GenericWorker):\n"
+        "    def __init__(self, proxy_map, configData, startup_check=False):\n"
+        "        super(SpecificWorker, self).__init__(proxy_map, configData)\n"
+        '        self.Period = configData["Period"]["Compute"]\n'
+        "        self.timer.timeout.connect(self.compute)\n"
+        "        self.timer.start(self.Period)\n"
+        "        self.data = configData\n"
+        "    @QtCore.Slot()\n"
+        "    def compute(self):\n"
+        '        print("DATA", self.Period, self.data["Config"], flush=True)\n'
+    )
+    assert rcgen("migrate", folder).code == 0
+    out = tmp_path / "eyes-migrated"
+    assert "period 20;" in (out / "eyes.cdsl").read_text()
+    with running(out, "--middleware", "inproc") as eyes:
+        said = eyes.wait_for("DATA")
+    assert said == "DATA 20 {'Extrinsic': [0.0, 1.5], 'Display': True, 'Name': 'a'}"
