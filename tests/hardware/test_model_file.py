@@ -5,11 +5,11 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from test_mirror import agree, random_position
 
 from robocomp_dsl.hardware.findings import ModelFileError
 from robocomp_dsl.hardware.mujoco.mirror import mirror
 from robocomp_dsl.hardware.mujoco.model_file import Loaded, load_model
-from tests.hardware.test_mirror import agree, random_position
 
 MODELS = Path(__file__).parent / "models"
 GEOM = mujoco.mjtGeom

@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import mujoco
 
@@ -29,9 +29,8 @@ _ROOM = 2**24
 
 @dataclass(slots=True)
 class Loaded:
-    """`spec` is that of `model`; `language` is that of the file."""
+    """`spec` is that of `model`."""
 
-    language: Literal["urdf", "mjcf", "innermodel"]
     spec: Any
     model: Any
     findings: list[Finding]
@@ -44,20 +43,22 @@ def outermost(data: bytes) -> str:
 
 
 def load_model(path: Path, packages: Sequence[Path] = ()) -> Loaded:
-    """The model in the file at `path`. Raises `ModelFileError`, `OSError`."""
+    """The compiled model in the file at `path`. Raises `ModelFileError`, `OSError`."""
+    spec, findings = read_spec(path, packages)
+    return Loaded(spec, compiled(spec, findings), findings)
+
+
+def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
+    """What is in the file at `path`, not compiled yet. Raises `ModelFileError`, `OSError`."""
     data = path.read_bytes()
     match outermost(data):
         case "robot":
-            spec, findings = build_urdf(read_urdf(data), path, packages)
-            language: Literal["urdf", "mjcf"] = "urdf"
+            return build_urdf(read_urdf(data), path, packages)
         case "mujoco":
-            spec, findings = build_mjcf(path, packages)
-            language = "mjcf"
+            return build_mjcf(path, packages)
         case tag:
             said = f"the outermost element is `<{tag}>`" if tag else "the file holds no element"
             raise ModelFileError(f"{said}, a model begins with `<robot>` or `<mujoco>`")
-    model = compiled(spec, findings)
-    return Loaded(language, spec, model, findings)
 
 
 def compiled(spec: Any, findings: list[Finding]) -> Any:

@@ -1,0 +1,1 @@
+"""Models made visible: pictures without a screen, and a scene in the browser."""

@@ -1,0 +1,157 @@
+"""`rcgen view`: pictures of worlds and robots, and what it says about those that are wrong."""
+
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+from view_run import view
+
+from robocomp_dsl.hardware.view import screenless
+from robocomp_dsl.hardware.view.picture import Look, Painter, png
+
+MODELS = Path(__file__).parents[1] / "hardware" / "models"
+
+
+def pixels(path: Path) -> np.ndarray:
+    """What is in a PNG file as we write them."""
+    data = path.read_bytes()
+    assert data.startswith(b"\x89PNG\r\n\x1a\n")
+    width, height = struct.unpack(">II", data[16:24])
+    packed, at = b"", 8
+    while at < len(data):
+        (size,) = struct.unpack_from(">I", data, at)
+        kind, body = data[at + 4 : at + 8], data[at + 8 : at + 8 + size]
+        assert struct.unpack_from(">I", data, at + 8 + size)[0] == zlib.crc32(kind + body)
+        packed += body if kind == b"IDAT" else b""
+        at += 12 + size
+    lines = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + 3 * width)
+    return lines[:, 1:].reshape(height, width, 3)
+
+
+SUBJECTS = ["nao_h21", "nao_h25", "icub_v2", *(MODELS / n for n in ("arm.urdf", "crane.xml"))]
+
+
+@pytest.mark.parametrize(
+    "subject", [*SUBJECTS, MODELS / "room.xml"], ids=lambda one: Path(one).stem
+)
+def test_a_picture_shows_the_model_in_its_middle(tmp_path: Path, subject: object) -> None:
+    path = tmp_path / "picture.png"
+    result = view(str(subject), "--screenshot", str(path), "--size", "320x240")
+    assert result.code == 0, result.err
+    assert "320 x 240 pixels" in result.out
+    made = pixels(path).astype(int)
+    assert made.shape == (240, 320, 3)
+    sky = made[:, :8].mean(axis=1, keepdims=True)  # it shades from top to bottom only
+    other = np.abs(made - sky).max(axis=2) > 25
+    assert other[60:180, 80:240].mean() > 0.05
+    assert 0.01 < other.mean() < 0.9
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("more", ["--frames", "--names", "--azimuth=200", "--zoom=2"])
+def test_what_is_asked_for_is_in_the_picture(tmp_path: Path, more: str) -> None:
+    pictures = []
+    for name, options in (("a", ()), ("b", (more,))):
+        path = tmp_path / f"{name}.png"
+        said = view("nao_h25", "--screenshot", str(path), "--size", "160x120", *options)
+        assert said.code == 0
+        pictures.append(pixels(path))
+    assert (pictures[0] != pictures[1]).any(axis=2).mean() > 0.003
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", ":3:1"),
+        ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", "RC651]: there are two links `a`"),
+        ("<mujoco>\n  <geom/></mujoco>", ":2:3"),
+        ("<innerModel>\n<trasform id='a'/></innerModel>", "did you mean `transform`?"),
+        ("", "RC"),
+    ],
+)
+def test_what_cannot_be_shown_is_told_with_its_place(tmp_path: Path, text: str, said: str) -> None:
+    path = tmp_path / "model.xml"
+    path.write_text(text)
+    result = view(str(path), "--screenshot", str(tmp_path / "no.png"))
+    assert result.code == 1
+    assert said in result.err
+    assert "Traceback" not in result.err
+    assert not (tmp_path / "no.png").exists()
+
+
+def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(tmp_path: Path) -> None:
+    path = tmp_path / "world.xml"
+    path.write_text(
+        '<innerModel><plane id="a" texture="#ff0000"/><plane id="a" px="9"/><nix/></innerModel>'
+    )
+    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    assert result.code == 0
+    assert "the id `a` is given twice" in result.err
+    assert pixels(tmp_path / "w.png").shape == (48, 64, 3)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (("gone.xml",), 1, "`gone.xml` cannot be read: No such file"),
+        (("nao_h25", "--screenshot", "gone/a.png"), 1, "No such file or directory"),
+        (("nao_h25", "--screenshot", "a.png", "--size", "0x5"), 1, "1 to 8192 pixels a side"),
+        (("nao_h25", "--screenshot", "a.png", "--size", "big"), 2, "as in 1280x960"),
+        (("nao_h25", "--screenshot", "a.png", "--camera", "x"), 1, "the model has no camera `x`"),
+    ],
+)
+def test_wrong_orders(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    arguments: tuple[str, ...],
+    code: int,
+    said: str,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = view(*arguments)
+    assert (result.code, said in result.err) == (code, True), result.err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("libraries", "chosen", "said"),
+    [
+        ((), "", "apt install libegl1 libgl1-mesa-dri; `libOSMesa.so.8` is not there: apt install"),
+        ((), "osmesa", "without a screen: `libOSMesa.so.8` is not there: apt install libosmesa6"),
+        (("libEGL.so.1",), "egl", "EGL has no device to draw with: apt install libgl1-mesa-dri"),
+    ],
+)
+def test_the_package_that_is_missing_is_named(
+    monkeypatch: pytest.MonkeyPatch, libraries: tuple[str, ...], chosen: str, said: str
+) -> None:
+    def library(name: str) -> object:
+        return object() if name in libraries else None
+
+    monkeypatch.setattr(screenless, "_library", library)
+    monkeypatch.setattr(screenless, "_any_device", lambda _: False)
+    monkeypatch.setenv(screenless.CHOSEN, chosen)
+    with pytest.raises(screenless.NoRendering) as error:
+        screenless.new_context(64, 48)
+    assert said in str(error.value)
+
+
+def test_the_png_of_known_pixels(tmp_path: Path) -> None:
+    made = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
+    (tmp_path / "a.png").write_bytes(png(made))
+    assert (pixels(tmp_path / "a.png") == made).all()
+
+
+def test_up_is_up() -> None:
+    import mujoco  # noqa: PLC0415
+
+    text = "<mujoco><worldbody><geom size='.2' pos='0 0 1' rgba='1 0 0 1'/>"
+    text += "<geom size='.2' pos='0 0 -1' rgba='0 0 1 1'/></worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    with Painter(model, 64, 64) as painter:
+        made = painter.paint(data, Look(elevation=0)).astype(int)
+    assert made[:32, :, 0].sum() > 10 * made[32:, :, 0].sum() + 1000
+    assert made[32:, :, 2].sum() > made[:32, :, 2].sum()
