@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.imports import replace
+from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.scopes import Scope
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.syntax.ast_base import Name
@@ -89,8 +90,14 @@ def _known_names(
             f"`{instance.name.text}` waits for `{name.text}`, which is not in this deployment",
             label=f"did you mean `{guess}`?" if guess else "",
             fix=replace(name.span, guess) if guess else None,
+            help="" if guess else _others(instance, [*known, *farther]),
         )
     return found
+
+
+def _others(instance: Instance, known: Sequence[str]) -> str:
+    others = [one for one in known if one != instance.name.text]
+    return f"in it are {listing(others)}" if others else "nothing else is in it"
 
 
 def _report_cycles(waits: Mapping[str, Mapping[str, Name]], report: Report) -> None:

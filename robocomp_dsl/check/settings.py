@@ -26,9 +26,10 @@ _STEP = re.compile(r"(?P<name>\w+)(?P<index>(?:\[\s*\d+\s*\])*)")
 class _Unknown(Exception):
     """A key leads nowhere; the message says why, `guess` is the key that may be meant."""
 
-    def __init__(self, message: str, guess: str | None = None) -> None:
+    def __init__(self, message: str, guess: str | None = None, way_out: str = "") -> None:
         super().__init__(message)
         self.guess = guess
+        self.way_out = way_out
 
 
 def settings_of(
@@ -58,6 +59,7 @@ def _value(one: Setting, component: Component, report: Report) -> types.Literal 
             str(unknown),
             label=f"did you mean `{unknown.guess}`?" if unknown.guess else "",
             fix=replace(one.key.span, unknown.guess) if unknown.guess else None,
+            help=unknown.way_out,
         )
         return None
     try:
@@ -87,7 +89,9 @@ def _fit(one: Setting, parameter: Parameter) -> types.Literal:
 def _find(key: str, component: Component) -> Parameter:
     """The parameter that a dotted key means."""
     if component.parameters is None:
-        raise _Unknown(f"`{component.name}` has no parameters")
+        name = component.path.name
+        way_out = f'`{name}` names none: `parameters "{component.path.stem}.pdsl";` adds them'
+        raise _Unknown(f"`{component.name}` has no parameters", way_out=way_out)
     members, place = component.parameters.parameters, ""
     found: Parameter | None = None
     for step in key.split("."):
