@@ -8,14 +8,15 @@ import pytest
 from worlds import ROOM, rcgen
 
 TABLE = """\
-device    kind               interface          port
-robot     differentialrobot  DifferentialRobot  robot
-platform  omnirobot          OmniRobot          platform
-laser     laser              Laser              laser
-neck      joint              JointMotor         JointMotor
-neck      joint              ControlBoard       ControlBoard
-inertia   imu                IMU                inertia
-bump      touchsensor        TouchSensor        TouchSensor
+device       kind               interface          port
+robot        differentialrobot  DifferentialRobot  robot
+platform     omnirobot          OmniRobot          platform
+laser        laser              Laser              laser
+neck         joint              JointMotor         JointMotor
+neck         joint              ControlBoard       ControlBoard
+inertia      imu                IMU                inertia
+bump         touchsensor        TouchSensor        TouchSensor
+(the world)  world              Simulation         Simulation
 """
 
 

@@ -39,6 +39,10 @@ OFFERS = (
 )
 
 
+OF_THE_WORLD = ("Simulation",)
+"""Interfaces that are served for the world as a whole."""
+
+
 @dataclass(frozen=True, slots=True)
 class Topic:
     """What the answer of `asked` of a port that serves `interface` is published as."""
@@ -72,13 +76,13 @@ class ServedAs:
 
     @property
     def ids(self) -> list[str]:
-        """All devices that a servant is given."""
-        return [*(id_ for id_, _ in self.devices), *self.with_]
+        """All devices that a servant is given; an empty id is the world."""
+        return [*(id_ for id_, _ in self.devices or (("", ""),)), *self.with_]
 
 
 def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
     """The ports for a lowered scene, in the order of the table."""
-    taken = names.Scope({one.interface for one in OFFERS})
+    taken = names.Scope({one.interface for one in OFFERS} | set(OF_THE_WORLD))
     found: list[ServedAs] = []
     for interface in dict.fromkeys(one.interface for one in OFFERS):
         kinds = {one.kind: one.shared for one in OFFERS if one.interface == interface}
@@ -91,7 +95,7 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
                 port = taken.claim(identifier(device["id"]))
                 pair = (device["id"], device["kind"])
                 found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
-    return tuple(found)
+    return (*found, *(ServedAs(name, name) for name in OF_THE_WORLD))
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from robocomp_dsl.hardware.errors import CommandRefused, Diverged, SceneError, finite
+from robocomp_dsl.hardware.mujoco.branch import Branch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
@@ -31,6 +32,9 @@ SLICE = 0.002
 
 MOST_BEHIND = 0.1
 """Seconds of the wall clock that it makes up for; behind a longer pause the machine was asleep."""
+
+WORLD = ""
+"""The world itself among the devices."""
 
 log = logging.getLogger("robocomp.simulation")
 
@@ -54,7 +58,7 @@ class Simulation:
     """Not running until `start`; what is in `devices` changes with the scene."""
 
     def __init__(self, scene: Scene, options: Options = Options()) -> None:
-        self.scene = scene
+        self._scene = scene
         self.options = options
         self.turns = Turns()
         self.noise = NoiseLevel(options.noise)
@@ -62,6 +66,7 @@ class Simulation:
         self.paused = False
         self.failure = ""
         self.factor = 0.0
+        self.physics = True
         self.devices: dict[str, Any] = {}
         self.set_speed(options.speed)
         self._stopping = threading.Event()
@@ -78,15 +83,37 @@ class Simulation:
     def reset(self) -> None:
         """Everything as it was at the start, time included. Raises `SceneError`."""
         try:
-            spec, self.notes = build_spec(self.scene)
+            spec, self.notes = build_spec(self._scene)
             spec.option.timestep = self.options.step
-            parts = parts_of(self.scene, self.noise)
-            self.world = World(spec, dict.fromkeys(parts.values()), seed=self.seed)
+            parts = parts_of(self._scene, self.noise)
+            world = World(spec, dict.fromkeys(parts.values()), seed=self.seed)
         except ValueError as error:  # what MuJoCo says of a body that it does not take
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+        self.become(Branch(self._scene, world, parts))
+
+    @property
+    def world(self) -> World:
+        """The physics as it is now."""
+        return self.branch.world
+
+    def become(self, branch: Branch) -> None:
+        """Go on from here; the devices of before are no longer those of the world."""
+        self.branch = branch
+        self._scene = branch.scene
+        branch.set_physics(self.physics)
         self.devices.clear()
-        self.devices.update(parts)
+        self.devices.update(branch.devices)
+        self.devices[WORLD] = self
         self.failure = ""
+
+    def copy(self) -> Branch:
+        """The world as it is now, to be kept or to go on by itself."""
+        return self.branch.copy(shared=(self.noise,))
+
+    def set_physics(self, on: bool) -> None:
+        """Gravity and contacts, or neither."""
+        self.physics = on
+        self.branch.set_physics(on)
 
     def set_speed(self, speed: float) -> None:
         """Simulated seconds per second; 0: as fast as it can. Raises `CommandRefused`."""

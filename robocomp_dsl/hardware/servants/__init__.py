@@ -14,6 +14,7 @@ from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.servants.simulation import SimulationServant
 from robocomp_dsl.hardware.servants.touch_sensor import TouchSensorServant
 
 __all__ = ["SERVANTS"]
@@ -26,5 +27,6 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
+    "RoboCompSimulation::Simulation": SimulationServant,
 }
 """The servant of each interface."""

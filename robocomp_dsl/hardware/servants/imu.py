@@ -1,4 +1,4 @@
-"""`IMU` over an inertial measurement unit: roll about z (ahead), pitch about x, yaw about y (up)."""
+"""`IMU` over an inertial unit: roll about z (ahead), pitch about x, yaw about y (up)."""
 
 # ruff: noqa: N802  called as in the interface
 

@@ -1,0 +1,178 @@
+"""The world as a whole: time, seeds, snapshots, forks, and what happens when it diverges."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from worlds import ROOM, Served, served
+
+from robocomp_dsl.hardware.mujoco.simulation import Options
+
+NOISY = ROOM.replace('<differentialrobot id="robot"', '<differentialrobot id="robot" noise="20"')
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Served:
+    return served(tmp_path, NOISY)
+
+
+def told(world: Served) -> tuple[Any, ...]:
+    """Everything that a client can see of the robot, as it is."""
+    state = world.ports["robot"].getBaseState()
+    laser = world.ports["laser"].getLaserData().dist.tobytes()
+    board = world.ports["ControlBoard"].getState()
+    return state, laser, board.position.tobytes(), board.time
+
+
+def driven(world: Served) -> tuple[Any, ...]:
+    world.ports["robot"].setSpeedBase(300.0, 0.4)
+    world.ports["JointMotor"].setPosition(world.types.MotorGoalPosition("neck", 0.5, 1.0))
+    world.simulation.advance(1.0)
+    return told(world)
+
+
+def test_same_seed_same_bits_other_seed_others(tmp_path: Path, world: Served) -> None:
+    first = driven(world)
+    again = driven(served(tmp_path, NOISY))
+    assert str(again) == str(first)
+    assert str(driven(served(tmp_path, NOISY, Options(seed=2)))) != str(first)
+
+
+def test_reset_is_a_new_start(world: Served) -> None:
+    first = driven(world)
+    world.ports["Simulation"].reset()
+    assert world.ports["Simulation"].getState().time == 0.0
+    assert str(driven(world)) == str(first)
+    world.ports["Simulation"].setSeed(2)
+    world.ports["Simulation"].reset()
+    assert str(driven(world)) != str(first)
+
+
+def test_a_snapshot_brings_back_all_even_the_noise_to_come(world: Served) -> None:
+    hand = world.ports["Simulation"]
+    driven(world)
+    kept = hand.snapshot()
+    world.simulation.advance(0.7)
+    first = told(world)
+    for _ in range(2):
+        hand.restore(kept)
+        assert hand.getState().time == pytest.approx(1.0)
+        world.simulation.advance(0.7)
+        assert str(told(world)) == str(first)
+    hand.forget(kept)
+    with pytest.raises(world.types.RoboCompSimulation_Refused, match="no snapshot"):
+        hand.restore(kept)
+
+
+def test_a_fork_predicts_and_leaves_the_world_alone(world: Served) -> None:
+    hand = world.ports["Simulation"]
+    world.ports["robot"].setSpeedBase(300.0, 0.0)
+    world.simulation.advance(0.5)
+    before = str(told(world))
+    fork = hand.fork()
+    assert hand.advance(fork, 2.0) == pytest.approx(2.5)
+    predicted = hand.getPoses(fork, ["robot"])[0]
+    assert str(told(world)) == before
+    world.simulation.advance(2.0)
+    real = hand.getPoses(0, ["robot"])[0]
+    assert (predicted.x, predicted.z, predicted.ry) == (real.x, real.z, real.ry)
+    assert real.z > 200
+
+
+def test_what_if_it_did_something_else(world: Served) -> None:
+    hand = world.ports["Simulation"]
+    forks = [hand.fork() for _ in range(2)]
+    hand.drive(forks[0], "robot", 0.0, 500.0, 0.0)
+    hand.move(forks[1], ["neck"], np.array([0.7]))
+    for fork in forks:
+        hand.advance(fork, 2.0)
+    # 2 s at 500 mm/s, less what the ramp of 2 m/s² (62.5 mm) and the motor (20 ms) cost
+    poses = [hand.getPoses(fork, ["robot"])[0].z for fork in (0, *forks)]
+    assert poses == pytest.approx([-300, 627.5, -300], abs=2)
+    joints = [hand.getJoints(fork, ["neck"])[0] for fork in (0, *forks)]
+    assert joints == pytest.approx([0, 0, 0.7], abs=5e-3)
+    hand.release(forks[0])
+    with pytest.raises(world.types.RoboCompSimulation_Refused, match="no fork"):
+        hand.advance(forks[0], 1.0)
+
+
+def test_step_by_step_while_it_is_paused(world: Served) -> None:
+    hand, refused = world.ports["Simulation"], world.types.RoboCompSimulation_Refused
+    with pytest.raises(refused, match="paused"):
+        hand.step(1)
+    hand.pause()
+    assert hand.step(5) == pytest.approx(0.01)
+    with pytest.raises(refused):
+        hand.step(-1)
+
+
+NONSENSE = [
+    ("setSpeed", (math.nan,), "finite"),
+    ("setSpeed", (-1.0,), "negative"),
+    ("setNoise", (-1.0,), "negative"),
+    ("setSeed", (-1,), "negative"),
+    ("advance", (1, math.nan), "finite"),
+    ("advance", (1, 1e9), "600"),
+    ("drive", (1, "neck", 0.0, 1.0, 0.0), "no base"),
+    ("drive", (1, "robot", 0.0, math.nan, 0.0), "finite"),
+    ("move", (1, ["robot"], np.array([1.0])), "no joint"),
+    ("move", (1, ["neck"], np.array([math.inf])), "NaN or infinity"),
+    ("getPoses", (0, ["nobody"]), "no frame"),
+    ("getJoints", (0, ["robot"]), "no joint"),
+]
+
+
+@pytest.mark.parametrize(("operation", "given", "said"), NONSENSE)
+def test_nonsense_is_refused(
+    world: Served, operation: str, given: tuple[Any, ...], said: str
+) -> None:
+    hand = world.ports["Simulation"]
+    assert hand.fork() == 1
+    with pytest.raises(world.types.RoboCompSimulation_Refused, match=said):
+        getattr(hand, operation)(*given)
+
+
+def test_noise_can_be_switched_off(world: Served) -> None:
+    world.ports["Simulation"].setNoise(0.0)
+    driven(world)
+    state = world.ports["robot"].getBaseState()
+    start = (500.0, -300.0)
+    assert (state.x + start[0], state.z + start[1]) == pytest.approx(
+        (state.correctedX, state.correctedZ),
+        abs=1.0,  # a step of 2 ms
+    )
+
+
+def test_without_physics_nothing_falls(tmp_path: Path) -> None:
+    text = '<innerModel><transform id="ball" engine="bullet" mass="1" ty="1000"/></innerModel>'
+    world = served(tmp_path, text)
+    hand = world.ports["Simulation"]
+    hand.setPhysics(False)
+    world.simulation.advance(0.5)
+    assert hand.getPoses(0, ["ball"])[0].y == pytest.approx(1000)
+    hand.setPhysics(True)
+    world.simulation.advance(0.3)
+    assert hand.getPoses(0, ["ball"])[0].y == pytest.approx(1000 - 9810 * 0.3**2 / 2, rel=0.01)
+
+
+@pytest.mark.parametrize("choice", ["reset", "stop"])
+def test_divergence_is_told_and_answered_as_configured(tmp_path: Path, choice: Any) -> None:
+    world = served(tmp_path, NOISY, Options(diverged=choice))
+    it, hand = world.simulation, world.ports["Simulation"]
+    it.advance(0.5)
+    it.world.data.qvel[0] = math.inf
+    if choice == "stop":
+        with pytest.raises(Exception, match="diverged"):
+            it.advance(0.1)
+        assert "diverged" in hand.getState().failure
+        hand.reset()
+    else:
+        it.advance(0.1)
+    assert hand.getState().failure == ""
+    assert hand.getState().time == 0.0
+    it.advance(0.5)
+    assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(3100, abs=1)
