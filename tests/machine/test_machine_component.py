@@ -6,6 +6,7 @@ import threading
 import time
 import uuid
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import pytest
 from test_machine import GAME
@@ -103,3 +104,73 @@ def test_the_end_of_the_machine_is_that_of_the_component() -> None:
     made.start()
     assert made.wait()
     assert made.worker.machine.ended
+
+
+class Stumbler(Component):
+    """Fails in a state's method, and again when it is entered by time; then it goes on."""
+
+    SPEC = ComponentSpec(
+        name="stumbler",
+        period=1,
+        middleware="inproc",
+        machine=MachineSpec(
+            "stumbler",
+            (
+                StateSpec("a", initial=True),
+                StateSpec("b"),
+                StateSpec("z", final=True),
+            ),
+            (TransitionSpec("a", "b", after=0.05), TransitionSpec("b", "z", "on")),
+        ),
+    )
+
+    def __init__(self) -> None:
+        self.failed: list[str] = []
+        self.restored = 0
+
+    def _fail(self, where: str) -> None:
+        if where not in self.failed:
+            self.failed.append(where)
+            raise ZeroDivisionError(where)
+
+    def state_a(self) -> None:
+        self._fail("state_a")
+
+    def on_enter_b(self) -> None:
+        self._fail("on_enter_b")
+
+    def state_b(self) -> None:
+        self._fail("state_b")
+        self.machine.go("on")
+
+    def restore(self) -> None:
+        self.restored += 1
+
+
+def test_failures_are_emergencies_and_it_goes_on() -> None:
+    made = Runner(Stumbler, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    made.start()
+    assert made.wait()
+    worker = made.worker
+    assert isinstance(worker, Stumbler)
+    assert worker.machine.ended
+    assert worker.failed == ["state_a", "on_enter_b", "state_b"]
+    assert worker.restored == 3
+
+
+class Reacting(Stumbler):
+    """Without a period."""
+
+    SPEC = replace(Stumbler.SPEC, period=0)
+
+
+def test_failures_without_a_period() -> None:
+    made = Runner(Reacting, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    made.start()
+    worker = made.worker
+    assert isinstance(worker, Reacting)
+    wait_for(lambda: worker.restored and worker.machine.is_in("b"))
+    assert worker.failed == ["on_enter_b"]
+    worker.machine.go("on")
+    assert made.wait()
+    assert worker.machine.ended
