@@ -74,3 +74,42 @@ def test_an_installed_rcgen_generates(elsewhere: Path, tmp_path: Path) -> None:
         capture_output=True,
     )
     assert "getLaserData" in (tmp_path / "generated/interfaces.py").read_text()
+
+
+INITIALIZE = b'{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}'
+EXIT = b'{"jsonrpc":"2.0","method":"exit"}'
+
+
+@pytest.mark.parametrize(
+    ("command", "shown"),
+    [
+        (("check", "--format", "sarif", "."), '"name": "rcgen"'),
+        (("fmt", "--diff", "watcher.cdsl"), "+import"),
+        (("doc", ".", "-o", "html"), "html/index.html: "),
+        (("doc", ".", "-o", "md", "--format", "markdown"), "md/index.md: "),
+        (("interface", "Laser.idsl", "--to", "slice", "--alone"), "interface Laser"),
+        (("interface", "Laser.idsl", "--to", "json-schema"), "TLaserData"),
+        (("interface", "Laser.idsl", "--to", "ros2", "-o", "ros2"), "ros2: "),
+        (("new", "other"), "wrote "),
+        (("explain", "RC204"), "Wrong:"),
+        (("lsp",), '"hoverProvider": true'),
+    ],
+    ids=lambda one: one[0] if isinstance(one, tuple) else "",
+)
+def test_every_command_of_an_installed_rcgen(
+    elsewhere: Path, tmp_path: Path, command: tuple[str, ...], shown: str
+) -> None:
+    (tmp_path / "watcher.cdsl").write_text(COMPONENT.replace("import", "  import"))
+    (tmp_path / "Laser.idsl").write_bytes((ROOT / "interfaces/Laser.idsl").read_bytes())
+    sent = b"".join(b"Content-Length: %d\r\n\r\n%b" % (len(m), m) for m in (INITIALIZE, EXIT))
+    done = subprocess.run(
+        [str(elsewhere / "bin/rcgen"), *command],
+        cwd=tmp_path,
+        input=sent,
+        capture_output=True,
+        check=False,
+        timeout=60,
+    )
+    assert shown in done.stdout.decode()
+    assert b"internal error" not in done.stderr
+    assert done.returncode in ((0, 1) if command == ("lsp",) else (0,))
