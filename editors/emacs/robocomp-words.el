@@ -72,6 +72,7 @@
      "component"
      "config"
      "connect"
+     "context"
      "deadline"
      "depth"
      "env"

@@ -406,3 +406,22 @@ Better:
     Deployment demo { component mobile_base; };
 """,
 )
+
+SEARCHED = Code(
+    "RC523",
+    Severity.ERROR,
+    "a configuration cannot be searched for",
+    """\
+`context` and `from` let a component search for its configuration when it starts: in its working
+folder, in those of the user, in installed ones. Their names stay inside these folders. `config`
+names a file itself, which leaves nothing to search for.
+
+Wrong:
+
+    component arm { config "arm.yaml"; context "../lab"; };
+
+Right:
+
+    component arm { context "lab"; };
+""",
+)

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.components import Imported
+from robocomp_dsl.check.contexts import searched_of
 from robocomp_dsl.check.imports import replace
 from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.named_files import find_beside
@@ -50,6 +51,7 @@ def instance_of(
     component = _component(tree.component or tree.name, around, report)
     host = _host(tree.host, around, report)
     config = _config(tree.config, around, report)
+    context, searched = searched_of(tree, report)
     executable = _executable(tree.executable, report)
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
@@ -62,6 +64,8 @@ def instance_of(
         span=tree.name.span,
         host=host,
         config=config,
+        context=context,
+        searched=searched,
         settings=settings_of(tree.settings, component, report),
         environment=tuple((one.name.text, one.value.value) for one in environment),
         executable=executable,

@@ -134,6 +134,8 @@ def flat(scope: Scope, report: Report) -> list[tuple[ast.Instance, str]]:
                 tree.component or tree.name,
                 tree.host or one.host,
                 tree.config,
+                tree.context,
+                tree.from_,
                 tree.settings,
                 tree.environment,
                 tree.executable,

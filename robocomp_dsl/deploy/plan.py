@@ -26,7 +26,8 @@ class Process:
 
     `env` is added to the environment of rcdeploy. `after`: what must be ready before it starts;
     `stops_after`: what must have ended before it is asked to stop. `config` (None: the
-    component's own) and `settings` (`key=value`) are those in `argv`. `port` 0: any.
+    component's own, or what it finds by `context` and `searched`) and `settings` (`key=value`) are
+    those in `argv`. `port` 0: any.
     `host` and `group` are as written, empty for this machine and for none.
     """
 
@@ -41,6 +42,8 @@ class Process:
     ready_within_s: float = 10.0
     port: int = 0
     config: Path | None = None
+    context: str = ""
+    searched: str = ""
     settings: tuple[str, ...] = ()
     host: str = ""
     group: str = ""
@@ -102,6 +105,8 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
     argv = [*command, "--name", one.name, "--domain", domain]
     argv += ["--middleware", deployment.middleware, "--log-format", "json"]
     argv += ["--config", str(one.config)] if one.config else []
+    argv += ["--context", one.context] if one.context else []
+    argv += ["--from", one.searched] if one.searched else []
     argv += [word for setting in settings for word in ("--set", setting)]
     argv += ["--listen-port", str(one.port)] if one.port else []
     argv += _wiring(one, deployment.connections)
@@ -116,6 +121,8 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         ready_within_s=one.ready_within_s,
         port=one.port,
         config=one.config,
+        context=one.context,
+        searched=one.searched,
         settings=settings,
         host=_shown_host(one.host),
         group=one.group,

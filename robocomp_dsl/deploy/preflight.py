@@ -17,7 +17,8 @@ from robocomp_dsl.deploy.parameters import schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.model.deployment import Deployment, Instance
-from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values
+from robocomp_dsl.runtime.config import Asked, choose, surroundings
+from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values, overrides
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
 OWN_CONFIG = Path("etc") / "config.yaml"
@@ -86,12 +87,24 @@ def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
     own = instance.component.parameters
     known = schema(own.parameters) if own else ()
     beside = process.cwd / OWN_CONFIG
-    config = process.config or (beside if beside.is_file() else None)
+    try:
+        config = process.config or _found_by(process) or (beside if beside.is_file() else None)
+    except ConfigError as error:
+        return [_in_configuration(instance, None, one) for one in error.findings]
     try:
         load_values(known, config, process.settings)
     except ConfigError as error:
         return [_in_configuration(instance, config, one) for one in error.findings]
     return []
+
+
+def _found_by(process: Process) -> Path | None:
+    """What the component would find; None: its own. Raises `ConfigError`."""
+    if not (process.context or process.searched):
+        return None
+    asked = Asked(process.context, process.searched, (process.name, process.component))
+    around = surroundings(os.environ | dict(process.env), process.cwd)
+    return choose(asked, around).path
 
 
 def _in_configuration(instance: Instance, config: Path | None, finding: Finding) -> Diagnostic:
@@ -100,7 +113,7 @@ def _in_configuration(instance: Instance, config: Path | None, finding: Finding)
     message = f"{finding.message} (`{instance.name}`)"
     if config and place.text.name == str(config):
         span = _span(config, place.line, place.column, place.width)
-    elif place.excerpt:
+    elif place.text.name == overrides.NAME:
         message = f"{finding.message} (`set {place.excerpt}` of `{instance.name}`)"
     return Diagnostic(codes.CONFIGURATION, span, message, label=finding.label, help=finding.help)
 

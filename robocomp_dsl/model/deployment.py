@@ -61,8 +61,10 @@ class Instance:
 
     Of one in a group, the groups' names stand before its own in `name`, with `-`, as in
     `arm-motor`; `group` is `arm`, and empty for one in none. `placed` is where its host is named.
-    `config` is None for the component's own `etc/config.yaml`; `settings` are the `set` lines, the
-    keys dotted; `executable` is a command line run in the component's folder; `port` 0: any.
+    `config` is None for the component's own `etc/config.yaml`, or for a file of the `context`, or
+    called as `searched` says, that the component finds when it starts; `settings` are the `set`
+    lines, the keys dotted; `executable` is a command line run in the component's folder; `port` 0:
+    any.
     """
 
     name: str
@@ -70,6 +72,8 @@ class Instance:
     span: Span
     host: Host
     config: Path | None = None
+    context: str = ""
+    searched: str = ""
     settings: tuple[tuple[str, Literal], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
     executable: str = "python3 main.py"

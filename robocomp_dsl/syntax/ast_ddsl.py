@@ -40,14 +40,16 @@ class Restart(Node):
 class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
-    `component` is None where it has the instance's own name; `host` None: this machine. Of a
-    setting written twice the first is kept (the second was reported).
+    `component` is None where it has the instance's own name; `host` None: this machine; `from_`
+    is the file of `from`. Of a setting written twice the first is kept (the second was reported).
     """
 
     name: Name
     component: Name | None = None
     host: Name | None = None
     config: Text | None = None
+    context: Text | None = None
+    from_: Text | None = None
     settings: tuple[Setting, ...] = ()
     environment: tuple[Environment, ...] = ()
     executable: Text | None = None

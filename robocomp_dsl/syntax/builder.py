@@ -148,7 +148,7 @@ class Builder:
         """Field to value of the settings among `items`; of one given twice the first."""
         given: dict[str, Setting] = {}
         for one in only(Setting, items):
-            given[one.field] = self.once(given.get(one.field), one, f"`{one.field}`")
+            given[one.field] = self.once(given.get(one.field), one, f"`{one.field.rstrip('_')}`")
         return {field: one.value for field, one in given.items()}
 
     def finished(self, what: str) -> bool:

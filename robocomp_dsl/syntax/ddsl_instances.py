@@ -48,6 +48,14 @@ class Instances(Builder):
         """`config "x.yaml";`."""
         return Setting(span, "config", path)
 
+    def context(self, span: Span, name: Text) -> Setting:
+        """`context "lab";`."""
+        return Setting(span, "context", name)
+
+    def searched(self, span: Span, path: Text) -> Setting:
+        """`from "arm.yaml";`."""
+        return Setting(span, "from_", path)
+
     def setting(self, span: Span, key: Name, value: Any) -> ast.Setting:
         """`set key = value;`."""
         return ast.Setting(span, key, _literal(value))

@@ -85,6 +85,13 @@ def test_command_lines() -> None:
     )  # fmt: skip
 
 
+def test_a_search_is_told_to_the_component() -> None:
+    base = instance("base", BASE, context="lab", searched="left/base.yaml")
+    assert commands(deployment([base]))["base"] == (
+        "/py", "main.py", "--name", "base", *COMMON, "--context", "lab", "--from", "left/base.yaml",
+    )  # fmt: skip
+
+
 def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
     base, one, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
     best = Qos(reliable=False, depth=1, deadline_ms=40)

@@ -135,6 +135,39 @@ def test_what_the_machine_lacks(
     assert checked.ready == all("RC905" in line for line in expected)
 
 
+@pytest.fixture
+def share(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An installed place with a context for `arm`; nothing else of this machine is searched."""
+    for name in ("CONFIG_HOME", "DATA_HOME", "CONFIG_DIRS", "DATA_DIRS"):
+        monkeypatch.setenv(f"ROBOCOMP_{name}", str(folder / name))
+    made = folder / "DATA_DIRS" / "contexts" / "lab"
+    made.mkdir(parents=True)
+    return made
+
+
+def test_what_a_component_will_find_is_checked(folder: Path, share: Path) -> None:
+    (share / "arm.yaml").write_text("rate: 5000\n")
+    assert told(judged(folder, 'context "lab";'), folder) == [
+        "DATA_DIRS/contexts/lab/arm.yaml:1:7 RC901 `rate` is 5000 Hz, its highest value is 1000 Hz"
+        " (`arm`)"
+    ]
+    own = folder / "DATA_HOME" / "contexts" / "lab"
+    own.mkdir(parents=True)
+    (own / "arm.yaml").write_text("rate: 500\n")
+    assert told(judged(folder, 'context "lab";'), folder) == []
+    assert told(judged(folder, 'context "other";'), folder) == []
+
+
+def test_what_a_component_will_not_find_is_told(folder: Path, share: Path) -> None:
+    (share / "arm.yaml").write_text("rate: 500\n")
+    checked = judged(folder, 'context "lab"; from "amr.yaml";')
+    said = "app.ddsl:6:15 RC901 there is no configuration `amr.yaml` (`arm`)"
+    assert told(checked, folder) == [said]
+    assert checked.findings[0].label == "did you mean `arm.yaml`?"
+    assert f"{share}/amr.yaml (installed, contexts/lab): not there" in checked.findings[0].help
+    assert told(judged(folder, 'context "lab"; from "arm.yaml";'), folder) == []
+
+
 def test_what_must_be_given_is_missed_in_the_file_that_should_give_it(folder: Path) -> None:
     empty_config(folder)
     assert told(judged(folder, app=APP.replace('set serial = "abc";', "")), folder) == [NO_SERIAL]

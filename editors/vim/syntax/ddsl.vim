@@ -58,6 +58,11 @@ hi def link ddsl_connect_value ddslValue
 hi def link ddsl_connect_name ddslName
 hi def link ddsl_connect_field ddslField
 syn region ddsl_connect matchgroup=ddslDeclaration start=/\<connect\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_connect_inner,ddsl_connect_value,ddsl_connect_name,ddsl_connect_field
+hi def link ddsl_context_inner ddslModifier
+hi def link ddsl_context_value ddslValue
+hi def link ddsl_context_name ddslName
+hi def link ddsl_context_field ddslField
+syn region ddsl_context matchgroup=ddslKeyword start=/\<context\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_context_inner,ddsl_context_value,ddsl_context_name,ddsl_context_field
 hi def link ddsl_deadline_inner ddslModifier
 hi def link ddsl_deadline_value ddslValue
 hi def link ddsl_deadline_name ddslName
@@ -79,12 +84,17 @@ hi def link ddsl_executable_name ddslName
 hi def link ddsl_executable_field ddslField
 syn region ddsl_executable matchgroup=ddslKeyword start=/\<executable\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_executable_inner,ddsl_executable_value,ddsl_executable_name,ddsl_executable_field
 syn match ddsl_export_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
-syn match ddsl_export_inner contained /\.\@<!\<from\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_export_inner contained /\.\@<!\<from\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_export_inner ddslModifier
 hi def link ddsl_export_value ddslValue
 hi def link ddsl_export_name ddslName
 hi def link ddsl_export_field ddslField
 syn region ddsl_export matchgroup=ddslKeyword start=/\<export\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_export_inner,ddsl_export_value,ddsl_export_name,ddsl_export_field
+hi def link ddsl_from_inner ddslModifier
+hi def link ddsl_from_value ddslValue
+hi def link ddsl_from_name ddslName
+hi def link ddsl_from_field ddslField
+syn region ddsl_from matchgroup=ddslKeyword start=/\<from\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_from_inner,ddsl_from_value,ddsl_from_name,ddsl_from_field
 syn match ddsl_group_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_group_name contained /\%(\<group\s\+\)\@<=\h\w*/
 hi def link ddsl_group_inner ddslModifier

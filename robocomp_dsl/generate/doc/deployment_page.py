@@ -76,6 +76,10 @@ def _instance(one: Instance, site: Site) -> tuple[Words, ...]:
 def _settings(one: Instance) -> Iterator[Words]:
     if one.config:
         yield (Text("configuration "), Code(one.config.name))
+    if one.context:
+        yield (Text("context "), Code(one.context))
+    if one.searched:
+        yield (Text("configuration "), Code(one.searched))
     for key, value in one.settings:
         yield code(f"{key} = {literals.yaml_value(value)}")
     for key, said in one.environment:
