@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import runpy
 from collections.abc import Mapping
 from pathlib import Path
@@ -15,8 +16,8 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import plan
 from robocomp_dsl.migrate.config import Config, read_config
 from robocomp_dsl.migrate.ice import divide
-from robocomp_dsl.migrate.infer import Parameters, infer
-from robocomp_dsl.migrate.texts import pdsl_text, yaml_text
+from robocomp_dsl.migrate.infer import Leaf, Parameters, infer
+from robocomp_dsl.migrate.texts import leaves, pdsl_text, yaml_text
 from robocomp_dsl.runtime.parameters import Parameters as Loaded
 from robocomp_dsl.source import Source
 
@@ -144,7 +145,7 @@ def inferred(texts: Mapping[str, str]) -> tuple[list[Config], Parameters, Report
 
 def generated_class(found: Parameters, folder: Path) -> type[Loaded]:
     """The parameters class of a component that has the inferred PDSL file."""
-    (folder / "moved.pdsl").write_text(pdsl_text("moved", found.tree, "config"))
+    (folder / "moved.pdsl").write_text(pdsl_text("moved", found.tree, "config"), "utf-8")
     description = folder / "moved.cdsl"
     description.write_text(
         'Component moved { Communications { }; language Python; parameters "moved.pdsl"; };'
@@ -155,7 +156,7 @@ def generated_class(found: Parameters, folder: Path) -> type[Loaded]:
     assert component is not None
     code = next(one.text for one in plan(component) if one.path == "generated/params.py")
     module = folder / "params.py"
-    module.write_text(code)
+    module.write_text(code, "utf-8")
     made: type[Loaded] = runpy.run_path(str(module))["MovedParams"]
     return made
 
@@ -212,3 +213,42 @@ CameraProxy = /dev/video0
     calls = [(a.name, a.identity, a.host, a.port) for a in found.proxies]
     assert calls == [("JointMotor0", "jointmotor", "10.0.30.11", 20000)]
     assert [one.key for one in rest] == ["CameraProxy"]
+
+
+PIECES = (
+    *("0", "1", "-1", "007", "1e5", ".5", "5.", "1e999", "0x10", "nan", "inf", "true", "FALSE"),
+    *("yes", "null", "~", "", " ", "a", "é", "\\", '"', "'", ":", ": ", " #", "-", "- a", "{", "["),
+    *("*/", "/*", "//", "1,2", "\t", "%s", "{{ x }}", "\u2028", "\x85", "\ufeff", "x" * 300),
+)
+KEYS = (
+    *("a", "b", "a.b", "a.c", "a.b.c", "A", "live", "bool", "class", "self", "value", "SCHEMA"),
+    *("set", "1x", "é", "a b", "a-b", "a..b", ".a", "x.Proxy", "_", "__init__", "yes", "null"),
+)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_any_text_configuration_loads_what_it_says(seed: int, tmp_path: Path) -> None:
+    chance = random.Random(seed)
+
+    def some() -> str:
+        rows = []
+        for key in chance.sample(KEYS, 8):
+            comment = "".join(chance.choices(PIECES, k=2)).replace("#", "")
+            rows.append(f"# {comment}")
+            rows.append(f"{key} = {''.join(chance.choices(PIECES, k=chance.randint(1, 2)))}")
+        return chance.choice(("\n", "\r\n")).join(rows)
+
+    configs, found, _ = inferred({"config": some(), "config_b": some()})
+    made = generated_class(found, tmp_path)
+    for config, values in zip(configs, found.values, strict=True):
+        file = tmp_path / "c.yaml"
+        file.write_text(yaml_text("moved", found.tree, values, config.path.name), "utf-8")
+        loaded = flat(made.load(file))
+        for path, value in values.items():
+            assert loaded[".".join(path)] == value
+        given = {one.path: one.value for one in config.entries}
+        for path, node in leaves(found.tree):
+            if isinstance(node, Leaf) and node.old in given and path in values:
+                kind = type(values[path])
+                text = given[node.old]
+                assert values[path] == ((text.lower() == "true") if kind is bool else kind(text))
