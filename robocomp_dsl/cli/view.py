@@ -109,13 +109,16 @@ def _photograph(subject: Subject, path: Path, size: tuple[int, int], look: Look)
 
 def _serve(subject: Subject, port: int, look: Look) -> None:
     try:
-        from robocomp_dsl.hardware.view.browser import Page, serve  # noqa: PLC0415
+        from robocomp_dsl.hardware.view.browser import serve  # noqa: PLC0415
     except ImportError as missing:
         options.complain(str(missing))
         sys.exit(FINDINGS)
-    page = Page(subject.name, subject.model, subject.data(), look)
     try:
-        serve(page, port)
+        serve(subject.name, subject.model, subject.data(), look, port, _tell)
     except OSError as error:
         options.complain(f"port {port} cannot be used: {error.strerror or error}; try --port 0")
         sys.exit(FINDINGS)
+
+
+def _tell(url: str) -> None:
+    print(f"{url} shows it; Ctrl-C ends", flush=True)

@@ -1,0 +1,110 @@
+"""A model in the browser, on this machine alone.
+
+In: a model, its state, a port. Out: a page at 127.0.0.1 that shows them, with all it needs; what is
+changed there changes the state. Needs the extra `view`.
+"""
+
+from __future__ import annotations
+
+import logging
+import socket
+import time
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.view.controls import Controls
+from robocomp_dsl.hardware.view.picture import Look, surroundings
+from robocomp_dsl.hardware.view.stage import Stage
+
+try:
+    import rich
+    import viser
+except ImportError as missing:
+    raise ImportError(
+        "the view in the browser needs viser: pip install 'robocomp_dsl[view]'"
+    ) from missing
+
+PLAIN = Look()
+LOOPBACK = "127.0.0.1"
+_DIRECTION = np.array([-0.6, -0.75, 0.5])
+_PICTURES = 30.0  # per second
+_MOST_BEHIND = 0.1  # s that running physics makes up for
+
+
+class Page:
+    """Open until `close`. `model` and `data` belong to it, or are used under `controls.lock`."""
+
+    def __init__(
+        self, name: str, model: Any, data: Any, look: Look = PLAIN, *, port: int = 0
+    ) -> None:
+        self.model, self.data = model, data
+        port = _free(port)  # viser would silently take another one
+        logging.getLogger("websockets").setLevel(logging.ERROR)
+        rich.get_console().quiet = True  # viser greets with a panel of its own
+        self._server = viser.ViserServer(host=LOOPBACK, port=port, label=name, verbose=False)
+        # a page could ask for a tunnel to a server elsewhere
+        self._server.request_share_url = _no_tunnel  # type: ignore[method-assign]
+        self.url = f"http://{LOOPBACK}:{self._server.get_port()}"
+        self._server.gui.configure_theme(show_logo=False, show_share_button=False)
+        self._server.scene.set_up_direction("+z")
+        self._look_at(data)
+        self.stage = Stage(self._server, model, data)
+        self.controls = Controls(self._server, self.stage, data, look)
+
+    def _look_at(self, data: Any) -> None:
+        low, high = surroundings(self.model, data)
+        middle, away = (low + high) / 2, float(((high - low) ** 2).sum() ** 0.5)
+        camera = self._server.initial_camera
+        camera.look_at = tuple(middle.tolist())
+        camera.position = tuple((middle + away * 0.9 * _DIRECTION).tolist())
+
+    def refresh(self) -> None:
+        """Show the state as it is now."""
+        with self.controls.lock:
+            self.stage.follow(self.data)
+            self.controls.tell()
+
+    def run(self, going_on: Callable[[], bool] = lambda: True) -> None:
+        """Let time pass where it is told to, as fast as it does, until `going_on` says no."""
+        last = time.monotonic()
+        while going_on():
+            time.sleep(1 / _PICTURES)
+            now = time.monotonic()
+            passed, last = min(now - last, _MOST_BEHIND), now
+            if self.controls.running:
+                with self.controls.lock:
+                    until = self.data.time + passed
+                    while self.data.time < until:
+                        mujoco.mj_step(self.model, self.data)
+                self.refresh()
+
+    def close(self) -> None:
+        """The page is gone."""
+        self._server.stop()
+
+
+def serve(
+    name: str, model: Any, data: Any, look: Look, port: int, say: Callable[[str], None]
+) -> None:
+    """Show the model until Ctrl-C. Raises `OSError` when the port is taken."""
+    page = Page(name, model, data, look, port=port)
+    say(page.url)
+    try:
+        page.run()
+    finally:
+        page.close()
+
+
+def _no_tunnel(verbose: bool = True) -> None:
+    """Nothing leaves this machine."""
+
+
+def _free(port: int) -> int:
+    """`port` if nobody has it, or any for 0. Raises `OSError`."""
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        probe.bind((LOOPBACK, port))
+        return int(probe.getsockname()[1])

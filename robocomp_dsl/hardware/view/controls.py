@@ -1,0 +1,219 @@
+"""The panel beside the scene: what is shown, joints that can be moved, nodes that can be placed.
+
+In: a viser server, a stage and the state behind it. Out: changes of the state, made under a lock.
+"""
+
+from __future__ import annotations
+
+import html
+import math
+import threading
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.view.picture import Look
+from robocomp_dsl.hardware.view.stage import Stage
+
+_MOST_SLIDERS = 80
+_MOST_LISTED = 2000
+_JOINT = mujoco.mjtJoint
+_KINDS = {
+    int(_JOINT.mjJNT_FREE): "free",
+    int(_JOINT.mjJNT_BALL): "ball",
+    int(_JOINT.mjJNT_SLIDE): "slide",
+    int(_JOINT.mjJNT_HINGE): "hinge",
+}
+
+
+class Controls:
+    """`lock` guards `data`; `running` is whether time shall pass."""
+
+    def __init__(self, server: Any, stage: Stage, data: Any, look: Look) -> None:
+        self.gui, self.stage, self.data = server.gui, stage, data
+        self.model = stage.model
+        self.lock = threading.RLock()
+        self.running = False
+        self._start = data.qpos.copy()
+        self._quiet = False
+        self._sliders: list[tuple[Any, int]] = []
+        tabs = self.gui.add_tab_group()
+        with tabs.add_tab("View"):
+            self._view(look)
+        with tabs.add_tab("Joints"):
+            self._joints()
+        with tabs.add_tab("Nodes"):
+            self._nodes()
+
+    # -- what is shown ------------------------------------------------------------------------
+
+    def _view(self, look: Look) -> None:
+        stage = self.stage
+        self._switch("Frames", look.frames, stage.show_frames)
+        self._switch("Names", look.names, stage.show_names)
+        self._switch("Contacts", look.contacts, lambda on: stage.show_contacts(self.data, on))
+        self._switch("Let time run", False, self._run)
+        self.gui.add_button("Back to the start").on_click(lambda _: self.reset())
+
+    def _switch(self, label: str, on: bool, act: Any) -> None:
+        box = self.gui.add_checkbox(label, on)
+
+        def switched(_: Any) -> None:
+            with self.lock:
+                act(box.value)
+
+        box.on_update(switched)
+        if on:
+            act(True)
+
+    def _run(self, on: bool) -> None:
+        self.running = on
+
+    def reset(self) -> None:
+        """The joints as at the start, at rest."""
+        with self.lock:
+            mujoco.mj_resetData(self.model, self.data)
+            self.data.qpos[:] = self._start
+            self._changed()
+
+    def _changed(self) -> None:
+        mujoco.mj_forward(self.model, self.data)
+        self.stage.follow(self.data)
+        self.tell()
+
+    def tell(self) -> None:
+        """Show on the sliders where the joints are."""
+        self._quiet = True
+        for slider, address in self._sliders:
+            value = float(np.clip(self.data.qpos[address], slider.min, slider.max))
+            if abs(slider.value - value) > 1e-4:
+                slider.value = value
+        self._quiet = False
+
+    # -- joints -------------------------------------------------------------------------------
+
+    def _joints(self) -> None:
+        simple = [
+            j
+            for j in range(self.model.njnt)
+            if self.model.jnt_type[j] in (_JOINT.mjJNT_HINGE, _JOINT.mjJNT_SLIDE)
+        ]
+        if not simple:
+            self.gui.add_markdown("Nothing here turns or slides.")
+        for j in simple[:_MOST_SLIDERS]:
+            self._slider(j)
+        if len(simple) > _MOST_SLIDERS:
+            self.gui.add_markdown(f"… and {len(simple) - _MOST_SLIDERS} more joints.")
+
+    def _slider(self, j: int) -> None:
+        model = self.model
+        hinge = model.jnt_type[j] == _JOINT.mjJNT_HINGE
+        address = int(model.jnt_qposadr[j])
+        widest = math.pi if hinge else self.stage.extent
+        low, high = model.jnt_range[j].tolist() if model.jnt_limited[j] else (-widest, widest)
+        now = float(self.data.qpos[address])
+        low, high = min(low, now), max(high, now, low + 1e-6)
+        label = f"{model.joint(j).name or f'joint{j}'} [{'rad' if hinge else 'm'}]"
+        slider = self.gui.add_slider(label, low, high, (high - low) / 1000, now)
+        self._sliders.append((slider, address))
+
+        def moved(_: Any) -> None:
+            if not self._quiet:
+                with self.lock:
+                    self.data.qpos[address] = slider.value
+                    self.data.qvel[model.jnt_dofadr[j]] = 0.0
+                    self._changed()
+
+        slider.on_update(moved)
+
+    # -- nodes --------------------------------------------------------------------------------
+
+    def _nodes(self) -> None:
+        names = self.stage.names
+        if len(names) < 2:
+            self.gui.add_markdown("There are no nodes.")
+            return
+        choice = self.gui.add_dropdown("Node", tuple(f"{i}: {n}" for i, n in enumerate(names) if i))
+        about = self.gui.add_markdown("")
+        place = self.gui.add_vector3("place [m]", (0.0, 0.0, 0.0), step=0.001)
+        turn = self.gui.add_vector3("roll pitch yaw [rad]", (0.0, 0.0, 0.0), step=0.001)
+
+        def chosen() -> int:
+            return int(choice.value.partition(":")[0])
+
+        def show(_: Any) -> None:
+            body = chosen()
+            self._quiet = True
+            place.value = tuple(self.model.body_pos[body].tolist())
+            turn.value = roll_pitch_yaw(self.model.body_quat[body])
+            about.content = html.escape(self._about(body))
+            self._quiet = False
+
+        def put(_: Any) -> None:
+            if not self._quiet:
+                with self.lock:
+                    self.place(chosen(), np.array(place.value), quaternion(turn.value))
+
+        choice.on_update(show)
+        place.on_update(put)
+        turn.on_update(put)
+        show(None)
+        with self.gui.add_folder("Tree", expand_by_default=True):
+            self.gui.add_markdown(tree(self.model, names))
+
+    def place(self, body: int, position: Any, quat: Any) -> None:
+        """Put a body elsewhere in its parent; one that is free is moved where it is."""
+        self.model.body_pos[body], self.model.body_quat[body] = position, quat
+        first = int(self.model.body_jntadr[body])
+        if first >= 0 and self.model.jnt_type[first] == _JOINT.mjJNT_FREE:
+            at = int(self.model.jnt_qposadr[first])
+            self.data.qpos[at : at + 7] = (*position, *quat)
+        self._changed()
+
+    def _about(self, body: int) -> str:
+        above = self.stage.names[self.model.body_parentid[body]]
+        return f"in {above}; {float(self.model.body_mass[body]):.3g} kg; {_moves(self.model, body)}"
+
+
+def tree(model: Any, names: list[str]) -> str:
+    """The bodies as a nested list of Markdown."""
+    depth, lines = [0] * model.nbody, list[str]()
+    below: list[list[int]] = [[] for _ in names]
+    for i in range(1, model.nbody):
+        below[model.body_parentid[i]].append(i)
+        depth[i] = depth[model.body_parentid[i]] + 1
+    todo = below[0][::-1]
+    while todo and len(lines) < _MOST_LISTED:
+        i = todo.pop()
+        indent = "  " * min(depth[i] - 1, 12)
+        lines.append(f"{indent}- {html.escape(names[i])} ({_moves(model, i)})")
+        todo += below[i][::-1]
+    if todo:
+        lines.append(f"\n{model.nbody - 1} nodes, the first {_MOST_LISTED} are listed")
+    return "\n".join(lines)
+
+
+def _moves(model: Any, body: int) -> str:
+    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
+    kinds = [_KINDS[int(model.jnt_type[j])] for j in range(first, first + count)]
+    return ", ".join(kinds) or "fixed"
+
+
+def quaternion(turn: Any) -> Any:
+    """(w, x, y, z) of roll, pitch and yaw about the fixed axes."""
+    made = np.zeros(4)
+    mujoco.mju_euler2Quat(made, np.array(turn, dtype=float), "XYZ")
+    return made
+
+
+def roll_pitch_yaw(quat: Any) -> tuple[float, float, float]:
+    """Roll, pitch, yaw of (w, x, y, z)."""
+    flat = np.zeros(9)
+    mujoco.mju_quat2Mat(flat, quat / np.linalg.norm(quat))
+    m = flat.reshape(3, 3)
+    return (
+        math.atan2(m[2, 1], m[2, 2]),
+        math.atan2(-m[2, 0], math.hypot(m[0, 0], m[1, 0])),
+        math.atan2(m[1, 0], m[0, 0]),
+    )
