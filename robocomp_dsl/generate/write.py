@@ -213,5 +213,12 @@ def _explained(folder: Path) -> Iterator[None]:
         yield
     except OSError as error:
         reason = _REASONS.get(error.errno or 0) or error.strerror or str(error)
-        named = str(error.filename or folder).removesuffix(TEMPORARY)
+        named = _meant(Path(str(error.filename or folder)))
         raise CannotWrite(f"cannot write `{named}`: {reason}") from None
+
+
+def _meant(path: Path) -> Path:
+    """The file of the user, for what was to be written beside it first."""
+    if not path.name.endswith(TEMPORARY):
+        return path
+    return path.with_name(path.name.removesuffix(TEMPORARY).removeprefix("."))

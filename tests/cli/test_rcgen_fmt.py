@@ -143,13 +143,13 @@ def test_a_folder_that_may_not_be_written(
     rcgen: Rcgen, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refused(self: Path, other: Path) -> Path:
-        raise PermissionError(13, "Permission denied", str(other))
+        raise PermissionError(13, "Permission denied", str(self))
 
     Path("a.cdsl").write_text(MESSY)
     monkeypatch.setattr(Path, "replace", refused)
     run = rcgen("fmt", "a.cdsl")
     assert run.code == 1
-    assert "you may not write there" in run.err
+    assert f"error: cannot write `{here / 'a.cdsl'}`: you may not write there\n" in run.err
     assert Path("a.cdsl").read_text() == MESSY
     assert list(Path().iterdir()) == [Path("a.cdsl")]
 
