@@ -1,6 +1,7 @@
 """Every kind of finding of the check stage, family by family: what `rcgen explain` shows."""
 
 from robocomp_dsl.check.codes_body import *  # noqa: F403 - the families have no names in common
+from robocomp_dsl.check.codes_clock import *  # noqa: F403
 from robocomp_dsl.check.codes_deployment import *  # noqa: F403
 from robocomp_dsl.check.codes_names import *  # noqa: F403
 from robocomp_dsl.check.codes_parameters import *  # noqa: F403

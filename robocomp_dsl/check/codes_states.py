@@ -210,3 +210,24 @@ generated file may have put the steps of one after the other into each other: st
 other are states of one block with transitions between them.
 """,
 )
+
+SCXML_UNSAFE = Code(
+    "RC710",
+    Severity.ERROR,
+    "a component cannot run this part of the SCXML file",
+    """\
+Components run SCXML without running code of the file: no scripts, no files, no calls. Expressions
+compare and compute with Python's operators; `&&`, `||`, `===`, `true` and `null` of ECMAScript are
+understood in conditions. The component would not start, or fail when it comes to this place.
+
+Wrong:
+
+    <transition event="go" cond="count++ &lt; limit()" target="done"/>
+
+Right:
+
+    <transition event="go" cond="count &lt; 3" target="done"/>
+
+What needs more is a method of the worker: `on_enter_<state>` calls `self.machine.go("done")`.
+""",
+)

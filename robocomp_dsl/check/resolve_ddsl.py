@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from ipaddress import ip_address
 
 from robocomp_dsl.check import codes
+from robocomp_dsl.check.clocks import clock_of
 from robocomp_dsl.check.components import CheckComponent, imported_components
 from robocomp_dsl.check.files import Parsed
 from robocomp_dsl.check.groups import groups_of, seen
@@ -70,6 +71,7 @@ def resolve_ddsl(
         hosts=tuple(hosts.values()),
         doc=tree.doc,
         groups=groups,
+        clock=clock_of(tree.clock, order, whole=whole, report=report),
     )
 
 

@@ -13,6 +13,7 @@ from robocomp_dsl.check import codes
 from robocomp_dsl.check.files import Parsed
 from robocomp_dsl.check.names import report_repeat
 from robocomp_dsl.check.scxml_form import judge_form, local
+from robocomp_dsl.check.scxml_safe import judge_safe
 from robocomp_dsl.check.scxml_tags import ACTIONS, STATES
 from robocomp_dsl.diagnostics import Report, did_you_mean
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
@@ -35,6 +36,7 @@ def resolve_scxml(file: Parsed[File], report: Report) -> StateMachine | None:
     if _too_deep(root, report):
         return None
     judge_form(root, report)
+    judge_safe(root, report)
     return _Resolver(report).machine(file, root)
 
 
