@@ -63,6 +63,8 @@ def _configuration(
 ) -> tuple[Path | None, Path]:
     """The file, and the one beside which live values are kept. Raises `ConfigError`."""
     path, keeps = settings.config, settings.config or CONFIG
+    if said.verbose_search and not (said.context or said.file):
+        log.info("configuration %s; neither --context nor --from asks for a search", path or "none")
     if said.context or said.file:
         from robocomp_dsl.runtime.config.start import Asked, found  # noqa: PLC0415 - seldom
 

@@ -69,7 +69,9 @@ def test_without_options_all_is_as_ever(machine: Machine) -> None:
     machine.put("share1/config.yaml", "rate: 3\n")
     assert run(machine)[1] == "rate 50.0 as arm\n"
     machine.put("work/etc/config.yaml", "rate: 2\n")
-    assert run(machine)[1] == "rate 2.0 as arm\n"
+    _, out, err = run(machine, "--verbose-search")
+    assert out == "rate 2.0 as arm\n"
+    assert "configuration etc/config.yaml; neither --context nor --from asks" in err
 
 
 def test_a_context_wins_over_the_default(machine: Machine) -> None:
