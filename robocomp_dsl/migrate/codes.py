@@ -12,9 +12,10 @@ UNREADABLE_FILE = Code(
     "RC921",
     Severity.ERROR,
     "a file of the old component could not be read",
-    """The file is no text, too large, or not in the form that its name promises (a configuration
-in TOML with a mistake, a manager file that is no XML). Everything else was carried over. Mend the
-file in the old folder, remove the new folder and run `rcgen migrate` again.""",
+    """The file is no text, too large, or not in the form that its name promises (a
+configuration in TOML with a mistake, a manager file that is no XML). Everything else was
+carried over. Mend the file in the old folder, remove the new folder and run `rcgen migrate`
+again.""",
 )
 
 NO_DESCRIPTION = Code(
@@ -33,17 +34,17 @@ BROKEN_DESCRIPTION = Code(
     Severity.ERROR,
     "the description has errors, so no code was generated",
     """The CDSL file, or an interface that it imports, has errors; they are listed beside this
-one. The description, the parameters and the configurations were written all the same, the code
-was not. Mend the errors in the old folder (`-I` adds folders with interfaces that are missing),
-remove the new folder and run `rcgen migrate` again.""",
+one. The description, the parameters, the configurations and your code were written all the
+same; nothing was generated. Mend the errors in the old folder (`-I` adds folders with
+interfaces that are missing), remove the new folder and run `rcgen migrate` again.""",
 )
 
 CONFIG_LINE = Code(
     "RC931",
     Severity.WARNING,
     "a line of a configuration says nothing",
-    """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so this
-one had no effect; it has none in the new configuration either.""",
+    """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so
+this one had no effect; it has none in the new configuration either.""",
 )
 
 CONFIG_TWICE = Code(
@@ -67,9 +68,9 @@ RENAMED_KEY = Code(
     "RC934",
     Severity.WARNING,
     "a parameter is called otherwise",
-    """The old key is no name of PDSL (a letter or `_`, then letters, digits and `_`), or two keys
-would have the same. Code that reads `self.params` uses the new name; `setParams` of carried over
-code still gets the old key.""",
+    """The old key is no name of PDSL (a letter or `_`, then letters, digits and `_`), or two
+keys would have the same. Code that reads `self.params` uses the new name; `setParams` of
+carried over code still gets the old key.""",
 )
 
 TEXT_LIST = Code(
@@ -86,17 +87,25 @@ MISSING_KEY = Code(
     "RC936",
     Severity.WARNING,
     "a configuration lacks a key that another one has",
-    """All configurations of a component have the same parameters now. Where a file does not give
-one, it has the default, which is the value of the first file that gives it. Is that right for
-this configuration?""",
+    """All configurations of a component have the same parameters now. Where a file does not
+give one, it has the default, which is the value of the first file that gives it. Is that right
+for this configuration?""",
 )
 
 NOT_SUPPORTED_VALUE = Code(
     "RC937",
     Severity.WARNING,
     "a value became a text",
-    """There is no type for it in PDSL (lists of lists, dates, lists of different things), or the
-configurations give values of different kinds. It is written as JSON or as it stood.""",
+    """There is no type for it in PDSL (lists of lists, dates, lists of different things), or
+the configurations give values of different kinds. It is written as JSON or as it stood.""",
+)
+
+NOT_UTF8 = Code(
+    "RC938",
+    Severity.WARNING,
+    "a configuration is in an old encoding",
+    """The file is not UTF-8, so it was read as Latin-1, which old Spanish and other western
+files are in. The new files are UTF-8. Look at the letters with accents.""",
 )
 
 ICE_SETTING = Code(
@@ -119,8 +128,8 @@ STAND_IN = Code(
     Severity.WARNING,
     "another component is only known by its address",
     """The configuration names a component by host and port, and its description is not here. A
-CDSL file in `peers/` stands for it, so that the deployment can be checked. Put the import of the
-real component in its place before you start the deployment; or hand all folders to one run:
+CDSL file in `peers/` stands for it, so that the deployment can be checked. Put the import of
+the real component in its place before you start the deployment; or hand all folders to one run:
 
     rcgen migrate manager.xml laser/ base/ follow/ -o robot""",
 )
@@ -130,8 +139,8 @@ UNKNOWN_PROXY = Code(
     Severity.WARNING,
     "an address belongs to no port of the component",
     """The configuration has an endpoint or a proxy for an interface that the CDSL file does not
-mention, so there is nothing to connect. It had no effect before either, unless hand-written code
-used it.""",
+mention, so there is nothing to connect. It had no effect before either, unless hand-written
+code used it.""",
 )
 
 NOT_PYTHON = Code(
@@ -165,49 +174,51 @@ CARRIED_OVER = Code(
     Severity.NOTE,
     "an import of the old worker was adapted",
     """Modules that RoboComp generated or brought along (`genericworker`, `interfaces`, `Ice`,
-parts of Qt) are replaced by one module in the new folder, which gives the names that the methods
-use. The methods themselves are as they were, byte by byte.""",
+parts of Qt) are replaced by one module in the new folder, which gives the names that the
+methods use. The methods themselves are as they were, byte by byte.""",
 )
 
 NEEDS_QT = Code(
     "RC955",
-    Severity.WARNING,
-    "the worker uses Qt",
+    Severity.ERROR,
+    "the worker uses Qt or Ice itself",
     """Windows and timers of Qt need Qt's event loop, which the new component does not run:
-`compute` is called by the life cycle. The import was left as it is; move the window into a
-program of its own that talks to the component.""",
+`compute` is called by the life cycle. Proxies that code makes with `Ice.initialize` reach only
+components of old. Such an import was left as it is, so the component starts only where Qt or
+Ice are installed. Move the window into a program of its own that talks to the component; write
+calls that are due every so often into `compute`; take proxies from `self`.""",
 )
 
 NAME_TAKEN = Code(
     "RC956",
     Severity.WARNING,
     "the worker sets an attribute that the component needs",
-    """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns one
-of them hides it from the new base class. Rename the attribute in your class.""",
+    """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns
+one of them hides it from the new base class. Rename the attribute in your class.""",
 )
 
 PERIOD = Code(
     "RC957",
     Severity.NOTE,
     "the period stands in the description",
-    """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file. `compute`
-is called with it; `self.timer` is a stand-in that starts nothing.""",
+    """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file.
+`compute` is called with it; `self.timer` is a stand-in that starts nothing.""",
 )
 
 NOT_COPIED = Code(
     "RC961",
     Severity.WARNING,
     "a file was not copied",
-    """It is too large, cannot be read, is a link, or there is no place for it. Copy it by hand if
-the component needs it.""",
+    """It is too large, cannot be read, is a link, or there is no place for it. Copy it by hand
+if the component needs it.""",
 )
 
 REPLACED = Code(
     "RC962",
     Severity.NOTE,
     "a file that RoboComp generated has no successor",
-    """Build files and generated code are not needed any more: `rcgen component` writes `main.py`
-and `generated/`.""",
+    """Build files and generated code are not needed any more: `rcgen component` writes
+`main.py` and `generated/`.""",
 )
 
 INTERFACE_WINDOW = Code(
@@ -238,8 +249,8 @@ DEPENDENCE_DROPPED = Code(
     "RC973",
     Severity.WARNING,
     "a dependence was left out",
-    """It names an entry that does not exist, or it would close a circle, in which everybody waits
-for everybody. The old manager started such components in some order all the same.""",
+    """It names an entry that does not exist, or it would close a circle, in which everybody
+waits for everybody. The old manager started such components in some order all the same.""",
 )
 
 COMMAND = Code(
@@ -254,6 +265,6 @@ MANAGER_SETTING = Code(
     "RC975",
     Severity.WARNING,
     "a part of the manager's file was not carried over",
-    """The configuration it names is not one of the component's, or the address is not one that a
-deployment can have.""",
+    """The configuration it names is not one of the component's, or the address is not one that
+a deployment can have.""",
 )

@@ -13,11 +13,10 @@ from pathlib import Path, PurePosixPath
 from robocomp_dsl.check import check_cdsl
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Code, Report
-from robocomp_dsl.generate import plan
 from robocomp_dsl.generate.component_names import modules_of
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.config import Config, Entry, read_config
+from robocomp_dsl.migrate.config import Config, Entry, read_config, read_source
 from robocomp_dsl.migrate.description import completed, modern, tree_of
 from robocomp_dsl.migrate.folder import Fate, Found, files_of
 from robocomp_dsl.migrate.ice import IceSettings, divide
@@ -88,8 +87,10 @@ def move_component(
     parameters = infer([(config, rest) for config, _, rest in divided], report)
     _describe(moved, path, text, parameters, _period(found, parameters, given, report))
     _configure(moved, divided, parameters)
-    _resolve(moved, workspace, report)
-    _carry_over(moved, found, parameters, report)
+    component = _resolve(moved, workspace, report)
+    if component is not None:
+        _carry_over(moved, component, found, parameters, report)
+    _copy_all(moved, found, report)
     return moved
 
 
@@ -111,7 +112,7 @@ def _configs(found: Sequence[Found], report: Report) -> Iterator[Config]:
     there = [one for one in found if one.fate is Fate.CONFIG]
     for one in sorted(there, key=lambda f: (f.path.stem != "config", f.path.name)):
         try:
-            config = read_config(Source.read(one.path), report)
+            config = read_config(read_source(one.path, report), report)
         except UnreadableSource as error:
             said = f"the configuration was not carried over: {error}"
             report.add(codes.UNREADABLE_FILE, Source(one.path, "").whole, said)
@@ -166,17 +167,18 @@ def _configure(
     moved.configs = tuple(made)
 
 
-def _resolve(moved: Moved, workspace: Workspace, report: Report) -> None:
+def _resolve(moved: Moved, workspace: Workspace, report: Report) -> Component | None:
     """Check what will be written, as if it were there; bring the interfaces that it needs along.
 
-    What the check finds is told when the files are there.
+    What the check finds is told when the files are there. The component is given with what could
+    be understood of it; `moved` has it only if there are no errors.
     """
     for one in moved.files:
         workspace.files.open_buffer(moved.out / one.path, one.text)
     found = Report()
     component = check_cdsl(moved.out / moved.description, workspace, found)
     if component is None or found.failed:
-        said = f"`{moved.description}` has errors, so the code of {moved.name} was not carried over"
+        said = f"`{moved.description}` has errors, so no code was generated"
         report.add(codes.BROKEN_DESCRIPTION, moved.span, said)
     else:
         moved.component = component
@@ -184,6 +186,7 @@ def _resolve(moved: Moved, workspace: Workspace, report: Report) -> None:
             moved.add(file, file.path)
     for path in sorted(moved.folder.glob("*.idsl")):
         _bring(moved, path, workspace, report)
+    return component
 
 
 def _bring(moved: Moved, path: Path, workspace: Workspace, report: Report) -> None:
@@ -201,18 +204,29 @@ def interface_files(modules: Sequence[Module], workspace: Workspace) -> Iterator
 
 
 def _carry_over(
-    moved: Moved, found: Sequence[Found], parameters: Parameters, report: Report
+    moved: Moved,
+    component: Component,
+    found: Sequence[Found],
+    parameters: Parameters,
+    report: Report,
 ) -> None:
-    """The code and the other files."""
-    if moved.component is not None:
-        ours = {one.path for one in plan(moved.component) if not one.keep}
-        for file, old in carried_over(moved.component, found, parameters, report):
-            if file.path in ours:
-                source = Source(moved.folder / old, "")
-                said = f"`{file.path}` is written by rcgen; the old file was not copied"
-                report.add(codes.NOT_COPIED, source.whole, said)
-            else:
-                moved.add(file, old)
+    """The code in Python."""
+    for file, old in carried_over(component, found, parameters, report):
+        if _is_written(file.path):
+            source = Source(moved.folder / old, "")
+            said = f"`{file.path}` is written by rcgen; the old file was not copied"
+            report.add(codes.NOT_COPIED, source.whole, said)
+        else:
+            moved.add(file, old)
+
+
+def _is_written(path: str) -> bool:
+    """Whether generation rewrites a file each time."""
+    return path == "main.py" or path.startswith("generated/")
+
+
+def _copy_all(moved: Moved, found: Sequence[Found], report: Report) -> None:
+    """The other files, and what has no successor."""
     room = 16 * MAX_BYTES
     for one in found:
         told = _judged(one, moved)
@@ -249,7 +263,7 @@ def _copy(moved: Moved, one: Found, room: int, report: Report) -> int:
         said = error.strerror or str(error)
     if len(data) > min(MAX_BYTES, room):
         said = "it is too large"
-    elif any(file.path == name for file in moved.files) or name == "main.py":
+    elif any(file.path == name for file in moved.files) or _is_written(name):
         said = "there is another file of this name in the new component"
     if said:
         report.add(codes.NOT_COPIED, Source(one.path, "").whole, f"it was not copied: {said}")

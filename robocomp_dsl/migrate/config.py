@@ -9,13 +9,14 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.source import Source, Span
+from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 Value: TypeAlias = Any
 """A text of the text form; what TOML has: bool, int, float, str, list, dates, tables in lists."""
@@ -23,6 +24,7 @@ Value: TypeAlias = Any
 MOST_ENTRIES = 10_000
 """More keys than this are no configuration of a component."""
 
+_NO_TEXT = re.compile(rb"[\x00-\x08\x0e-\x1f]|[\xfe\xff]{2}")
 _HEADER = re.compile(r"\s*\[\[?([^\]]*)\]\]?")
 _LOCATED = re.compile(r"\(at line (\d+), column (\d+)\)")
 
@@ -54,6 +56,24 @@ class Config:
     def path(self) -> Path:
         """Where it stands."""
         return self.source.path
+
+
+def read_source(path: Path, report: Report) -> Source:
+    """The text of a configuration; one that is no UTF-8 is taken for Latin-1, which is told.
+
+    Raises `UnreadableSource` for what is no text.
+    """
+    try:
+        return Source.read(path)
+    except UnreadableSource:
+        with suppress(OSError), path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+            if len(data) <= MAX_BYTES and not _NO_TEXT.search(data) and path.suffix != ".toml":
+                source = Source(path, data.decode("iso-8859-1"))
+                said = f"`{path.name}` is not UTF-8 and was read as Latin-1"
+                report.add(codes.NOT_UTF8, source.whole, said)
+                return source
+        raise
 
 
 def read_config(source: Source, report: Report) -> Config | None:

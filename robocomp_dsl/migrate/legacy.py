@@ -28,10 +28,12 @@ STAND_INS = {
             "ObjectNotExistException",
             "NoEndpointException",
             "TimeoutException",
+            "loadSlice",
         )
     ),
     "QtCore": frozenset(("QMutex", "QMutexLocker", "QTimer", "Slot")),
     "QtWidgets": frozenset(("QApplication",)),
+    "QtGui": frozenset[str](),
     "QApplication": frozenset(("instance",)),
     "QTimer": frozenset(("singleShot",)),
     "QMutex": frozenset(("Recursive",)),

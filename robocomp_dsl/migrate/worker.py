@@ -23,6 +23,8 @@ from robocomp_dsl.source import Span
 OURS = ("genericworker", "interfaces")
 """Modules that RoboComp generated beside the worker."""
 QT = ("PySide", "PySide2", "PySide6", "PyQt4", "PyQt5", "PyQt6")
+TIMER = "QTimer()"
+"""Code that makes timers of its own, which nothing runs."""
 HOOKS = {"initialize", "compute", "emergency", "restore", "finalize"}
 
 Change = tuple[int, int, str]
@@ -78,14 +80,23 @@ def _span(user: UserModule, node: ast.stmt | ast.expr) -> Span:
 
 
 def _attributes_used(tree: ast.Module) -> dict[str, set[str]]:
-    """For each plain name, the attributes that are taken of it; a call is the attribute `()`."""
+    """For each name, the attributes that are taken of it; calls are `()` and `attribute()`."""
     found: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
             found.setdefault(node.value.id, set()).add(node.attr)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            found.setdefault(node.func.id, set()).add("()")
+        elif isinstance(node, ast.Name):
+            found.setdefault(node.id, set())
+        elif isinstance(node, ast.Call):
+            _add_call(node.func, found)
     return found
+
+
+def _add_call(function: ast.expr, found: dict[str, set[str]]) -> None:
+    if isinstance(function, ast.Name):
+        found.setdefault(function.id, set()).add("()")
+    elif isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name):
+        found.setdefault(function.value.id, set()).add(f"{function.attr}()")
 
 
 def _imports(
@@ -100,6 +111,8 @@ def _imports(
             continue
         span = _span(user, node)
         if new is not None:
+            if isinstance(node, ast.ImportFrom) and (missing := _beyond(node, user, used)):
+                report.add(codes.NEEDS_QT, span, f"there is no {missing} without Qt and Ice")
             report.add(codes.CARRIED_OVER, span, f"`{span.text:.80}` became `{new:.80}`")
             yield span.start, span.end, new
         elif (missing := _missing(node, used)) is not None:
@@ -114,7 +127,7 @@ def _plain_import(node: ast.Import, names: Names, used: dict[str, set[str]]) -> 
         bound = alias.asname or alias.name
         ours = alias.name in OURS
         given = alias.name in names.modules or (
-            alias.name == "Ice" and used.get(bound, set()) <= STAND_INS["Ice"]
+            alias.name == "Ice" and _lacking("Ice", bound, used) is None
         )
         changed = changed or ours or given
         suffix = f" as {alias.asname}" if alias.asname else ""
@@ -136,22 +149,43 @@ def _from_import(node: ast.ImportFrom, names: Names, used: dict[str, set[str]]) 
     if module in names.modules:
         return f"from generated.interfaces import {listed}"
     if module.partition(".")[0] in QT and _qt_missing(node, used) is None:
-        return f"from {names.legacy} import {listed}"
+        kept = [a for a in node.names if a.name in STAND_INS]
+        listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in kept)
+        return f"from {names.legacy} import {listed}" if kept else "pass"
+    return None
+
+
+def _beyond(node: ast.ImportFrom, user: UserModule, used: dict[str, set[str]]) -> str | None:
+    """What code takes of the names that `from genericworker import *` brought, and is not there."""
+    if node.module not in OURS or node.names[0].name != "*":
+        return None
+    found = [alias for one in ast.walk(user.tree) for alias in getattr(one, "names", [])]
+    others = {a.asname or a.name for a in found if isinstance(a, ast.alias)}
+    for name in sorted(STAND_INS.keys() - others):
+        if missing := _lacking(name, name, used):
+            return missing
     return None
 
 
 def _qt_missing(node: ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
     """What an import from Qt gives that there is no stand-in for."""
     for alias in node.names:
-        known = STAND_INS.get(alias.name)
-        taken = used.get(alias.asname or alias.name, set())
-        if known is None:
+        bound = alias.asname or alias.name
+        if alias.name in STAND_INS:
+            if missing := _lacking(alias.name, bound, used):
+                return missing
+        elif alias.name == "*" or bound in used:
             return f"`{alias.name}`"
-        if alias.name == "QTimer" and "()" in taken:
-            return "a timer of its own"
-        if extra := taken - known - {"()"}:
-            return f"`{alias.name}.{min(extra)}`"
     return None
+
+
+def _lacking(name: str, bound: str, used: dict[str, set[str]]) -> str | None:
+    """What code takes of the stand-in `name`, which it calls `bound`, and is not there."""
+    known, taken = STAND_INS[name], used.get(bound, set())
+    if TIMER in (f"{name}()" if "()" in taken else "", *taken):
+        return f"`{TIMER}`"
+    extra = {one.removesuffix("()") for one in taken if one != "()"} - known
+    return f"`{name}.{min(extra)}`" if extra else None
 
 
 def _missing(node: ast.Import | ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
@@ -163,8 +197,7 @@ def _missing(node: ast.Import | ast.ImportFrom, used: dict[str, set[str]]) -> st
         if alias.name.partition(".")[0] in QT:
             return "a module of Qt"
         if alias.name == "Ice":
-            extra = used.get(alias.asname or alias.name, set()) - STAND_INS["Ice"]
-            return f"`Ice.{min(extra)}`" if extra else None
+            return _lacking("Ice", alias.asname or alias.name, used)
     return None
 
 
@@ -173,6 +206,8 @@ def _aliases(user: UserModule, names: Names) -> Iterator[Change]:
     worker = user.worker
     defined = worker.body if worker else []
     members = {one.name for one in defined if isinstance(one, ast.FunctionDef)}
+    assigned = (t for one in defined if isinstance(one, ast.Assign) for t in one.targets)
+    members |= {one.id for one in assigned if isinstance(one, ast.Name)}
     wanted = [
         (new, old)
         for old, new in names.handlers.items()
@@ -181,10 +216,11 @@ def _aliases(user: UserModule, names: Names) -> Iterator[Change]:
     if not wanted or worker is None:
         return
     last, first = worker.body[-1], worker.body[0]
+    text, start = user.source.text, user.starts[first.lineno - 1]
     end = user.offset(last.end_lineno or 1, last.end_col_offset or 0)
-    start = user.starts[first.lineno - 1]
-    indent = user.source.text[start : user.offset(first.lineno, first.col_offset)]
-    line_end = "\r\n" if "\r\n" in user.source.text else "\n"
+    end += len(text[end:].partition("\n")[0].rstrip("\r"))
+    indent = text[start : user.offset(first.lineno, first.col_offset)]
+    line_end = "\r\n" if "\r\n" in text else "\n"
     rows = [f"{indent}{new} = {old}" for new, old in wanted]
     yield end, end, line_end + line_end + line_end.join(rows)
 
