@@ -152,9 +152,11 @@ class TypeNames:
 
     def _nearest(self, name: QualifiedName) -> str | None:
         word = name.name.text
+        if name.module is None or name.module.text == "std":
+            elsewhere = word.lower().removesuffix("_t")  # as in C and C++
+            if elsewhere in _FOREIGN or (name.module and word in types.PRIMITIVES):
+                return _FOREIGN.get(elsewhere, word)
         if name.module is None:
-            if word.lower() in _FOREIGN:
-                return _FOREIGN[word.lower()]
             return nearest(word, [*types.PRIMITIVES, *self._own_names, *self._imported()])
         module = name.module.text
         moved = [d for d in self._visible.declarations(types.Declaration) if d.name == word]

@@ -132,8 +132,21 @@ class PdslBuilder(Builder):
         value: Literal = one
         if isinstance(one, Name) and one.text.lower() in ("true", "false"):
             value = Bool(one.span, one.text.lower() == "true")
-        self.once(first, value, "the default")
+        if first is not None and not isinstance(first, Text) and isinstance(one, Text):
+            self._quoted_unit(one)
+        else:
+            self.once(first, value, "the default")
         return first or value
+
+    def _quoted_unit(self, text: Text) -> None:
+        """`speed float 5 "mm/s"`: a number has its default already."""
+        self.say(
+            codes.REPEATED,
+            text.span,
+            "a second default, in quotes",
+            label="a unit stands in brackets",
+            fix=self.rewrite(f"write `[{text.value}]`", text.span, f"[{text.value}]"),
+        )
 
 
 def _members(items: Any) -> tuple[ast.Member, ...]:
