@@ -13,6 +13,7 @@ import tarfile
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
@@ -22,7 +23,8 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.compare import Version, compare
-from robocomp_dsl.diagnostics import Report, Severity
+from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
+from robocomp_dsl.source import Source, Span
 
 SUFFIXES = (".idsl", ".cdsl", ".pdsl")
 GIT_PATIENCE_S = 60.0
@@ -51,29 +53,78 @@ def command(*, path: Path, against: str, form: str, folders: tuple[Path, ...]) -
     if not path.exists():
         options.complain(f"there is no `{path}`")
         sys.exit(FINDINGS)
-    report = Report()
+    found = Report()
     try:
         with _earlier(path, against) as before:
-            old = _version(before, folders, Report(), before)
-            new = _version(path, folders, report, path)
+            unread, report = Report(), Report()
+            old = _version(before.path, before.folders(folders), unread)
+            new = _version(path, folders, report)
             if report.failed:
                 options.show(report.sorted(), form, sys.stderr)
                 options.complain("mend these first; only what is right can be compared")
                 sys.exit(FINDINGS)
-            found = Report()
+            _tell_unread(unread, before)
             compare(old, new, found)
-            options.show(found.sorted(), form, sys.stdout)
+            named = [before.named(one) for one in found.sorted()]
     except NoSuchVersion as error:
         options.complain(str(error))
         sys.exit(FINDINGS)
+    options.show(named, form, sys.stdout)
     if form == "full":
-        print(f"{path} against {against}: {options.summary(found.sorted())}")
+        print(f"{path} against {against}: {options.summary(named)}")
     sys.exit(FINDINGS if found.failed else 0)
 
 
-def _version(path: Path, folders: tuple[Path, ...], report: Report, root: Path) -> Version:
-    """All models at `path`. Only errors of the new version matter."""
-    workspace = Workspace((*folders, root if root.is_dir() else root.parent))
+@dataclass(frozen=True, slots=True)
+class _Earlier:
+    """Where the earlier version is: `path` of it, its whole tree `root` and that of the new one.
+
+    With a `revision` the tree is a copy that is soon gone, and places in it are told as git does:
+    `v1:sub/Laser.idsl`.
+    """
+
+    path: Path
+    root: Path
+    new_root: Path
+    revision: str = ""
+
+    def folders(self, given: tuple[Path, ...]) -> tuple[Path, ...]:
+        """Folders within the tree as they were; others are the same for both."""
+        return tuple(self._then(one.resolve()) or one for one in given)
+
+    def _then(self, one: Path) -> Path | None:
+        new = self.new_root.resolve()
+        return self.root / one.relative_to(new) if one.is_relative_to(new) else None
+
+    def named(self, one: Diagnostic) -> Diagnostic:
+        """With places that the user can look up."""
+        notes = tuple(replace(n, span=self._span(n.span)) if n.span else n for n in one.notes)
+        return replace(one, span=self._span(one.span), notes=notes)
+
+    def _span(self, span: Span) -> Span:
+        if not self.revision or not span.source.path.is_relative_to(self.root):
+            return span
+        return Source(self.name(span.source.path), span.source.text).span(span.start, span.end)
+
+    def name(self, path: Path) -> Path:
+        """What a file of the earlier version is called."""
+        inside = path.relative_to(self.root) if self.revision else path
+        return Path(f"{self.revision}:{inside}") if self.revision else path
+
+
+def _tell_unread(unread: Report, before: _Earlier) -> None:
+    """What was broken in the earlier version cannot break any more."""
+    paths = sorted({before.name(one.span.source.path) for one in unread})
+    if paths:
+        listed = ", ".join(f"`{one}`" for one in paths[:5])
+        more = f" and {len(paths) - 5} more" if len(paths) > 5 else ""
+        said = f"{listed}{more} had errors in the earlier version"
+        options.complain(f"{said}; what was not understood of it is not compared")
+
+
+def _version(path: Path, folders: tuple[Path, ...], report: Report) -> Version:
+    """All models at `path`; `report` gets the errors only."""
+    workspace = Workspace((*folders, path if path.is_dir() else path.parent))
     version = Version()
     for one in _files(path):
         found = Report()
@@ -93,32 +144,25 @@ def _files(path: Path) -> list[Path]:
 
 
 @contextmanager
-def _earlier(path: Path, against: str) -> Iterator[Path]:
-    """Where the earlier version is. Raises `NoSuchVersion`."""
-    folder = Path(against)
-    if folder.is_dir():
-        yield folder if path.is_dir() else folder / path.name
-        return
+def _earlier(path: Path, against: str) -> Iterator[_Earlier]:
+    """The earlier version. Raises `NoSuchVersion`."""
     where = path if path.is_dir() else path.parent
+    folder = Path(against)
+    if against and folder.is_dir():
+        yield _Earlier(folder if path.is_dir() else folder / path.name, folder, where)
+        return
+    if not against or against.startswith("-"):
+        raise NoSuchVersion(f"`{against}` is neither a git revision nor a folder")
     top = Path(_git(where, "rev-parse", "--show-toplevel").decode().strip())
     revision = _git(where, "rev-parse", "--verify", "--quiet", f"{against}^{{commit}}")
     data = _git(top, "archive", "--format=tar", revision.decode().strip())
     with tempfile.TemporaryDirectory() as made:
-        _unpack(data, Path(made))
+        root = Path(made).resolve()
+        with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+            wanted = [m for m in archive if Path(m.name).suffix.lower() in SUFFIXES]
+            archive.extractall(root, wanted, filter="data")
         inside = path.resolve().relative_to(top.resolve())
-        yield Path(made) / inside
-
-
-def _unpack(data: bytes, folder: Path) -> None:
-    """The descriptions of an archive; links are left out, they may lead anywhere."""
-    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
-        for member in archive:
-            content = archive.extractfile(member) if member.isfile() else None
-            path = folder / member.name
-            inside = path.resolve().is_relative_to(folder.resolve())
-            if content and inside and path.suffix.lower() in SUFFIXES:
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(content.read())
+        yield _Earlier(root / inside, root, top, against)
 
 
 def _git(where: Path, *arguments: str) -> bytes:

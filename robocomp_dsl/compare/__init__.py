@@ -7,13 +7,13 @@ the new place, or at the old one where there is none any more. Things are matche
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Set
 from dataclasses import dataclass, field
 
 from robocomp_dsl.compare.changes import Changes
 from robocomp_dsl.compare.components import compare_components
 from robocomp_dsl.compare.interfaces import compare_declarations
-from robocomp_dsl.compare.parameters import compare_sets
+from robocomp_dsl.compare.parameters import compare_of_components, compare_sets
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.interface import Module
@@ -48,11 +48,15 @@ def compare(old: Version, new: Version, report: Report) -> None:
     changes = Changes(report)
     compare_declarations(old.declarations, new.declarations, changes)
     compare_components(old.components, new.components, changes)
-    used = _of_components(old.components.values())
-    compare_sets(
-        old.parameters | used, new.parameters | _of_components(new.components.values()), changes
-    )
+    compare_of_components(old.components, new.components, changes)
+    # What belongs to a component of both was compared with it, whatever it is called.
+    shared = old.components.keys() & new.components.keys()
+    compare_sets(_others(old, shared), _others(new, shared), changes)
 
 
-def _of_components(components: Iterable[Component]) -> dict[str, ParameterSet]:
-    return {c.parameters.name: c.parameters for c in components if c.parameters}
+def _others(version: Version, shared: Set[str]) -> dict[str, ParameterSet]:
+    """The sets of parameters that none of these components uses."""
+    used = {
+        c.parameters.name for n, c in version.components.items() if n in shared and c.parameters
+    }
+    return {name: one for name, one in version.parameters.items() if name not in used}

@@ -9,7 +9,20 @@ from collections.abc import Mapping, Sequence
 
 from robocomp_dsl.compare import codes
 from robocomp_dsl.compare.changes import Changes, Placed
+from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
+
+
+def compare_of_components(
+    old: Mapping[str, Component], new: Mapping[str, Component], changes: Changes
+) -> None:
+    """The parameters of each component with those that it has now; one may have none."""
+    for name in sorted(old.keys() & new.keys()):
+        was, now = old[name].parameters, new[name].parameters
+        if was and now is None:
+            changes.add(codes.CONFIGURATION, was, None, f"the parameters of `{name}` are gone")
+        elif now:
+            _compare(was.parameters if was else (), now.parameters, now, "", changes)
 
 
 def compare_sets(

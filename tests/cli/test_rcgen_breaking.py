@@ -65,3 +65,69 @@ def test_the_new_version_is_wrong(rcgen: Rcgen, history: Path) -> None:
     run = rcgen("breaking", "--against", "HEAD")
     assert run.code == 1
     assert "mend these first" in run.err
+
+
+def test_what_is_gone_is_told_as_git_names_it(rcgen: Rcgen, history: Path) -> None:
+    git(history, "tag", "v1")
+    (history / "sub" / "M.idsl").write_text(IDSL.replace("interface I", "interface J"))
+    run = rcgen("breaking", "--against", "v1", "--format", "concise")
+    assert run.out == "v1:sub/M.idsl:1:50: error[RC641]: interface `M::I` is gone\n"
+
+
+def test_what_was_broken_is_told(rcgen: Rcgen, history: Path) -> None:
+    (history / "sub" / "N.idsl").write_text("module N { struct\n")
+    git(history, "add", ".")
+    git(history, "commit", "-qm", "broken")
+    (history / "sub" / "N.idsl").unlink()
+    run = rcgen("breaking", "--against", "HEAD")
+    assert run.code == 0
+    assert "`HEAD:sub/N.idsl` had errors in the earlier version" in run.err
+
+
+CDSL = """\
+import "I.idsl";
+Component c { Communications { implements I; }; language Python; parameters "c.pdsl"; };
+"""
+
+
+@pytest.fixture
+def component(here: Path) -> Path:
+    """A component in a folder, its interface in another one."""
+    for name in ("c", "idsl"):
+        (here / name).mkdir()
+    (here / "c" / "c.cdsl").write_text(CDSL)
+    (here / "c" / "c.pdsl").write_text("ComponentParams c { g { h[1:3] { a int 1 0:9; }; }; };\n")
+    (here / "idsl" / "I.idsl").write_text("module M { interface I { int f(); }; };\n")
+    git(here, "init", "-q")
+    git(here, "add", ".")
+    git(here, "commit", "-qm", "first")
+    return here
+
+
+def test_folders_of_interfaces_are_those_of_then(rcgen: Rcgen, component: Path) -> None:
+    (component / "idsl" / "I.idsl").write_text("module M { interface J { int f(); }; };\n")
+    (component / "c" / "c.cdsl").write_text(CDSL.replace("implements I", "implements J"))
+    run = rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl", "--format", "concise")
+    assert run.out == "c/c.cdsl:2:11: error[RC641]: `c` implements `M::I` no more\n"
+    assert run.err == "", "the old component was checked with the old interfaces"
+
+
+def test_a_set_of_parameters_with_another_name_is_that_of_the_component(
+    rcgen: Rcgen, component: Path
+) -> None:
+    text = (component / "c" / "c.pdsl").read_text()
+    (component / "c" / "c.pdsl").write_text(text.replace("Params c", "Params d"))
+    assert rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl").code == 0
+    (component / "c" / "c.pdsl").write_text(
+        text.replace("Params c", "Params d").replace("0:9", "0:5")
+    )
+    run = rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl", "--format", "concise")
+    assert "c/c.pdsl:1:34: error[RC643]: parameter `g.h.a` took 0 to 9, now 0 to 5" in run.out
+
+
+def test_no_git_tree(rcgen: Rcgen, here: Path) -> None:
+    (here / "M.idsl").write_text(IDSL)
+    for against in ("HEAD", "", "-x"):
+        run = rcgen("breaking", f"--against={against}")
+        assert (run.code, run.out) == (1, "")
+        assert run.err.startswith("error: ")
