@@ -55,6 +55,7 @@ def as_data(plan: Plan) -> dict[str, Any]:
         "file": str(plan.path.resolve()),
         "domain": plan.domain,
         "middleware": plan.middleware,
+        "clock": plan.clock,
         "processes": [_process(one) for one in plan.processes],
         "stop": plan.stop_waves(),
     }
@@ -84,6 +85,7 @@ def as_text(plan: Plan) -> Iterator[str]:
     """The plan for people: commands that a shell understands."""
     yield f"{plan.name}: {len(plan.processes)} components on {plan.middleware}"
     yield f"domain {plan.domain}"
+    yield f"clock {plan.clock}"
     for wave, names in enumerate(waves({p.name: set(p.after) for p in plan.processes}), start=1):
         for one in (p for p in plan.processes if p.name in names):
             yield ""

@@ -12,8 +12,17 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.deployment import Connection, Deployment, Host, Instance, Qos, Restart
+from robocomp_dsl.model.deployment import (
+    Clock,
+    Connection,
+    Deployment,
+    Host,
+    Instance,
+    Qos,
+    Restart,
+)
 from robocomp_dsl.model.types import Literal
+from robocomp_dsl.runtime.clock_settings import LOCKSTEP, SIM, ClockSettings
 
 PYTHONS = ("python3", "python")
 """Program names that mean the interpreter that runs rcdeploy, which has the runtime installed."""
@@ -51,13 +60,17 @@ class Process:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A deployment as processes, in an order that respects `after`."""
+    """A deployment as processes, in an order that respects `after`.
+
+    `clock` is in words, as in `simulated, from body`.
+    """
 
     name: str
     path: Path
     domain: str
     middleware: str
     processes: tuple[Process, ...]
+    clock: str = "wall"
 
     def stop_waves(self) -> list[list[str]]:
         """Names to stop together, wave after wave."""
@@ -72,7 +85,8 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
     ]
     before = {p.name: _users(p.name, deployment, order) for p in processes}
     ordered = tuple(replace(p, stops_after=before[p.name]) for p in processes)
-    return Plan(name, deployment.path, domain, deployment.middleware, ordered)
+    clock = _shown_clock(deployment.clock)
+    return Plan(name, deployment.path, domain, deployment.middleware, ordered, clock)
 
 
 def waves(waits_for: dict[str, set[str]]) -> list[list[str]]:
@@ -99,6 +113,7 @@ def shown(value: Literal) -> str:
 
 def _process(deployment: Deployment, one: Instance, domain: str, interpreter: str) -> Process:
     settings = settings_of(one)
+    clock = deployment.clock
     command = shlex.split(one.executable)
     if command and command[0] in PYTHONS:
         command[0] = interpreter
@@ -109,6 +124,7 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
     argv += ["--from", one.searched] if one.searched else []
     argv += [word for setting in settings for word in ("--set", setting)]
     argv += ["--listen-port", str(one.port)] if one.port else []
+    argv += ["--clock", clock_text(clock, one, deployment.instances)] if clock.source else []
     argv += _wiring(one, deployment.connections)
     return Process(
         name=one.name,
@@ -117,7 +133,7 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         cwd=one.component.path.parent,
         env=one.environment,
         after=one.after,
-        restart=one.restart,
+        restart=Restart("never") if clock.stops_when_lost and clock.source is one else one.restart,
         ready_within_s=one.ready_within_s,
         port=one.port,
         config=one.config,
@@ -129,10 +145,34 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
     )
 
 
+def clock_text(clock: Clock, one: Instance, instances: Sequence[Instance]) -> str:
+    """As `--clock` takes it; only the source is told who takes part."""
+    assert clock.source is not None  # noqa: S101 - a wall clock needs no flag
+    others = [each.name for each in instances if each is not clock.source]
+    said = ClockSettings(
+        LOCKSTEP if clock.lockstep else SIM,
+        clock.source.name,
+        tuple(sorted(others)) if clock.lockstep and one is clock.source else (),
+        clock.limit_s,
+        clock.stops_when_lost,
+    )
+    return said.as_text()
+
+
 def _shown_host(host: Host) -> str:
     """The name of a host and where it is; empty for this machine without a name."""
     same = host.address in ("", host.name) or not host.name
     return host.name if same else f"{host.name} ({host.address})"
+
+
+def _shown_clock(clock: Clock) -> str:
+    if clock.source is None:
+        return "wall"
+    said = f"simulated, from {clock.source.name}"
+    if not clock.lockstep:
+        return said
+    lost = "stops when one is lost" if clock.stops_when_lost else "goes on without one that is lost"
+    return f"{said}, in lock-step: at most {clock.limit_s:g} s a step, {lost}"
 
 
 def _users(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:

@@ -25,6 +25,7 @@ def only(deployment: Deployment, name: str) -> Deployment:
     if group is None:
         known = ", ".join(one.name for one in deployment.groups) or "none"
         raise NoSuchGroup(f"`{deployment.name}` has no group `{name}`; it has {known}")
+    clock = deployment.clock
     inside = set(group.instances)
     made = {
         one.name: replace(one, after=tuple(n for n in one.after if n in inside))
@@ -39,6 +40,8 @@ def only(deployment: Deployment, name: str) -> Deployment:
             for wire in deployment.connections
             if _is_within(wire, inside)
         ),
+        # Without the source of the time a group lives by the clock of the machine.
+        clock=replace(clock, source=made.get(clock.source.name)) if clock.source else clock,
     )
 
 

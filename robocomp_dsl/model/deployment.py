@@ -129,6 +129,23 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Clock:
+    """The time by which all components live; the default is that of the machine.
+
+    `source` is the instance that makes it when `kind` is `sim`; None where there is none that
+    could. In lock-step the components act one at a time; one that needs more than `limit_s` for a
+    step is lost: the others go on, or with `stops_when_lost` the source fails.
+    """
+
+    kind: str = "wall"
+    source: Instance | None = None
+    lockstep: bool = False
+    limit_s: float = 10.0
+    stops_when_lost: bool = False
+    span: Span | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Deployment:
     """One DDSL file; instances in an order that respects `after`, outer groups first."""
 
@@ -141,3 +158,4 @@ class Deployment:
     hosts: tuple[Host, ...] = ()
     doc: str = ""
     groups: tuple[Group, ...] = ()
+    clock: Clock = field(default_factory=Clock)

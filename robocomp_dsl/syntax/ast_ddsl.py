@@ -113,11 +113,27 @@ class Group(Node):
     doc: str = ""
 
 
+class LockStep(Node):
+    """`lockstep limit 5 s lost stop`; `lost.text` is `drop` or `stop`."""
+
+    limit: Duration | None = None
+    lost: Name | None = None
+
+
+class Clock(Node):
+    """`clock sim from body lockstep;`; `kind.text` is `wall` or `sim`."""
+
+    kind: Name
+    source: Name | None = None
+    lockstep: LockStep | None = None
+
+
 class Deployment(Node):
     """`Deployment name { … };`."""
 
     name: Name
     middleware: Name | None = None
+    clock: Clock | None = None
     hosts: tuple[Host, ...] = ()
     instances: tuple[Instance, ...] = ()
     connections: tuple[Connection, ...] = ()

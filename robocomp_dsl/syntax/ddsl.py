@@ -11,7 +11,7 @@ from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax import codes
-from robocomp_dsl.syntax.ast_base import Import, Name, Text
+from robocomp_dsl.syntax.ast_base import Duration, Import, Name, Text
 from robocomp_dsl.syntax.builder import Setting, only
 from robocomp_dsl.syntax.ddsl_instances import Instances
 from robocomp_dsl.syntax.read import read
@@ -28,7 +28,7 @@ class DdslBuilder(Instances):
 
     ITEMS: ClassVar = {
         "file_item": "`import` or `Deployment`",
-        "deployment_item": "`component`, `connect`, `host`, `group`, `middleware`",
+        "deployment_item": "`component`, `connect`, `host`, `group`, `middleware`, `clock`",
         "host_item": "`address`, `user`, `labels`",
         "instance_item": "a setting of the component (`config`, `set`, `env`, `after`, …)",
         "qos_item": "`reliable`, `best_effort`, `priority`, `depth`, `deadline`",
@@ -66,6 +66,16 @@ class DdslBuilder(Instances):
     def middleware(self, span: Span, name: Name) -> Setting:
         """`middleware zenoh;`."""
         return Setting(span, "middleware", name)
+
+    def clock(
+        self, span: Span, kind: Name, source: Name | None, lockstep: ast.LockStep | None
+    ) -> Setting:
+        """`clock sim from body lockstep;`."""
+        return Setting(span, "clock", ast.Clock(span, kind, source, lockstep))
+
+    def lockstep(self, span: Span, limit: Duration | None, lost: Name | None) -> ast.LockStep:
+        """`lockstep limit 5 s lost stop`."""
+        return ast.LockStep(span, limit, lost)
 
     def host(self, span: Span, name: Name, body: dict[str, Any] | None) -> ast.Host:
         """`host name { … };`."""

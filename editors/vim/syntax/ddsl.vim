@@ -41,6 +41,15 @@ hi def link ddsl_best_effort_value ddslValue
 hi def link ddsl_best_effort_name ddslName
 hi def link ddsl_best_effort_field ddslField
 syn region ddsl_best_effort matchgroup=ddslKeyword start=/\<best_effort\>\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_best_effort_inner,ddsl_best_effort_value,ddsl_best_effort_name,ddsl_best_effort_field
+syn match ddsl_clock_inner contained /\.\@<!\<from\>\.\@!\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_clock_inner contained /\.\@<!\<limit\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_clock_inner contained /\.\@<!\<lockstep\>\.\@!\%(\s*\%(;\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_clock_inner contained /\.\@<!\<lost\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_clock_inner ddslModifier
+hi def link ddsl_clock_value ddslValue
+hi def link ddsl_clock_name ddslName
+hi def link ddsl_clock_field ddslField
+syn region ddsl_clock matchgroup=ddslKeyword start=/\<clock\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_clock_inner,ddsl_clock_value,ddsl_clock_name,ddsl_clock_field
 syn match ddsl_component_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_component_name contained /\%(\<component\s\+\)\@<=\h\w*/
 hi def link ddsl_component_inner ddslModifier
