@@ -53,10 +53,11 @@ def read_manager(source: Source, report: Report) -> list[Node] | None:
         said = f"`{source.path.name}` is no file of rcmanager: {called}"
         report.add(codes.UNREADABLE_FILE, source.whole, said)
         return None
-    return list(_unique(_xml_nodes(tree.root, report), report))
+    return _unique(_xml_nodes(tree.root, report), source, report)
 
 
-def _unique(nodes: Iterator[Node], report: Report) -> Iterator[Node]:
+def _unique(nodes: Iterator[Node], source: Source, report: Report) -> list[Node]:
+    """One entry of each name, without the brokers and what depends on them."""
     seen: dict[str, Node] = {}
     brokers = set()
     kept = []
@@ -71,8 +72,9 @@ def _unique(nodes: Iterator[Node], report: Report) -> Iterator[Node]:
             brokers.add(one.name)
         else:
             kept.append(one)
-    for one in kept:
-        yield replace(one, after=tuple(a for a in one.after if a[0] not in brokers))
+    if not seen:
+        report.add(codes.UNREADABLE_FILE, source.whole, f"`{source.path.name}` has no entries")
+    return [replace(k, after=tuple(a for a in k.after if a[0] not in brokers)) for k in kept]
 
 
 def _xml_nodes(root: Element, report: Report) -> Iterator[Node]:
@@ -119,7 +121,7 @@ def _read_toml(source: Source, report: Report) -> list[Node] | None:
         said = f"`{source.path.name}` has no `[[components]]`"
         report.add(codes.UNREADABLE_FILE, source.whole, said)
         return None
-    return list(_unique(_toml_nodes(entries, source, report), report))
+    return _unique(_toml_nodes(entries, source, report), source, report)
 
 
 def _toml_nodes(entries: list[object], source: Source, report: Report) -> Iterator[Node]:

@@ -1,0 +1,145 @@
+"""Files of rcmanager and of its successor become deployments that check clean."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check import check_ddsl
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.migrate.manager import read_manager
+from robocomp_dsl.source import Source
+
+
+def node(name: str, *inner: str, endpoint: str = "") -> str:
+    where = f' endpoint="{endpoint}"' if endpoint else ""
+    return f'<node alias="{name}"{where}>{"".join(inner)}</node>\n'
+
+
+def needs(name: str) -> str:
+    return f'<dependence alias="{name}"/>'
+
+
+def up(command: str) -> str:
+    return f'<upCommand command="{command}"/>'
+
+
+CASES: dict[str, tuple[str, list[tuple[str, str, int, tuple[str, ...]]], list[tuple[str, int]]]] = {
+    "a circle": (
+        node("a", needs("b")) + node("b", needs("a")) + node("c", needs("c"), needs("a")),
+        [("b", "", 0, ()), ("a", "", 0, ("b",)), ("c", "", 0, ("a",))],
+        [("RC973", 3), ("RC973", 4)],
+    ),
+    "names": (
+        node("my-arm") + node("my arm") + node("1st") + node("my-arm") + node(""),
+        [("my_arm", "", 0, ()), ("my_arm_", "", 0, ()), ("_1st", "", 0, ())],
+        [("RC972", 5), ("RC972", 6)],
+    ),
+    "a dependence on nobody": (
+        node("a", needs("nobody"), needs("is"))
+        + node("is", endpoint="IceStorm/TopicManager:default -p 9999"),
+        [("a", "", 0, ())],
+        [("RC973", 2)],
+    ),
+    "one port twice": (
+        node("a", endpoint="laser:tcp -h localhost -p 10003")
+        + node("b", endpoint="laser:tcp -p 10003")
+        + node("c", endpoint="laser:tcp -h 10.0.0.7 -p 10003")
+        + node("d", endpoint="laser:tcp -p 99999")
+        + node("e", endpoint="laser:tcp -p 80"),
+        [
+            ("a", "", 10003, ()),
+            ("b", "", 0, ()),
+            ("c", "10.0.0.7", 10003, ()),
+            ("d", "", 0, ()),
+            ("e", "", 0, ()),
+        ],
+        [],
+    ),
+    "commands": (
+        node("a", up("rcremote 10.0.0.5 tab /home/x &quot;bin/a b&quot; etc/c"))
+        + node("b", up("bin/b 'unclosed // comment"))
+        + node("c", up("rcremote"))
+        + node("d", up("ssh x@y ls */ ; rm")),
+        [("a", "10.0.0.5", 0, ()), ("b", "", 0, ()), ("c", "", 0, ()), ("d", "", 0, ())],
+        [],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_deployments_check_clean(rcgen, tmp_path: Path, name: str) -> None:
+    body, expected, told = CASES[name]
+    file = tmp_path / "old.xml"
+    file.write_text(f"<rcmanager>\n{body}</rcmanager>\n")
+    done = rcgen("migrate", file, "--format", "concise")
+    assert "internal" not in done.err
+    report = Report()
+    found = check_ddsl(tmp_path / "old-migrated/old.ddsl", Workspace(), report)
+    assert not report.failed, list(report)
+    assert found is not None
+    rows = []
+    for one in found.instances:
+        address = "" if one.host.is_here else one.host.address
+        rows.append((one.name, address, one.port, one.after))
+    assert sorted(rows) == sorted(expected)
+    for code, line in told:
+        assert any(f"old.xml:{line}:" in row and code in row for row in done.err.splitlines())
+    assert done.code == (1 if "RC972" in dict(told) else 0)
+
+
+SUB = """[[components]]
+name = "bridge"
+cwd = "~/robocomp/components/bridge"
+cmd = "bin/bridge etc/config"
+ice_name = "Laser:tcp -h localhost -p 10006"
+
+[[components]]
+name = "joy"
+cwd = "~/x"
+cmd = "src/joy.py etc/config"
+"""
+
+
+def test_the_newer_form_in_toml(rcgen, tmp_path: Path) -> None:
+    file = tmp_path / "sub.toml"
+    file.write_text(SUB)
+    assert rcgen("migrate", file).code == 0
+    found = check_ddsl(tmp_path / "sub-migrated/sub.ddsl", Workspace(), Report())
+    assert found is not None
+    assert [(one.name, one.port) for one in found.instances] == [("bridge", 10006), ("joy", 0)]
+    served = [port.interface.name for port in found.instances[0].component.ports]
+    assert served == ["Laser"]
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("x.xml", ""),
+        ("x.xml", "<innermodel/>"),
+        ("x.xml", "no xml at all"),
+        ("x.xml", "<rcmanager"),
+        ("x.xml", "\0"),
+        ("x.toml", "a ="),
+        ("x.toml", "components = 3"),
+        ("x.toml", "[[components]]\ncmd = 'x'"),
+        ("x.xml", '<!DOCTYPE a [<!ENTITY b "c">]><rcmanager>&b;</rcmanager>'),
+        ("x.xml", "<rcmanager><node alias='a'><rcmanager>"),
+    ],
+)
+def test_broken_files_are_told(rcgen, tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    done = rcgen("migrate", tmp_path / name)
+    assert done.code == 1
+    assert "error[RC" in done.err
+    assert "internal" not in done.err
+
+
+def test_every_node_says_where_it_stood() -> None:
+    text = "<rcmanager>\n" + node("a", endpoint="laser:tcp -h h -p 5") + "</rcmanager>"
+    nodes = read_manager(Source(Path("m.xml"), text), Report())
+    assert nodes is not None
+    (one,) = nodes
+    assert (one.name, one.host, one.span.begin[0]) == ("a", "h", 2)
