@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,15 @@ from robocomp_dsl.deploy import logs, status
 from robocomp_dsl.deploy.engines.restart import judge
 from robocomp_dsl.deploy.plan import plan, qos_text, strictest, waves
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.deployment import Connection, Deployment, Host, Instance, Qos, Restart
+from robocomp_dsl.model.deployment import (
+    Clock,
+    Connection,
+    Deployment,
+    Host,
+    Instance,
+    Qos,
+    Restart,
+)
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.source import Source
@@ -90,6 +99,53 @@ def test_a_search_is_told_to_the_component() -> None:
     assert commands(deployment([base]))["base"] == (
         "/py", "main.py", "--name", "base", *COMMON, "--context", "lab", "--from", "left/base.yaml",
     )  # fmt: skip
+
+
+WORLD = component("world", port(Role.PUBLISHES, SCAN))
+
+
+@pytest.mark.parametrize(
+    ("clock", "of_source", "of_other", "restart", "shown"),
+    [
+        ({}, None, None, "on-failure", "wall"),
+        ({"kind": "sim"}, "sim,from=w", "sim,from=w", "on-failure", "simulated, from w"),
+        (
+            {"kind": "sim", "lockstep": True, "limit_s": 2.5},
+            "lockstep,from=w,with=a+b,limit=2.5",
+            "lockstep,from=w,limit=2.5",
+            "on-failure",
+            "simulated, from w, in lock-step: at most 2.5 s a step, goes on without one that is lost",
+        ),
+        (
+            {"kind": "sim", "lockstep": True, "stops_when_lost": True},
+            "lockstep,from=w,with=a+b,limit=10,lost=stop",
+            "lockstep,from=w,limit=10,lost=stop",
+            "never",  # a source that begins anew would not find the others where they were
+            "simulated, from w, in lock-step: at most 10 s a step, stops when one is lost",
+        ),
+    ],
+)
+def test_clocks(
+    clock: dict[str, Any], of_source: str | None, of_other: str | None, restart: str, shown: str
+) -> None:
+    them = [instance("b", ONE), instance("w", WORLD), instance("a", ONE)]
+    if clock:
+        clock["source"] = them[1]
+    planned = plan(
+        replace(deployment(them), clock=Clock(**clock)), name="x", domain="d", interpreter="p"
+    )
+    said = {one.name: _flag(one.argv, "--clock") for one in planned.processes}
+    assert said == {"b": of_other, "w": of_source, "a": of_other}
+    assert [one.restart.policy for one in planned.processes] == [
+        "on-failure",
+        restart,
+        "on-failure",
+    ]
+    assert planned.clock == shown
+
+
+def _flag(argv: tuple[str, ...], name: str) -> str | None:
+    return argv[argv.index(name) + 1] if name in argv else None
 
 
 def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
