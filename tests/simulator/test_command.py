@@ -16,6 +16,7 @@ neck         joint              JointMotor         JointMotor
 neck         joint              ControlBoard       ControlBoard
 inertia      imu                IMU                inertia
 bump         touchsensor        TouchSensor        TouchSensor
+(the world)  world              InnerModelManager  InnerModelManager
 (the world)  world              Simulation         Simulation
 """
 

@@ -166,7 +166,7 @@ def test_every_operation_of_the_board_answers(arm: Served) -> None:
     assert "gears" in board.getVariables()
     board.setVariable("speed_limits", np.array([1.0, 2.0, 0.5]))
     assert board.getVariable("speed_limits").tolist() == [1.0, 2.0, 0.5]
-    with pytest.raises(i.Refused, match="no variable"):
+    with pytest.raises(i.RoboCompControlBoard_Refused, match="no variable"):
         board.getVariable("colour")
     board.park(["shoulder"])
     arm.until(lambda: board.getState().modes[0].name == "Idle")

@@ -39,7 +39,7 @@ OFFERS = (
 )
 
 
-OF_THE_WORLD = ("Simulation",)
+OF_THE_WORLD = ("InnerModelManager", "Simulation")
 """Interfaces that are served for the world as a whole."""
 
 

@@ -85,6 +85,10 @@ class MobileBase:
         self._body = int(model.body(self.name).id)
         self._data = data
 
+    def relocated(self, frame: str) -> None:  # noqa: ARG002 - it has one frame
+        """It was moved by hand, which wheels do not feel."""
+        self._last = np.array(self._data.qpos[self._where])
+
     def before_step(self, dt: float) -> None:
         """Bring the motors nearer to the commanded speeds."""
         most = np.array(_ACCELERATION) * dt

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 from robocomp_dsl.hardware.laser import LaserSettings
@@ -86,11 +87,23 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
 """Kinds of devices that are simulated one by one."""
 
 
-def parts_of(scene: Scene, noise: NoiseLevel) -> dict[str, Any]:
-    """The parts by the ids of their devices; all joints have one board between them."""
+def parts_of(
+    scene: Scene, noise: NoiseLevel, kept: Mapping[str, Any] = MappingProxyType({})
+) -> dict[str, Any]:
+    """The parts by the ids of their devices; all joints have one board between them.
+
+    A part in `kept` is used again, the board only where it has the same joints.
+    """
     site = Site(scene, noise)
-    made = {one.id: SINGLE[one.kind](site, one) for one in scene.devices if one.kind in SINGLE}
+    made = {
+        one.id: kept.get(one.id) or SINGLE[one.kind](site, one)
+        for one in scene.devices
+        if one.kind in SINGLE
+    }
     joints = [one for one in scene.frames if one.motion]
     if joints:
-        made |= dict.fromkeys((one.id for one in joints), JointBoard(joints))
+        former = kept.get(joints[0].id)
+        same = former is not None and former.names == tuple(one.id for one in joints)
+        board = former if same else JointBoard(joints)
+        made |= dict.fromkeys((one.id for one in joints), board)
     return made

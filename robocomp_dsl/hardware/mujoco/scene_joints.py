@@ -44,6 +44,11 @@ class JointBoard(SimulatedBoard):
             self.board, tuple(Procedure(home=float(home)) for home in homes)
         )
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The joints, in order."""
+        return self.board.spec.names
+
     def build(self, spec: Any) -> None:
         """A motor of the joint's name for each."""
         for joint in self.board.spec.joints:
@@ -56,6 +61,21 @@ class JointBoard(SimulatedBoard):
         super().bind(model, data, random)
         joints = np.arange(len(self.homes))
         self.board.set_modes(joints, [Mode.POSITION] * len(joints))
+
+    def find(self, model: Any, data: Any) -> None:
+        """The same joints in another model."""
+        self._data = data
+        self._where, self._speed, self._motor = (
+            np.array([self._find(model, name)[i] for name in self._joints]) for i in range(3)
+        )
+
+    def relocated(self, frame: str) -> None:
+        """A joint was moved by hand: it stays there."""
+        one = self.board.select.indices([frame])
+        now, speed = self._measure()
+        self.board.position, self.board.velocity = now + self.board.offset, speed
+        self.board.references.reset(one, self.board.position[one])
+        self.board.pid.reset(one)
 
 
 def _unit(motion: Motion) -> float:

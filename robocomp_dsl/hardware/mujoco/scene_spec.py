@@ -61,7 +61,7 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
         body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
         body.inertia = [0.4 * frame.mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
     if frame.physics and frame.parent == ROOT:
-        body.add_freejoint()
+        body.add_freejoint(name=frame.id)
         return body
     body.gravcomp = 1.0
     if frame.physics:

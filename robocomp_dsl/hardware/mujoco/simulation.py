@@ -11,9 +11,10 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 from robocomp_dsl.hardware.errors import CommandRefused, Diverged, SceneError, finite
@@ -82,14 +83,7 @@ class Simulation:
 
     def reset(self) -> None:
         """Everything as it was at the start, time included. Raises `SceneError`."""
-        try:
-            spec, self.notes = build_spec(self._scene)
-            spec.option.timestep = self.options.step
-            parts = parts_of(self._scene, self.noise)
-            world = World(spec, dict.fromkeys(parts.values()), seed=self.seed)
-        except ValueError as error:  # what MuJoCo says of a body that it does not take
-            raise SceneError(f"MuJoCo cannot build the world: {error}") from None
-        self.become(Branch(self._scene, world, parts))
+        self.become(self._built(self._scene))
 
     @property
     def world(self) -> World:
@@ -105,6 +99,30 @@ class Simulation:
         self.devices.update(branch.devices)
         self.devices[WORLD] = self
         self.failure = ""
+
+    def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
+        """Another scene, in which all that is still there goes on. Raises `SceneError`."""
+        made = self._built(scene, self.branch.devices, self.world, forget)
+        failure = self.failure
+        self.become(made)
+        self.failure = failure
+
+    def _built(
+        self,
+        scene: Scene,
+        kept: Mapping[str, Any] = MappingProxyType({}),
+        before: World | None = None,
+        forget: Collection[str] = (),
+    ) -> Branch:
+        try:
+            spec, self.notes = build_spec(scene)
+            spec.option.timestep = self.options.step
+            parts = parts_of(scene, self.noise, kept)
+            unique = dict.fromkeys(parts.values())
+            world = World(spec, unique, seed=self.seed, before=before, forget=forget)
+        except ValueError as error:  # what MuJoCo says of a body that it does not take
+            raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+        return Branch(scene, world, parts)
 
     def copy(self) -> Branch:
         """The world as it is now, to be kept or to go on by itself."""

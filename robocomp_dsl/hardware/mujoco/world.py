@@ -7,7 +7,7 @@ bit for bit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 
 import mujoco
@@ -39,9 +39,21 @@ class Part(Protocol):
 
 
 class World:
-    """Bodies under physics. Not thread-safe: one thread, or one lock, drives it."""
+    """Bodies under physics. Not thread-safe: one thread, or one lock, drives it.
 
-    def __init__(self, spec: Any, parts: Iterable[Part] = (), *, seed: int = 0) -> None:
+    A world that comes after another one (`before`) goes on with its time and with the state of all
+    joints of the same name but those in `forget`; parts of both are told by `find` where they are.
+    """
+
+    def __init__(
+        self,
+        spec: Any,
+        parts: Iterable[Part] = (),
+        *,
+        seed: int = 0,
+        before: World | None = None,
+        forget: Collection[str] = (),
+    ) -> None:
         self._parts = tuple(parts)
         for part in self._parts:
             part.build(spec)
@@ -51,11 +63,18 @@ class World:
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self.data = mujoco.MjData(self.model)
+        self._owed = 0.0
+        kept: tuple[Any, ...] = ()
+        if before is not None:
+            kept = before._parts
+            self._take_over(before, forget)
         mujoco.mj_forward(self.model, self.data)
         for i, part in enumerate(self._parts):
+            if part in kept:
+                kept[kept.index(part)].find(self.model, self.data)
+                continue
             # a stream of its own for each, so that one device's noise does not shift another's
             part.bind(self.model, self.data, np.random.default_rng([seed, i]))
-        self._owed = 0.0
 
     @property
     def step(self) -> float:
@@ -83,6 +102,22 @@ class World:
             for part in self._parts:
                 part.after_step(dt)
         self._check()
+
+    def _take_over(self, before: World, forget: Collection[str]) -> None:
+        """Positions, speeds and forces of joints that are in both worlds."""
+        self.data.time, self._owed = before.data.time, before._owed
+        self.model.opt.disableflags = before.model.opt.disableflags
+        old, new = before.model, self.model
+        for joint in range(old.njnt):
+            name = old.joint(joint).name
+            at = mujoco.mj_name2id(new, mujoco.mjtObj.mjOBJ_JOINT, name) if name else -1
+            if at < 0 or name in forget or new.jnt_type[at] != old.jnt_type[joint]:
+                continue
+            there, here = old.joint(joint), new.joint(at)
+            before_joint, this_joint = before.data.joint(there.id), self.data.joint(here.id)
+            this_joint.qpos[:] = before_joint.qpos
+            this_joint.qvel[:] = before_joint.qvel
+            this_joint.qacc_warmstart[:] = before_joint.qacc_warmstart
 
     def _check(self) -> None:
         for kind in _BAD:

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
+from robocomp_dsl.hardware.servants.inner_model import InnerModelServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
@@ -27,6 +28,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
+    "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompSimulation::Simulation": SimulationServant,
 }
 """The servant of each interface."""

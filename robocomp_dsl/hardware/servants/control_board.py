@@ -35,7 +35,7 @@ class ControlBoardServant(Servant):
 
     @property
     def _board(self) -> Board:
-        found: Board = self.device().board
+        found: Board = self.board_device().board
         return found
 
     @property
@@ -189,16 +189,16 @@ class ControlBoardServant(Servant):
 
     def calibrate(self, joints: Names) -> None:
         """Find the zero and go home."""
-        self._begin(self.device().calibrator.calibrate, joints)
+        self._begin(self.board_device().calibrator.calibrate, joints)
 
     def park(self, joints: Names) -> None:
         """Go to rest and switch off."""
-        self._begin(self.device().parking.park, joints)
+        self._begin(self.board_device().parking.park, joints)
 
     def quit(self) -> None:
         """Stop calibrating and parking."""
-        self.device().calibrator.quit()
-        self.device().parking.quit()
+        self.board_device().calibrator.quit()
+        self.board_device().parking.quit()
 
     def _begin(self, lead: Callable[[Any], None], joints: Names) -> None:
         lead(self._board.select.indices(_some(joints)))

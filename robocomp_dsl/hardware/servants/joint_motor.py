@@ -31,7 +31,7 @@ class JointMotorServant(Servant):
 
     @property
     def _board(self) -> Board:
-        found: Board = self.device().board
+        found: Board = self.board_device().board
         return found
 
     # -- goals --------------------------------------------------------------------------------
@@ -53,11 +53,11 @@ class JointMotorServant(Servant):
     def setZeroPos(self, name: str) -> None:
         """Send one motor home."""
         joints = self._joints([name])
-        self._move(joints, self.device().homes[joints], np.zeros(1))
+        self._move(joints, self.board_device().homes[joints], np.zeros(1))
 
     def setSyncZeroPos(self) -> None:
         """Send all motors home."""
-        homes = self.device().homes
+        homes = self.board_device().homes
         self._move(np.arange(len(homes)), homes, np.zeros(len(homes)))
 
     def setVelocity(self, goal: Any) -> None:
@@ -157,7 +157,7 @@ class JointMotorServant(Servant):
             minPos=low / unit,
             maxPos=high / unit,
             maxVelocity=float(board.limits.speed[joint]) / unit,
-            zeroPos=float(self.device().homes[joint]) / unit,
+            zeroPos=float(self.board_device().homes[joint]) / unit,
             stepsRange=float(turns * board.motors.counts[joint]),
             maxDegrees=float(np.rad2deg(high - low)),
             unitsRange=(high - low) / unit,

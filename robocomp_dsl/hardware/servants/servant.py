@@ -89,6 +89,13 @@ class Servant:
         except KeyError:
             raise DeviceGone(f"`{wanted}` has been removed from the world") from None
 
+    def board_device(self) -> Any:
+        """The board of all joints. Raises `DeviceGone` when there are none left."""
+        for device in self._devices.values():
+            if hasattr(device, "board"):
+                return device
+        raise DeviceGone("there are no joints any more")
+
     def told(self, operation: str, error: HardwareError) -> Exception:
         """What the caller of `operation` gets: a declared exception where there is one."""
         for kind, name in self.FAILURES:

@@ -1,0 +1,123 @@
+"""The nodes of a running world: where they are, and changes of them, physics going on.
+
+In: a simulation, whose turn it is. Out: poses in RoboComp's frame, another scene. A frame without a
+joint changes its place in the model at once; for everything else the world is built again around
+what is there (some ms, growing with its meshes). Every function may raise `NodeError`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.errors import finite
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.simulation import Simulation
+from robocomp_dsl.hardware.rotations import Matrix, angles, inverse, pose_rows
+from robocomp_dsl.hardware.scene import ROOT, Frame
+from robocomp_dsl.hardware.scene_edit import (
+    Mistake,
+    NodeError,
+    changed_frame,
+    frame_of,
+    subtree,
+)
+
+NAMES = ("x", "y", "z", "rx", "ry", "rz")
+
+
+def between(simulation: Simulation, base: str, item: str) -> Matrix:
+    """What takes points of the frame `item` to the frame `base`, shape (4, 4), mm."""
+    branch = simulation.branch
+    for name in (base, item):
+        frame_of(branch.scene, name)
+    made: Matrix = inverse(branch.matrix(base)) @ branch.matrix(item)
+    return made
+
+
+def pose_of(matrix: Matrix) -> tuple[float, ...]:
+    """x, y, z, rx, ry, rz of a matrix."""
+    return (*map(float, matrix[:3, 3]), *angles(matrix[:3, :3]))
+
+
+def matrix_of(pose: Sequence[float]) -> Matrix:
+    """The matrix of x, y, z, rx, ry, rz. Raises `CommandRefused` for NaN."""
+    finite(**dict(zip(NAMES, pose, strict=True)))
+    made = np.eye(4)
+    made[:3] = pose_rows(pose)
+    return made
+
+
+def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -> None:
+    """Put the frame `item` where `pose` in `base` is."""
+    frame = frame_of(simulation.branch.scene, item)
+    if frame.id == ROOT:
+        raise NodeError(Mistake.WRONG_NODE, "the root stays where it is")
+    in_parent = between(simulation, frame.parent, base) @ matrix_of(pose)
+    told = pose_of(in_parent)
+    x, y, z, rx, ry, rz = told
+    changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
+    if frame.motion:
+        _place_joint(simulation, changed)
+    else:
+        _place_body(simulation, changed, in_parent)
+
+
+def _place_joint(simulation: Simulation, frame: Frame) -> None:
+    """The joint begins anew at the angle that its pose has."""
+    simulation.rebuild(changed_frame(simulation.branch.scene, frame), forget=(frame.id,))
+    simulation.branch.devices[frame.id].relocated(frame.id)
+
+
+def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None:
+    branch = simulation.branch
+    model, data = branch.world.model, branch.world.data
+    body = branch.body(frame.id)
+    position = axes.point(*in_parent[:3, 3].tolist())
+    turned = axes.quaternion(in_parent[:3, :3])
+    branch.scene = changed_frame(branch.scene, frame)
+    model.body_pos[body], model.body_quat[body] = position, turned
+    first = int(model.body_jntadr[body])
+    for joint in range(first, first + int(model.body_jntnum[body])):
+        state = data.joint(joint)
+        state.qvel[:] = 0.0
+        free = model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+        state.qpos[:] = [*position, *turned] if free else 0.0
+    mujoco.mj_forward(model, data)
+    device = branch.devices.get(frame.id)
+    if hasattr(device, "relocated"):
+        device.relocated(frame.id)
+    simulation.become(branch)
+
+
+def touching(simulation: Simulation, one: str, other: str) -> bool:
+    """Whether a shape at or below one node touches or enters one at or below the other."""
+    left, right = (_geoms(simulation, node) for node in (one, other))
+    world = simulation.branch.world
+    model, data = world.model, world.data
+    if not len(left) or not len(right):
+        return False
+    apart = np.linalg.norm(data.geom_xpos[left][:, None] - data.geom_xpos[right][None], axis=2)
+    reach = model.geom_rbound[left][:, None] + model.geom_rbound[right][None]
+    for i, j in np.argwhere(apart <= reach):
+        a, b = int(left[i]), int(right[j])
+        if a != b and mujoco.mj_geomDistance(model, data, a, b, 1e-6, None) <= 0:
+            return True
+    return False
+
+
+def _geoms(simulation: Simulation, id: str) -> Any:
+    below = subtree(simulation.branch.scene, id)
+    branch = simulation.branch
+    model = branch.world.model
+    bodies = {branch.body(one.id) for one in branch.scene.frames if one.id in below}
+    chosen = [
+        geom
+        for geom in range(model.ngeom)
+        if int(model.geom_bodyid[geom]) in bodies or model.geom(geom).name in below
+    ]
+    return np.array(chosen, dtype=np.int64)
