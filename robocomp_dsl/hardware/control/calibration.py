@@ -98,6 +98,7 @@ class Calibrator:
     def quit(self) -> None:
         """Stop calibrating; the joints stay without calibration, and idle."""
         for joint in list(self._runs):
+            self._board.table.calibrated[joint] = False
             self._board.drive_as(joint, Mode.NOT_CONFIGURED)
         self._runs.clear()
 
