@@ -7,7 +7,7 @@ the new place, or at the old one where there is none any more. Things are matche
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 
 from robocomp_dsl.compare.changes import Changes
@@ -54,7 +54,7 @@ def compare(old: Version, new: Version, report: Report) -> None:
     compare_sets(_others(old, shared), _others(new, shared), changes)
 
 
-def _others(version: Version, shared: Set[str]) -> dict[str, ParameterSet]:
+def _others(version: Version, shared: AbstractSet[str]) -> dict[str, ParameterSet]:
     """The sets of parameters that none of these components uses."""
     used = {
         c.parameters.name for n, c in version.components.items() if n in shared and c.parameters
