@@ -39,6 +39,14 @@ same; nothing was generated. Mend the errors in the old folder (`-I` adds folder
 interfaces that are missing), remove the new folder and run `rcgen migrate` again.""",
 )
 
+ALREADY_OURS = Code(
+    "RC924",
+    Severity.ERROR,
+    "the component has moved over already",
+    """Its CDSL file names a PDSL file, as RoboComp's do not. Such a component is kept up to date
+with `rcgen component`; there is nothing to migrate.""",
+)
+
 CONFIG_LINE = Code(
     "RC931",
     Severity.WARNING,
@@ -203,6 +211,19 @@ PERIOD = Code(
     "the period stands in the description",
     """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file.
 `compute` is called with it; `self.timer` is a stand-in that starts nothing.""",
+)
+
+STATE_METHOD = Code(
+    "RC958",
+    Severity.ERROR,
+    "a method of a state is called otherwise",
+    """RoboComp called `sm_search` when the state `search` was entered, and code fired
+`self.t_search_to_found.emit()`. Now the method is `on_enter_search` (`state_search` is called every
+period while the state lasts), and code fires an event by the name of the target:
+
+    self.machine.go("found")
+
+Rename the methods and put their code in the place of the stubs.""",
 )
 
 NOT_COPIED = Code(

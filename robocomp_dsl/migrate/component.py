@@ -81,6 +81,10 @@ def move_component(
         check_cdsl(path, workspace, report)
         report.add(codes.NO_DESCRIPTION, Source(path, text).whole, "it describes no component")
         return None
+    if tree.parameters is not None:
+        said = f"`{path.name}` has parameters already, so it is no component of RoboComp"
+        report.add(codes.ALREADY_OURS, Source(path, text).whole, said)
+        return None
     moved = Moved(folder, out, path.name, tree.name.text, Source(path, text).whole)
     given = list(_configs(found, report))
     divided = [(config, *divide(config, report)) for config in given]
@@ -241,6 +245,9 @@ def _judged(one: Found, moved: Moved) -> tuple[Code, str] | None:
     script = one.relative == PurePosixPath("src", f"{moved.name}.py")
     if one.fate is Fate.REPLACED or (script and one.fate is Fate.MODULE):
         return codes.REPLACED, f"`{one.relative}` has no successor"
+    spare = one.fate is Fate.DESCRIPTION and one.relative.suffix != ".idsl"
+    if spare and one.relative.name != moved.description:
+        return codes.NOT_COPIED, f"`{one.relative}` was not copied: the component has another one"
     return _WITHOUT_SUCCESSOR.get(one.fate)
 
 

@@ -38,6 +38,7 @@ class Names:
     legacy: str
     modules: frozenset[str]
     handlers: Mapping[str, str]
+    has_states: bool = False
 
 
 def names_for(component: Component, legacy: str) -> Names:
@@ -45,7 +46,7 @@ def names_for(component: Component, legacy: str) -> Names:
     called = names_of(component)
     handlers = {operation.name: name for (_, operation), name in called.handlers.items()}
     modules = frozenset(one.name for one in modules_of(component))
-    return Names(legacy, modules, handlers)
+    return Names(legacy, modules, handlers, component.statemachine is not None)
 
 
 def adapted(user: UserModule, names: Names, report: Report) -> str:
@@ -55,6 +56,7 @@ def adapted(user: UserModule, names: Names, report: Report) -> str:
     if user.worker is not None:
         changes += _aliases(user, names)
         _judge_names(user, user.worker, report)
+        _judge_states(user, user.worker if names.has_states else None, report)
     text = user.source.text
     for start, end, new in sorted(changes, reverse=True):
         text = text[:start] + new + text[end:]
@@ -233,3 +235,12 @@ def _judge_names(user: UserModule, worker: ast.ClassDef, report: Report) -> None
         if isinstance(node.value, ast.Name) and node.value.id == "self" and node.attr in taken:
             said = f"`self.{node.attr}` belongs to the component; call yours otherwise"
             report.add(codes.NAME_TAKEN, _span(user, node), said)
+
+
+def _judge_states(user: UserModule, worker: ast.ClassDef | None, report: Report) -> None:
+    """Tell the methods and events of a state machine of old."""
+    for node in ast.walk(worker) if worker else ():
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("sm_"):
+            new = f"on_enter_{node.name.removeprefix('sm_')}"
+            said = f"`{node.name}` is called by nothing; its name is `{new}` now"
+            report.add(codes.STATE_METHOD, user.span_of(node), said)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
+import random
 import shutil
 import uuid
 from collections.abc import Callable
@@ -14,6 +16,9 @@ from processes import running
 from robocomp_dsl.check import check_ddsl
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.write import write
+from robocomp_dsl.migrate import move_over
+from robocomp_dsl.migrate.finish import generated, judged
 
 Rcgen = Callable[..., object]
 
@@ -227,3 +232,44 @@ def test_toml_goes_to_the_worker_as_tables(rcgen, tmp_path: Path) -> None:
     with running(out, "--middleware", "inproc") as eyes:
         said = eyes.wait_for("DATA")
     assert said == "DATA 20 {'Extrinsic': [0.0, 1.5], 'Display': True, 'Name': 'a'}"
+
+
+def test_ours_do_not_move_again(rcgen, old: Path, tmp_path: Path) -> None:
+    assert rcgen("migrate", old / "follow", "-o", tmp_path / "new").code == 0
+    done = rcgen("migrate", tmp_path / "new", "-o", tmp_path / "newer", "--format", "concise")
+    assert done.code == 1
+    assert "RC924" in done.err
+    assert not (tmp_path / "newer").exists()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_damaged_folders_give_findings_and_sound_files(
+    old: Path, tmp_path: Path, seed: int
+) -> None:
+    chance = random.Random(seed)
+    folder, out = tmp_path / "old", tmp_path / "new"
+    shutil.copytree(old, folder)
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    for path in chance.sample(files, 4):
+        data = bytearray(path.read_bytes())
+        for _ in range(chance.randint(1, 5)):
+            at = chance.randrange(len(data) + 1)
+            data[at : at + chance.choice((0, 1, 12))] = chance.choice(DAMAGE)
+        path.write_bytes(data)
+    report = Report()
+    inputs = [folder / name for name in ("robot.xml", "follow", "laser_sim", "base_sim")]
+    plan = move_over(inputs, out, [], report)
+    write(out, plan.files)
+    for place, made in generated(plan, out, [], report):
+        write(out / place, made)
+        ast.parse((out / place / "specificworker.py").read_bytes())
+        ast.parse((out / place / "generated/params.py").read_bytes())
+    judged(plan, out, [], report)
+    assert all(one.span.source.path.name for one in report)
+    if plan.deployment and not report.failed:
+        found = Report()
+        check_ddsl(out / plan.deployment, Workspace(), found)
+        assert not found.failed
+
+
+DAMAGE = (b"", b'"', b"}", b"{", b";", b"\n", b"/*", b"\xff", b"\0", b"<", b"&", b"'", b"=", b"#x")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -92,3 +93,14 @@ def test_attributes_of_the_component_are_told(tmp_path: Path) -> None:
     made, report = rewritten(text, tmp_path)
     assert made == text
     assert [(one.code.id, one.span.begin) for one in report] == [("RC956", (3, 9))]
+
+
+def test_methods_of_states_are_told(tmp_path: Path) -> None:
+    path = tmp_path / "specificworker.py"
+    path.write_text("class SpecificWorker(G):\n    def sm_search(self):\n        pass\n")
+    user = user_module.read(path, Report())
+    assert user is not None
+    report = Report()
+    adapted(user, replace(NAMES, has_states=True), report)
+    assert [(one.code.id, one.span.text) for one in report] == [("RC958", "sm_search")]
+    assert "on_enter_search" in next(iter(report)).message
