@@ -23,6 +23,7 @@ from robocomp_dsl.runtime.component import Component
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError, Parameters
+from robocomp_dsl.runtime.parameters.shown import lines
 from robocomp_dsl.runtime.settings import (
     RunSettings,
     WrongSetting,
@@ -122,7 +123,10 @@ def _on_signals(stop: Callable[[], None]) -> None:
 
 def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        description=f"Run the component {spec.name}.", allow_abbrev=False
+        description=f"Run the component {spec.name}.",
+        allow_abbrev=False,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="\n".join(_parameters(spec)),
     )
     add = parser.add_argument
     add("--config", metavar="FILE", type=Path, help=f"YAML or TOML ({CONFIG} if it is there)")
@@ -159,6 +163,12 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
     add("--log-format", choices=("text", "json"), default="text")
     add("--version", action="version", version=f"{spec.name}, robocomp_dsl {__version__}")
     return parser
+
+
+def _parameters(spec: ComponentSpec) -> Iterator[str]:
+    if spec.parameters.SCHEMA:
+        yield "parameters (in the configuration, or after --set):"
+        yield from lines(spec.parameters.SCHEMA)
 
 
 def _level() -> str:
