@@ -25,12 +25,11 @@ Party = Component | Instance | Interface
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """`user` uses `provider`; each span is where the file of that party says so."""
+    """`user` uses `provider`; `user_span` is where the file of the user says so."""
 
     user: Party
     user_span: Span
     provider: Party
-    provider_span: Span
 
 
 def interface_key(interface: Interface) -> tuple[str, int]:
@@ -54,11 +53,11 @@ def uses_of_components(found: Iterable[Component]) -> list[Use]:
         for port in one.ports:
             ports.setdefault((port.role, interface_key(port.interface)), []).append((one, port))
     return [
-        Use(user, user_port.span, provider, port.span)
+        Use(user, user_port.span, provider)
         for (role, key), users in ports.items()
         if role in PROVIDERS
         for user, user_port in users
-        for provider, port in ports.get((PROVIDERS[role], key), ())
+        for provider, _ in ports.get((PROVIDERS[role], key), ())
     ]
 
 
@@ -70,9 +69,9 @@ def uses_of_interface(interface: Interface, found: Iterable[Component]) -> list[
             if interface_key(port.interface) != interface_key(interface):
                 continue
             if port.role in PROVIDERS:
-                uses.append(Use(one, port.span, interface, interface.span))
+                uses.append(Use(one, port.span, interface))
             else:
-                uses.append(Use(interface, interface.span, one, port.span))
+                uses.append(Use(interface, interface.span, one))
     return uses
 
 
@@ -82,11 +81,9 @@ def uses_of_instances(deployment: Deployment) -> list[Use]:
 
 
 def _of_wire(one: Connection) -> Use:
-    source_span = one.source.span if one.implied else one.span
-    target_span = one.target.span if one.implied else one.span
-    if one.source_port.role is Role.PUBLISHES:
-        return Use(one.target, target_span, one.source, source_span)
-    return Use(one.source, source_span, one.target, target_span)
+    published = one.source_port.role is Role.PUBLISHES
+    user, provider = (one.target, one.source) if published else (one.source, one.target)
+    return Use(user, user.span if one.implied else one.span, provider)
 
 
 def _model(session: Session, path: Path) -> object:
