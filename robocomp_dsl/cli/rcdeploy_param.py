@@ -123,6 +123,7 @@ def _proxies(one: folder.Running) -> Iterator[ProxyOf]:
         COMPONENT,
         ComponentProxy,
     )
+    from robocomp_dsl.runtime.errors import MiddlewareError, Timeout  # noqa: PLC0415
     from robocomp_dsl.runtime.execution import Execution  # noqa: PLC0415
     from robocomp_dsl.runtime.middleware import open_middleware  # noqa: PLC0415
     from robocomp_dsl.runtime.middleware.base import Endpoint, Host  # noqa: PLC0415
@@ -133,10 +134,16 @@ def _proxies(one: folder.Running) -> Iterator[ProxyOf]:
 
     def proxy_of(name: str) -> ComponentProxy:
         at = Endpoint(COMPONENT, "rcdeploy-param", "Component", (name,))
-        return ComponentProxy(middleware.proxy(at))
+        proxy = ComponentProxy(middleware.proxy(at))
+        proxy.set_timeout(PATIENCE_S)
+        return proxy
 
     try:
         yield proxy_of
+    except Timeout as error:
+        _fail(f"a component does not answer within {PATIENCE_S:g} s; is it stuck? ({error})")
+    except MiddlewareError as error:
+        _fail(str(error))
     finally:
         middleware.close()
 
@@ -144,7 +151,8 @@ def _proxies(one: folder.Running) -> Iterator[ProxyOf]:
 def _reached(proxy_of: ProxyOf, name: str) -> ComponentProxy:
     proxy = proxy_of(name)
     if not proxy.wait_for_server(PATIENCE_S):
-        _fail(f"`{name}` does not answer; is it running? (rcdeploy status)")
+        hint = "see `rcdeploy status`; components of other middlewares than zenoh are not reached"
+        _fail(f"`{name}` does not answer within {PATIENCE_S:g} s", hint)
     return proxy
 
 

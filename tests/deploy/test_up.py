@@ -138,6 +138,18 @@ def test_parameters_of_running_components(folder: Path) -> None:
             run = rcdeploy("param", *wrong)
             assert (run.returncode, hint in run.stderr) == (1, True), run.stderr
         assert rcdeploy("param", "set", "app", "arm", "rate").returncode == 2
+        odd = rcdeploy("param", "set", "app", "arm", "rate=-5")
+        assert (odd.returncode, "lowest value is 1 Hz" in odd.stderr) == (1, True), odd.stderr
+        odd = rcdeploy("param", "set", "app", "arm", "rate=zwölf=12")
+        assert (odd.returncode, "zwölf=12" in odd.stderr) == (1, True), odd.stderr
+        arm = json.loads(rcdeploy("app.ddsl", "status", "--format", "json").stdout)["components"][0]
+        os.kill(arm["pid"], signal.SIGSTOP)
+        try:
+            stuck = rcdeploy("param", "get", "app", "arm", "rate")
+        finally:
+            os.kill(arm["pid"], signal.SIGCONT)
+        assert (stuck.returncode, stuck.stdout) == (1, "")
+        assert "does not answer within 5 s" in stuck.stderr
         app.process.send_signal(signal.SIGINT)
         assert app.end() == 0
 
