@@ -7,10 +7,11 @@ stages, in order, each in a module of its own:
     description   CDSL in today's form
     config, ice   configurations as entries; what of them only Ice reads
     infer, texts  entries of all files to parameters; PDSL and YAML
-    python        the worker and its modules, with `worker` for each and `legacy` for old names
-    component     all of these for one folder
+    python        the worker and its modules: `worker` and `imports` for each, `legacy` for names
+    copies        the other files
+    component     all of these for one folder, which gives a `moved` component
     manager       the processes of rcmanager or `sub.toml`
-    deployment    addresses to instances and wires; `ddsl` writes them
+    deployment    addresses to `instances`, with `wiring`; `ddsl` writes them
     record        `MIGRATION.md`
 
 Each goes on after a mistake in what it reads, which it reports with file and line.
@@ -28,10 +29,12 @@ from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.component_names import modules_of
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.component import Moved, interface_files, move_component
+from robocomp_dsl.migrate.component import interface_files, move_component
 from robocomp_dsl.migrate.ddsl import PEERS, ddsl_text, interfaces_in, peer_files
-from robocomp_dsl.migrate.deployment import COMMON, Draft, by_identity, draft
+from robocomp_dsl.migrate.deployment import by_identity, draft
+from robocomp_dsl.migrate.instances import COMMON, Draft
 from robocomp_dsl.migrate.manager import Node, read_manager
+from robocomp_dsl.migrate.moved import Moved
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.source import Source, UnreadableSource
 

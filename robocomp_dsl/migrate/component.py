@@ -7,59 +7,30 @@ data, and in the report everything that was not carried over. Nothing is written
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from robocomp_dsl.check import check_cdsl
 from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.diagnostics import Code, Report
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.component_names import modules_of
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.config import Config, Entry, read_config, read_source
+from robocomp_dsl.migrate.copies import copy_all, is_written
 from robocomp_dsl.migrate.description import completed, modern, tree_of
 from robocomp_dsl.migrate.folder import Fate, Found, files_of
 from robocomp_dsl.migrate.ice import IceSettings, divide
 from robocomp_dsl.migrate.infer import Parameters, infer
+from robocomp_dsl.migrate.moved import Moved, MovedConfig
 from robocomp_dsl.migrate.python import carried_over, period_in
 from robocomp_dsl.migrate.texts import pdsl_text, yaml_text
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.resources import INTERFACES
-from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
+from robocomp_dsl.source import Source, UnreadableSource
 
 PERIOD = ("Period", "Compute")
 """Where configurations of the newer form have the period, in ms."""
-
-
-@dataclass(frozen=True, slots=True)
-class MovedConfig:
-    """A configuration: the old file, the new one in the component's folder, and its addresses."""
-
-    old: Path
-    new: str
-    ice: IceSettings
-
-
-@dataclass(slots=True)
-class Moved:
-    """A component on its way. `component` is None where its description has errors."""
-
-    folder: Path
-    out: Path
-    description: str
-    name: str
-    span: Span
-    component: Component | None = None
-    configs: tuple[MovedConfig, ...] = ()
-    files: list[OutputFile] = field(default_factory=list)
-    became: list[tuple[str, str]] = field(default_factory=list)
-
-    def add(self, file: OutputFile, old: str) -> None:
-        """A file that `old` became; the first of a path stays."""
-        if all(one.path != file.path for one in self.files):
-            self.files.append(file)
-            self.became.append((old, file.path))
 
 
 def move_component(
@@ -94,7 +65,7 @@ def move_component(
     component = _resolve(moved, workspace, report)
     if component is not None:
         _carry_over(moved, component, found, parameters, report)
-    _copy_all(moved, found, report)
+    copy_all(moved, found, report)
     return moved
 
 
@@ -216,64 +187,9 @@ def _carry_over(
 ) -> None:
     """The code in Python."""
     for file, old in carried_over(component, found, parameters, report):
-        if _is_written(file.path):
+        if is_written(file.path):
             source = Source(moved.folder / old, "")
             said = f"`{file.path}` is written by rcgen; the old file was not copied"
             report.add(codes.NOT_COPIED, source.whole, said)
         else:
             moved.add(file, old)
-
-
-def _is_written(path: str) -> bool:
-    """Whether generation rewrites a file each time."""
-    return path == "main.py" or path.startswith("generated/")
-
-
-def _copy_all(moved: Moved, found: Sequence[Found], report: Report) -> None:
-    """The other files, and what has no successor."""
-    room = 16 * MAX_BYTES
-    for one in found:
-        told = _judged(one, moved)
-        if told is not None:
-            report.add(told[0], Source(one.path, "").whole, told[1])
-        elif one.fate is Fate.COPY:
-            room -= _copy(moved, one, room, report)
-
-
-def _judged(one: Found, moved: Moved) -> tuple[Code, str] | None:
-    """The finding about a file that has no successor."""
-    script = one.relative == PurePosixPath("src", f"{moved.name}.py")
-    if one.fate is Fate.REPLACED or (script and one.fate is Fate.MODULE):
-        return codes.REPLACED, f"`{one.relative}` has no successor"
-    spare = one.fate is Fate.DESCRIPTION and one.relative.suffix != ".idsl"
-    if spare and one.relative.name != moved.description:
-        return codes.NOT_COPIED, f"`{one.relative}` was not copied: the component has another one"
-    return _WITHOUT_SUCCESSOR.get(one.fate)
-
-
-_WITHOUT_SUCCESSOR = {
-    Fate.CODE: (codes.NOT_PYTHON, "code in C++ is not carried over"),
-    Fate.WINDOW: (codes.INTERFACE_WINDOW, "the window is not carried over"),
-    Fate.LINK: (codes.NOT_COPIED, "it is a link or no file, and was not copied"),
-    Fate.TOO_MANY: (codes.NOT_COPIED, "there are too many files; from here on none was copied"),
-}
-
-
-def _copy(moved: Moved, one: Found, room: int, report: Report) -> int:
-    """Copy a file as it is; its size."""
-    name = str(one.relative)
-    data, said = b"", ""
-    try:
-        with one.path.open("rb") as stream:
-            data = stream.read(min(MAX_BYTES, room) + 1)
-    except OSError as error:
-        said = error.strerror or str(error)
-    if len(data) > min(MAX_BYTES, room):
-        said = "it is too large"
-    elif any(file.path == name for file in moved.files) or _is_written(name):
-        said = "there is another file of this name in the new component"
-    if said:
-        report.add(codes.NOT_COPIED, Source(one.path, "").whole, f"it was not copied: {said}")
-        return 0
-    moved.add(OutputFile(name, data.decode("utf-8", "surrogateescape")), name)
-    return len(data)

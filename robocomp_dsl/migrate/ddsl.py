@@ -9,7 +9,8 @@ from collections.abc import Iterator, Mapping
 
 from robocomp_dsl.generate.literals import printable
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.migrate.deployment import Draft, Instance, host_of, hosts_of, relative
+from robocomp_dsl.migrate.deployment import relative
+from robocomp_dsl.migrate.instances import Draft, Instance, host_of, hosts_of
 from robocomp_dsl.model.interface import Interface, Module
 
 PEERS = "peers"
