@@ -22,8 +22,9 @@ def random_position(model, random) -> np.ndarray:  # type: ignore[no-untyped-def
     """Any position of all joints; quaternions of any length but 0."""
     made = random.uniform(-2, 2, model.nq)
     for j in range(model.njnt):
-        if model.jnt_type[j] in (JOINT.mjJNT_FREE, JOINT.mjJNT_BALL):
-            at = model.jnt_qposadr[j] + (3 if model.jnt_type[j] == JOINT.mjJNT_FREE else 0)
+        kind = JOINT(model.jnt_type[j])
+        if kind in (JOINT.mjJNT_FREE, JOINT.mjJNT_BALL):
+            at = model.jnt_qposadr[j] + (3 if kind == JOINT.mjJNT_FREE else 0)
             made[at : at + 4] = random.normal(size=4)
     return made
 

@@ -94,11 +94,7 @@ class Controls:
     # -- joints -------------------------------------------------------------------------------
 
     def _joints(self) -> None:
-        simple = [
-            j
-            for j in range(self.model.njnt)
-            if self.model.jnt_type[j] in (_JOINT.mjJNT_HINGE, _JOINT.mjJNT_SLIDE)
-        ]
+        simple = [j for j in range(self.model.njnt) if _kind(self.model, j) in {"hinge", "slide"}]
         if not simple:
             self.gui.add_markdown("Nothing here turns or slides.")
         for j in simple[:_MOST_SLIDERS]:
@@ -108,7 +104,7 @@ class Controls:
 
     def _slider(self, j: int) -> None:
         model = self.model
-        hinge = model.jnt_type[j] == _JOINT.mjJNT_HINGE
+        hinge = _kind(model, j) == "hinge"
         address = int(model.jnt_qposadr[j])
         widest = math.pi if hinge else self.stage.extent
         low, high = model.jnt_range[j].tolist() if model.jnt_limited[j] else (-widest, widest)
@@ -166,7 +162,7 @@ class Controls:
         """Put a body elsewhere in its parent; one that is free is moved where it is."""
         self.model.body_pos[body], self.model.body_quat[body] = position, quat
         first = int(self.model.body_jntadr[body])
-        if first >= 0 and self.model.jnt_type[first] == _JOINT.mjJNT_FREE:
+        if first >= 0 and _kind(self.model, first) == "free":
             at = int(self.model.jnt_qposadr[first])
             self.data.qpos[at : at + 7] = (*position, *quat)
         self._changed()
@@ -196,8 +192,13 @@ def tree(model: Any, names: list[str]) -> str:
 
 def _moves(model: Any, body: int) -> str:
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
-    kinds = [_KINDS[int(model.jnt_type[j])] for j in range(first, first + count)]
+    kinds = [_kind(model, j) for j in range(first, first + count)]
     return ", ".join(kinds) or "fixed"
+
+
+def _kind(model: Any, joint: int) -> str:
+    # a number of numpy is never equal to one of MuJoCo's
+    return _KINDS[int(model.jnt_type[joint])]
 
 
 def quaternion(turn: Any) -> Any:

@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 _MOST_GEOMS = 200_000
 _FRAME = mujoco.mjtFrame
 _LABEL = mujoco.mjtLabel
+_SKY = 0.4
+"""Of the way to the far plane: the box of the sky is not nearer, scenes are much smaller."""
 LARGEST = 8192
 """Pixels along one side."""
 
@@ -92,6 +94,24 @@ class Painter:
         made = np.empty((self.height, self.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(made, None, view, self._context)
         return made[::-1]
+
+    def depths(self) -> NDArray[np.float32]:
+        """How far ahead of the camera is what was painted last: m, infinite where nothing is.
+
+        Shape (height, width). From window coordinates with 1 at the near plane and 0 at the far
+        one, d = n·f / (w·(f - n) + n).
+        """
+        made = np.empty((self.height, self.width), dtype=np.float32)
+        self._context.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
+        mujoco.mjr_readPixels(
+            None, made, mujoco.MjrRect(0, 0, self.width, self.height), self._context
+        )
+        extent, planes = float(self.model.stat.extent), self.model.vis.map
+        near, far = (float(one) * extent for one in (planes.znear, planes.zfar))
+        wide = made.astype(np.float64)
+        metres = near * far / (wide * (far - near) + near)
+        metres[metres > _SKY * far] = np.inf
+        return np.ascontiguousarray(metres[::-1], dtype=np.float32)
 
     def _camera(self, look: Look, data: Any) -> Any:
         camera = mujoco.MjvCamera()
