@@ -6,7 +6,7 @@ parents again, or `NodeError` with the kind of mistake.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from enum import Enum
 
@@ -42,8 +42,8 @@ def parents(scene: Scene) -> dict[str, str]:
     below: dict[str, list[str]] = {}
     for frame in scene.frames:
         below.setdefault(frame.parent, []).append(frame.id)
-    for shape in (*scene.boxes, *scene.meshes):
-        below.setdefault(shape.frame, []).append(shape.id)
+    for frame_id, shape in _shapes(scene):
+        below.setdefault(frame_id, []).append(shape)
     for device in scene.devices:
         if device.id != device.frame:
             below.setdefault(device.frame, []).append(device.id)
@@ -54,6 +54,12 @@ def parents(scene: Scene) -> dict[str, str]:
         found[node] = parent
         todo.extend((child, node) for child in reversed(below.get(node, [])))
     return found
+
+
+def _shapes(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Every shape as (its frame, its id)."""
+    yield from ((one.frame, one.id) for one in scene.boxes)
+    yield from ((one.frame, one.id) for one in scene.meshes)
 
 
 def frame_of(scene: Scene, id: str) -> Frame:

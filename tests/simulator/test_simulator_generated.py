@@ -37,7 +37,8 @@ def test_it_is_clean_and_typed(folder: Path, tmp_path: Path) -> None:
 def test_again_nothing_is_to_do(folder: Path) -> None:
     """The same world gives the same bytes, and what is the user's stays."""
     worker = folder / "specificworker.py"
-    before = {p: p.read_bytes() for p in folder.rglob("*") if p.suffix in {".py", ".json", ".cdsl"}}
+    kinds = {".py", ".json", ".cdsl"}
+    before = {p: p.read_bytes() for p in folder.rglob("*") if p.suffix in kinds}
     worker.write_text(f"{worker.read_text()}\n# mine\n")
     done = rcgen("simulator", "room.xml", cwd=folder.parent)
     assert "0 of" in done.stdout

@@ -34,6 +34,8 @@ OFFERS = (
     Offer("prismaticjoint", "JointMotor", shared=True),
     Offer("joint", "ControlBoard", shared=True),
     Offer("prismaticjoint", "ControlBoard", shared=True),
+    Offer("camera", "CameraSimple"),
+    Offer("rgbd", "CameraRGBDSimple", shared=True),
     Offer("imu", "IMU"),
     Offer("touchsensor", "TouchSensor", shared=True),
 )

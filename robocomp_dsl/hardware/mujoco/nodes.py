@@ -88,8 +88,8 @@ def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None
         free = model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
         state.qpos[:] = [*position, *turned] if free else 0.0
     mujoco.mj_forward(model, data)
-    device = branch.devices.get(frame.id)
-    if hasattr(device, "relocated"):
+    device: Any = branch.devices.get(frame.id)
+    if device is not None and hasattr(device, "relocated"):
         device.relocated(frame.id)
     simulation.become(branch)
 

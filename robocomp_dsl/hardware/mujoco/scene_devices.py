@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any
 
+from robocomp_dsl.hardware.camera import CameraSettings
 from robocomp_dsl.hardware.laser import LaserSettings
 from robocomp_dsl.hardware.mobile_base import BaseLimits
+from robocomp_dsl.hardware.mujoco.camera import Camera
 from robocomp_dsl.hardware.mujoco.imu import Imu
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
@@ -77,11 +79,26 @@ def _touch(site: Site, device: Device) -> TouchSensor:  # noqa: ARG001
     return TouchSensor(settings, body_name(device.frame), name=device.id)
 
 
+def _camera(site: Site, device: Device) -> Camera:
+    given = device.settings
+    usual = CameraSettings()
+    settings = CameraSettings(
+        int(given["width"]) or usual.width,
+        int(given["height"]) or usual.height,
+        float(given["focal"]) or usual.focal,
+        noise=float(given["noise"]),
+        depth=device.kind == "rgbd",
+    )
+    return Camera(settings, body_name(device.frame), site.noise, name=device.id)
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
     "omnirobot": _base,
     "imu": _imu,
+    "camera": _camera,
+    "rgbd": _camera,
     "touchsensor": _touch,
 }
 """Kinds of devices that are simulated one by one."""

@@ -98,6 +98,9 @@ class Simulation:
         self.devices.clear()
         self.devices.update(branch.devices)
         self.devices[WORLD] = self
+        for one in branch.devices.values():
+            if hasattr(one, "turns"):  # it looks at the world when it likes
+                one.turns = self.turns
         self.failure = ""
 
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
@@ -126,7 +129,7 @@ class Simulation:
 
     def copy(self) -> Branch:
         """The world as it is now, to be kept or to go on by itself."""
-        return self.branch.copy(shared=(self.noise,))
+        return self.branch.copy(shared=(self.noise, self.turns))
 
     def set_physics(self, on: bool) -> None:
         """Gravity and contacts, or neither."""

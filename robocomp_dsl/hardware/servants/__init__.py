@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
+from robocomp_dsl.hardware.servants.camera import CameraServant, RgbdServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.inner_model import InnerModelServant
@@ -29,6 +30,8 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
+    "RoboCompCameraSimple::CameraSimple": CameraServant,
+    "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,
     "RoboCompSimulation::Simulation": SimulationServant,
 }
 """The servant of each interface."""

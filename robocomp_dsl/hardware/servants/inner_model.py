@@ -23,7 +23,7 @@ from robocomp_dsl.hardware.errors import (
     finite,
 )
 from robocomp_dsl.hardware.mesh_file import MeshError, read_mesh
-from robocomp_dsl.hardware.scene import Box, Frame, Mesh, Motion, Scene
+from robocomp_dsl.hardware.scene import Axis, Box, Frame, Mesh, Motion, Scene
 from robocomp_dsl.hardware.scene_edit import (
     Mistake,
     NodeError,
@@ -53,6 +53,7 @@ _TYPES = {
     "pointcloud": "PointCloud",
     "display": "DisplayII",
 }
+_AXES: dict[str, Axis] = {"x": "x", "y": "y", "z": "z"}
 _FALLING = 1.0
 """kg of a transform with physics that is added: the interface has no word for it."""
 
@@ -104,9 +105,9 @@ class InnerModelServant(Servant):
 
     def addJoint(self, item: str, base: str, j: Any) -> bool:
         """A hinge."""
-        axis = j.axis or "z"
-        if axis not in ("x", "y", "z"):
-            raise NodeError(Mistake.VALUES, f"there is no axis `{axis}`: x, y or z")
+        axis = _AXES.get(j.axis or "z")
+        if axis is None:
+            raise NodeError(Mistake.VALUES, f"there is no axis `{j.axis}`: x, y or z")
         if math.isnan(j.min) or math.isnan(j.max):
             raise NodeError(Mistake.VALUES, "a limit is no number")
         finite(mass=j.mass)

@@ -122,7 +122,7 @@ class SimulationServant(Servant):
         kept = self._found(self._kept, "snapshot", snapshot)
         it = self.device()
         with it.turns:
-            it.become(kept.copy(shared=(it.noise,)))
+            it.become(kept.copy(shared=(it.noise, it.turns)))
 
     def forget(self, snapshot: int) -> None:
         """Keep it no more."""
