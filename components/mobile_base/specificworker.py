@@ -1,4 +1,4 @@
-"""mobile_base: a MuJoCo world that follows the clock, its two devices served as interfaces."""
+"""mobile_base: a MuJoCo world that follows or makes the time, its devices served as interfaces."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from simulation import Simulation, simulate
 from robocomp_dsl.hardware.differential_robot import BaseState
 from robocomp_dsl.hardware.errors import HardwareError
 from robocomp_dsl.hardware.planar import ORIGIN, Pose
+from robocomp_dsl.runtime.clock_source import ClockSource
+from robocomp_dsl.runtime.parameters import Refused
 
 MOST_BEHIND = 0.1
 """Seconds that one `compute` may make up for; behind a longer pause the world was asleep."""
@@ -25,16 +27,38 @@ class SpecificWorker(GenericWorker):
 
     def initialize(self) -> None:
         """Build the world."""
+        self.will_set_speed(self.params.speed)
+        self.begin()
+        self.did_set_speed(self.params.speed)
+
+    def begin(self) -> None:
+        """The world as it is at the beginning."""
         self.simulation = simulate(self.params)
-        self.last = self.clock.now()
+        self.last, self.epoch = self.clock.now(), max(self.clock.epoch, 0)
         self.next_publication = 0.0
+
+    def will_set_speed(self, value: float) -> None:
+        """The clock of the machine cannot be waited for less than it takes."""
+        if not value and not isinstance(self.clock, ClockSource):
+            raise Refused(
+                "0 is for deployments with `clock sim`, where this component is the clock"
+            )
+
+    def did_set_speed(self, _old: float) -> None:
+        """The time of a deployment that this component makes goes on as fast."""
+        if isinstance(self.clock, ClockSource):
+            self.clock.set_speed(self.params.speed)
 
     def compute(self) -> None:
         """Let the world catch up with the clock, and tell where the base is."""
+        if self.clock.epoch != self.epoch:
+            self.begin()
         now = self.clock.now()
-        passed, self.last = min(now - self.last, MOST_BEHIND), now
+        passed, self.last = now - self.last, now
+        if not isinstance(self.clock, ClockSource):
+            passed = min(passed, MOST_BEHIND) * self.params.speed
         world = self.simulation.world
-        world.advance(passed * self.params.speed)
+        world.advance(passed)
         if world.time >= self.next_publication:
             period = self.params.publish_period / 1000
             self.next_publication = max(self.next_publication + period, world.time)

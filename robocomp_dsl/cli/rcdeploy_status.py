@@ -28,10 +28,12 @@ def command(which: str | None, form: str) -> None:
         rcdeploy_running.fail(f"`{one.name}` does not answer; it may be ending")
     rows = [status.Row(**row) for row in answer["rows"]]
     if form == "json":
-        print(json.dumps(_data(one, rows), indent=1))
+        print(json.dumps(_data(one, rows) | {"clock": answer["clock"]}, indent=1))
     else:
         since = status.duration(time.time() - one.since)
         print(f"{one.name}: {one.path}, pid {one.pid}, domain {one.domain}, up {since}")
+        if answer["clock"]:
+            print(status.Time(**answer["clock"]).shown())
         width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
         print("\n".join(status.table(rows, width, colours=options.colours_on(sys.stdout))))
     if any(row.state not in (status.READY, status.ENDED) for row in rows):

@@ -18,7 +18,7 @@ from typing import Any, TypeAlias
 
 from robocomp_dsl.deploy import folder
 from robocomp_dsl.deploy.logs import Record
-from robocomp_dsl.deploy.status import Row
+from robocomp_dsl.deploy.status import Row, Time
 
 KEPT = 10_000
 """Records that `logs` can show of the past; a slow reader falls back by as many, too."""
@@ -60,11 +60,16 @@ class Server:
     """Answers other terminals until `close`."""
 
     def __init__(
-        self, journal: Journal, rows: Callable[[], list[Row]], stop: Callable[[str], None]
+        self,
+        journal: Journal,
+        rows: Callable[[], list[Row]],
+        stop: Callable[[str], None],
+        time: Callable[[], Time | None],
     ) -> None:
         self._journal = journal
         self._rows = rows
         self._stop = stop
+        self._time = time
         self._ended: asyncio.Future[dict[str, Any]] | None = None
         self._talks: set[asyncio.Task[None]] = set()
 
@@ -101,7 +106,9 @@ class Server:
     ) -> None:
         match request.get("verb"):
             case "status":
-                await _send(writer, {"rows": [row.as_dict() for row in self._rows()]})
+                rows, time = self._rows(), self._time()
+                clock = time.as_dict() if time else None
+                await _send(writer, {"rows": [row.as_dict() for row in rows], "clock": clock})
             case "logs":
                 await self._logs(request, reader, writer)
             case "stop":

@@ -67,7 +67,7 @@ async def _run(engine: Local, journal: Journal, claim: folder.Claim, display: Di
     for number, reason in _SIGNALS.items():
         loop.add_signal_handler(number, engine.stop, reason)
     plan = engine.plan
-    server = Server(journal, engine.rows, engine.stop)
+    server = Server(journal, engine.rows, engine.stop, engine.time)
     await server.open(claim.folder / folder.SOCKET)
     path = str(plan.path.resolve())
     claim.tell(folder.Running(plan.name, path, plan.domain, os.getpid(), time.time()))

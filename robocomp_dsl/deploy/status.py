@@ -41,6 +41,29 @@ class Row:
         return asdict(self)
 
 
+@dataclass(frozen=True, slots=True)
+class Time:
+    """Simulated time of a deployment, in s since the last of `resets`.
+
+    `factor`: simulated seconds per second of late.
+    """
+
+    seconds: float
+    factor: float
+    resets: int = 0
+    paused: bool = False
+
+    def as_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return asdict(self)
+
+    def shown(self) -> str:
+        """In words."""
+        pace = "stands still" if self.paused else f"{self.factor:.2f} times real time"
+        resets = f", reset {self.resets} times" if self.resets else ""
+        return f"simulated time {self.seconds:.2f} s, {pace}{resets}"
+
+
 def table(rows: Sequence[Row], width: int, *, colours: bool) -> list[str]:
     """`rows` as lines of at most `width` columns, a head above them."""
     cells = [_HEADS, *(_cells(row) for row in rows)]

@@ -152,6 +152,36 @@ class FollowerProxy(rt.Proxy):
         return self.advance(request)
 
 
+LEADER = rt.Interface(
+    "RoboCompLockStep::Leader",
+    (
+        rt.Operation(
+            "leave",
+            rt.Pattern.QUERY,
+            inputs=(("name", rt.STRING),),
+            outputs=(),
+            throws=(),
+            idempotent=False,
+        ),
+    ),
+)
+
+
+class LeaderProxy(rt.Proxy):
+    """The source of the clock serves it."""
+
+    __slots__ = ("_call_leave",)
+    INTERFACE = LEADER
+    _call_leave: Callable[..., None]
+
+    def _bind(self, bind: Callable[[rt.Operation], Callable[..., Any]]) -> None:
+        self._call_leave = bind(LEADER.operations[0])
+
+    def leave(self, name: str) -> None:
+        """The component called `name` ends, and is not to be missed."""
+        self._call_leave(name)
+
+
 CLOCK = rt.Interface(
     "RoboCompClock::Clock",
     (

@@ -134,6 +134,7 @@ class Runner:
                 self._say_hello()
                 life.loop()
             self._well &= life.end()
+            self._timing.close()
         finally:
             self._ended.set()
             self.stop()

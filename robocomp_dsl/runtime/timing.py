@@ -7,12 +7,21 @@ In: its settings, what it is, its connections. Out: a `Timing`. The component th
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.clock import Clock, WallClock
-from robocomp_dsl.runtime.clock_interface import CLOCK, FOLLOWER, ClockProxy, Tick
+from robocomp_dsl.runtime.clock_interface import (
+    CLOCK,
+    FOLLOWER,
+    LEADER,
+    ClockProxy,
+    LeaderProxy,
+    Tick,
+)
 from robocomp_dsl.runtime.clock_settings import LOCKSTEP, WALL, ClockSettings
 from robocomp_dsl.runtime.clock_source import ClockSource
+from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.lockstep.conductor import PORT, Conductor
 from robocomp_dsl.runtime.lockstep.follower import Follower
@@ -21,6 +30,10 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, Qos
 from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 from robocomp_dsl.runtime.spec import ComponentSpec
 
+LEADING = "Leader"
+LEAVE_S = 0.5
+"""What telling the source of the own end may take."""
+
 
 def _nothing() -> None:
     pass
@@ -28,11 +41,15 @@ def _nothing() -> None:
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """`ports` is the middleware for the component's own ports; `open` is called behind them."""
+    """`ports` is the middleware for the component's own ports.
+
+    `open` is called behind them, `close` behind `finalize`.
+    """
 
     clock: Clock
     ports: Middleware
     open: Callable[[], None] = _nothing
+    close: Callable[[], None] = _nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +85,12 @@ def _source(settings: ClockSettings, owner: Owner, middleware: Middleware, port:
     ports = StepPorts(middleware, settings.limit, now, lambda _ns: None)
     steps = Conductor(middleware, owner.name, settings, ports, owner.fail)
     source = ClockSource(tell, steps)
-    return Timing(source, ports)
+
+    def serve() -> None:
+        at = Endpoint(LEADER, owner.name, LEADING)
+        middleware.serve(at, {"leave": steps.leave}, Execution())
+
+    return Timing(source, ports, serve)
 
 
 def _follower(settings: ClockSettings, owner: Owner, middleware: Middleware) -> Timing:
@@ -83,7 +105,16 @@ def _follower(settings: ClockSettings, owner: Owner, middleware: Middleware) -> 
         at = Endpoint(FOLLOWER, owner.name, PORT)
         middleware.serve(at, follower.handlers(ports), Execution())
 
-    return Timing(follower, ports, serve)
+    peers = (settings.source,) if settings.source else ()
+    leader = LeaderProxy(middleware.proxy(Endpoint(LEADER, owner.name, LEADING, peers)))
+    leader.set_timeout(LEAVE_S)
+
+    def leave() -> None:
+        # Where the source has ended already nobody will miss this component.
+        with suppress(MiddlewareError):
+            leader.leave(owner.name)
+
+    return Timing(follower, ports, serve, leave)
 
 
 def _listener(settings: ClockSettings, owner: Owner, middleware: Middleware) -> Timing:

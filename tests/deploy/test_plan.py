@@ -114,7 +114,8 @@ WORLD = component("world", port(Role.PUBLISHES, SCAN))
             "lockstep,from=w,with=a+b,limit=2.5",
             "lockstep,from=w,limit=2.5",
             "on-failure",
-            "simulated, from w, in lock-step: at most 2.5 s a step, goes on without one that is lost",
+            "simulated, from w, in lock-step: at most 2.5 s a step,"
+            " goes on without one that is lost",
         ),
         (
             {"kind": "sim", "lockstep": True, "stops_when_lost": True},

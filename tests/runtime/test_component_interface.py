@@ -19,7 +19,7 @@ import "LockStep.idsl";
 import "Clock.idsl";
 Component x
 {
-    Communications { implements Follower; requires Follower; publishes Clock; };
+    Communications { implements Follower, Leader; requires Follower, Leader; publishes Clock; };
     language Python;
 };
 """

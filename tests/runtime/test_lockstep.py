@@ -235,17 +235,38 @@ def test_a_reset_is_the_beginning_again(middleware: str) -> None:
         assert [line.split(" ")[0] for line in lines()] == seen * 2
 
 
-def test_who_ends_is_told_and_left_out(middleware: str, caplog: pytest.LogCaptureFixture) -> None:
-    with running([Base, Driver, Recorder], middleware) as them:
+def die(runner: Runner) -> None:
+    """As when the process is killed: it is gone, and has told nobody."""
+    runner.middleware.close()
+    runner.middleware.announce = lambda state: None  # type: ignore[method-assign]
+
+
+@pytest.mark.parametrize(
+    ("how", "said", "level"),
+    [
+        (end, "recorder has ended, the others go on without it", logging.INFO),
+        (die, "of simulated time: recorder does not serve", logging.WARNING),
+    ],
+)
+def test_who_is_away_is_told_and_left_out(
+    how: Callable[[Runner], None],
+    said: str,
+    level: int,
+    middleware: str,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with (
+        caplog.at_level(logging.INFO),
+        running([Base, Driver, Recorder], middleware) as them,
+    ):
         base = them["base"].worker
         base.end = 1e9
         until(lambda: base.clock.now() > 0.2, "the first 0.2 s")
-        with caplog.at_level(logging.WARNING):
-            end(them["recorder"])
-            gone = base.clock.now()
-            until(lambda: base.clock.now() > gone + 0.5, "half a second without it")
-        assert "recorder was lost at" in caplog.text
-        assert "the others go on without it" in caplog.text
+        how(them["recorder"])
+        gone = base.clock.now()
+        until(lambda: base.clock.now() > gone + 0.5, "half a second without it")
+        told = [one for one in caplog.records if said in one.getMessage()]
+        assert [one.levelno for one in told] == [level]
         commands = base.commands
         until(lambda: base.commands > commands + 5, "commands of the driver")
 
@@ -285,7 +306,7 @@ def test_the_source_ends_with_the_first_that_is_lost(caplog: pytest.LogCaptureFi
         base = them["base"].worker
         base.end = 1e9
         until(lambda: base.clock.now() > 0.1, "the first 0.1 s")
-        end(them["recorder"])
+        die(them["recorder"])
         ended: list[bool] = []
         threading.Thread(target=lambda: ended.append(them["base"].wait()), daemon=True).start()
         until(lambda: ended, "the end of the source")

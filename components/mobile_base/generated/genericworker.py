@@ -9,6 +9,7 @@ from robocomp_dsl.runtime import types as rt
 from generated.interfaces import (
     DIFFERENTIALROBOT,
     LASER,
+    ClockProxy,
     DifferentialRobotPubProxy,
     LaserConfData,
     TBaseState,
@@ -57,12 +58,14 @@ class GenericWorker(Component):
                 DifferentialRobotPubProxy,
                 "differentialrobotpub_proxy",
             ),
+            CalledPort("Clock", ClockProxy, "clock_proxy"),
         ),
         subscribes=(),
         parameters=MobileBaseParams,
     )
     params: MobileBaseParams
     differentialrobotpub_proxy: DifferentialRobotPubProxy
+    clock_proxy: ClockProxy
 
     def DifferentialRobot_getBaseState(self) -> TBaseState:
         """The whole state.

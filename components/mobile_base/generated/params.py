@@ -186,10 +186,10 @@ class MobileBaseParams(Parameters):
             "speed",
             "float",
             default=1.0,
-            low=0.05,
+            low=0.0,
             high=20.0,
             live=True,
-            doc="Simulated seconds per second.",
+            doc="Simulated seconds per second; 0: as many as possible, where it makes the time of a deployment.",
         ),
         Parameter(
             "seed",
@@ -214,7 +214,7 @@ class MobileBaseParams(Parameters):
     )
     # File of the room; looked for beside the component unless the path is absolute.
     room: str
-    # Simulated seconds per second.
+    # Simulated seconds per second; 0: as many as possible, where it makes the time of a deployment.
     speed: float
     # Same seed, same noise.
     seed: int

@@ -19,7 +19,7 @@ from robocomp_dsl.deploy.engines.care import UNKILLABLE_S, Care, first
 from robocomp_dsl.deploy.engines.watch import Watch
 from robocomp_dsl.deploy.logs import OWN, Record
 from robocomp_dsl.deploy.plan import Plan
-from robocomp_dsl.deploy.status import Row
+from robocomp_dsl.deploy.status import Row, Time
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +82,10 @@ class Local:
     def rows(self) -> list[Row]:
         """The status of all components."""
         return [one.row() for one in self._cares.values()]
+
+    def time(self) -> Time | None:
+        """The simulated time, if there is one."""
+        return self._watch.time()
 
     def say(self, text: str, level: str = "INFO") -> None:
         """Tell the user something in the name of rcdeploy."""

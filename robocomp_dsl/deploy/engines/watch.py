@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
+from robocomp_dsl.deploy.status import Time
+
 READY = ("compute", "emergency")
 """States of the life cycle in which a component works; one that initialises is not there yet."""
 
@@ -22,6 +24,9 @@ class Watch(Protocol):
 
     def start(self, seen: Seen) -> None:
         """Begin; what is alive already is told, too."""
+
+    def time(self) -> Time | None:
+        """The simulated time that was told last; None without any."""
 
     def close(self) -> None:
         """End; nothing is told afterwards."""

@@ -65,6 +65,13 @@ class Conductor:
             proxy.set_timeout(settings.limit)
             self._members.append(Member(member, proxy))
 
+    def leave(self, name: str) -> None:
+        """One ends in order."""
+        for one in self._members:
+            if one.name == name and not one.lost:
+                one.lost = time.monotonic()
+                log.info("%s has ended, the others go on without it", name)
+
     def meet(self, over: Callable[[], bool]) -> None:
         """See `Steps`."""
         until = time.monotonic() + START_S
@@ -121,6 +128,8 @@ class Conductor:
             self._lose(one, ns, error)
 
     def _lose(self, one: Member, ns: int, error: MiddlewareError) -> None:
+        if one.lost:
+            return
         one.lost = time.monotonic()
         said = f"{one.name} was lost at {ns / NANO:g} s of simulated time: {error}"
         if self._settings.stops:

@@ -203,8 +203,9 @@ class StepTopic:
 
     def _lose(self, hearer: str, error: MiddlewareError) -> None:
         if self._calls.pop(hearer, None) is not None:
-            why = "is gone" if isinstance(error, NoServer) else f"does not answer ({error})"
-            log.warning("%s %s: it hears %s no more", hearer, why, self._at.port)
+            # The source tells who has gone.
+            level = logging.DEBUG if isinstance(error, NoServer) else logging.WARNING
+            log.log(level, "%s hears %s no more: %s", hearer, self._at.port, error)
 
     def wait(self, timeout: float) -> bool:
         """See `base.Link`."""
