@@ -120,8 +120,9 @@ class _Resolver:
                 said = f"`<{element.tag.text}>` has no `id`"
                 self.report.add(codes.BODY_ID_MISSING, span, said, label="nothing can refer to it")
             return self._numbered(name, span, 1)
-        first = self.ids.setdefault(written, span)
-        if first is span:
+        first = self.ids.get(written)  # also this very place, in a file that is included twice
+        if first is None:
+            self.ids[written] = span
             return written
         self.report.add(
             codes.BODY_DUPLICATE,

@@ -23,13 +23,14 @@ def lower(source: body.Body) -> Data:
     """The data of `source`."""
     made: Data = {"frames": [{"id": source.root.id, "parent": ""}]}
     made |= {"boxes": [], "meshes": [], "devices": []}
+    taken = {node.id for node, _ in source.nodes()}
     for node, parent in source.nodes():
         if parent is not None:
-            _lower(node, parent, made)
+            _lower(node, parent, made, taken)
     return made
 
 
-def _lower(node: body.Node, parent: body.Node, made: Data) -> None:
+def _lower(node: body.Node, parent: body.Node, made: Data, taken: set[str]) -> None:
     match node:
         case body.Transform() | body.PrismaticJoint():
             made["frames"].append(_frame(node, parent))
@@ -40,7 +41,7 @@ def _lower(node: body.Node, parent: body.Node, made: Data) -> None:
         case body.Mesh():
             made["meshes"].append(_mesh(node, parent))
         case body.Axes():
-            made["boxes"] += _sticks(node, parent)
+            made["boxes"] += _sticks(node, parent, taken)
     if isinstance(node, _SERVED) or node.tag == "display":
         made["devices"].append(_device(node, parent))
 
@@ -109,7 +110,13 @@ def _mesh(node: body.Mesh, parent: body.Node) -> Data:
     }
 
 
-def _sticks(node: body.Axes, parent: body.Node) -> list[Data]:
+def _free(wanted: str, taken: set[str]) -> str:
+    while wanted in taken:
+        wanted += "'"
+    return wanted
+
+
+def _sticks(node: body.Axes, parent: body.Node, taken: set[str]) -> list[Data]:
     made = []
     for i, (axis, colour) in enumerate(_STICKS):
         length, width = getattr(node, f"length{axis}"), getattr(node, f"width{axis}")
@@ -119,7 +126,9 @@ def _sticks(node: body.Axes, parent: body.Node) -> list[Data]:
         size[i], place[i] = length, length / 2
         # with this normal a box stands along the axes of its frame
         stick = {"size": size, "place": place, "normal": [0.0, 0.0, -1.0], "colour": colour}
-        made.append({"id": f"{node.id}.{axis}", "frame": parent.id, "collide": False} | stick)
+        made.append(
+            {"id": _free(f"{node.id}.{axis}", taken), "frame": parent.id, "collide": False} | stick
+        )
     return made
 
 

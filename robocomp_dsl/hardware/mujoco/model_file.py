@@ -16,6 +16,7 @@ import mujoco
 
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
 from robocomp_dsl.hardware.mujoco.mjcf_spec import build_mjcf, located
+from robocomp_dsl.hardware.mujoco.scene_spec import make_room
 from robocomp_dsl.hardware.mujoco.urdf_spec import build_urdf
 from robocomp_dsl.hardware.urdf import read_urdf
 
@@ -24,7 +25,6 @@ _SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
 _WEIGHTLESS = "mass and inertia of moving bodies"
 _LIGHTEST = 1e-3
 _MOST_OVERLAPS = 10
-_ROOM = 2**24
 
 
 @dataclass(slots=True)
@@ -63,9 +63,7 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Find
 
 def compiled(spec: Any, findings: list[Finding]) -> Any:
     """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
-    count = len(spec.bodies)
-    if spec.memory < 0 and count > 1000:
-        spec.memory = _ROOM + 3 * count * count  # collision detection lists all pairs of bodies
+    make_room(spec)
     try:
         model = _compile(spec)
     except ModelFileError as error:

@@ -21,6 +21,8 @@ from robocomp_dsl.hardware.rotations import rotation
 from robocomp_dsl.hardware.scene import ROOT, Frame, Motion, Scene, Triple
 
 _LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
+_MANY = 1000
+_USUAL_ROOM = 2**24
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -37,14 +39,25 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     spec.compiler.boundinertia = _LIGHTEST * 1e-3
     notes: list[str] = []
     bodies = {ROOT: spec.worldbody}
-    for frame in scene.frames:
-        if frame.id != ROOT:
-            bodies[frame.id] = _add_frame(bodies, frame, notes)
-    for box in scene.boxes:
-        add_box(bodies[box.frame], box, notes)
-    for mesh in scene.meshes:
-        add_mesh(spec, bodies[mesh.frame], mesh, notes)
+    try:
+        for frame in scene.frames:
+            if frame.id != ROOT:
+                bodies[frame.id] = _add_frame(bodies, frame, notes)
+        for box in scene.boxes:
+            add_box(bodies[box.frame], box, notes)
+        for mesh in scene.meshes:
+            add_mesh(spec, bodies[mesh.frame], mesh, notes)
+    except ValueError as error:
+        raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+    make_room(spec)
     return spec, notes
+
+
+def make_room(spec: Any) -> None:
+    """Give many bodies the memory they need: collision detection lists all pairs of them."""
+    count = len(spec.bodies)
+    if spec.memory < 0 and count > _MANY:
+        spec.memory = _USUAL_ROOM + 3 * count * count
 
 
 def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:

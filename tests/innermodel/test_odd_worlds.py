@@ -1,0 +1,131 @@
+"""Whatever is in a well-formed file: it becomes a MuJoCo model, and a tree at the same places."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+from odd_worlds import odd_world
+
+from robocomp_dsl.check import check_innermodel
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.mirror import mirror
+from robocomp_dsl.hardware.mujoco.model_file import compiled
+from robocomp_dsl.hardware.mujoco.scene_spec import body_name, build_spec
+from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.hardware.transforms import TransformTree
+
+CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 2) for y in (0, 4) for z in (0, 6))
+MESHES = {
+    "cube.obj": CUBE + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n",
+    "flat.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    "damaged.obj": "v 1 2\n",
+    "points.osg": "VertexArray Vec3Array 2 { 0 0 0 1 2 3 }",
+    "letters.stl": "solid a\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 1\nendsolid\n",
+}
+
+
+def place(folder: Path, files: dict[str, str]) -> Path:
+    for name, text in (MESHES | files).items():
+        (folder / name).write_text(text, encoding="utf-8")
+    (folder / "folder").mkdir()
+    return folder / "world.xml"
+
+
+def load(path: Path) -> tuple[Scene, object, Report]:
+    report = Report()
+    body = check_innermodel(path, Workspace(()), report)
+    assert body is not None
+    scene = Scene.of_data(lower(body))
+    spec, notes = build_spec(scene)
+    assert all(isinstance(note, str) and "`" in note for note in notes)
+    return scene, compiled(spec, []), report
+
+
+def agree(scene: Scene, model) -> None:  # type: ignore[no-untyped-def]
+    """The scene's own tree, the model's mirror, and MuJoCo: three ways to the same places."""
+    data = mujoco.MjData(model)
+    own, found = TransformTree(scene.frames), mirror(model)
+    mujoco.mj_kinematics(model, data)
+    found.follow(data.qpos)
+    far = max(1.0, float(np.abs(data.xpos).max()))
+    for i, name in enumerate(found.bodies):
+        wanted = axes.matrix(data.xpos[i], data.xmat[i])
+        made = found.tree.matrix(name, "root")
+        assert np.abs(made[:3, :3] - wanted[:3, :3]).max() < 1e-9
+        assert np.abs(made[:3, 3] - wanted[:3, 3]).max() * axes.MM < 1e-9 * far
+    for frame in scene.frames[1:]:
+        body = model.body(body_name(frame.id)).id
+        wanted = axes.matrix(data.xpos[body], data.xmat[body])
+        made = own.matrix(frame.id, "root")
+        assert np.abs(made[:3, :3] - wanted[:3, :3]).max() < 1e-9
+        assert np.abs(made[:3, 3] - wanted[:3, 3]).max() * axes.MM < 1e-9 * far
+
+
+@pytest.mark.parametrize("tens", range(20))
+def test_odd_worlds_load_and_are_where_they_should_be(tmp_path: Path, tens: int) -> None:
+    for seed in range(10 * tens, 10 * tens + 10):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        scene, model, _ = load(place(folder, odd_world(seed)))
+        agree(scene, model)
+
+
+def test_the_worlds_are_odd_in_every_way(tmp_path: Path) -> None:
+    """What is generated reaches the findings that it is there for."""
+    seen: set[str] = set()
+    for seed in range(60):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        seen |= {one.code.id for one in load(place(folder, odd_world(seed)))[2]}
+    assert {"RC802", "RC803", "RC804", "RC805", "RC806", "RC807", "RC808"} <= seen
+
+
+def test_the_deepest_world(tmp_path: Path) -> None:
+    text = "<innerModel>" + "".join(f'<transform id="t{i}" tx="10" ry="0.1">' for i in range(199))
+    path = place(tmp_path, {"world.xml": text + "</transform>" * 199 + "</innerModel>"})
+    scene, model, report = load(path)
+    assert not report.failed
+    assert len(scene.frames) == 200
+    agree(scene, model)
+
+
+def test_a_file_that_is_included_twice_gives_every_node_a_name_of_its_own(tmp_path: Path) -> None:
+    world = '<innerModel><include path="p.xml"/><include path="p.xml"/></innerModel>'
+    part = '<innerModel><transform id="t"><plane id="p"/></transform></innerModel>'
+    scene, model, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
+    assert [frame.id for frame in scene.frames] == ["root", "t", "t#2"]
+    assert [one.code.id for one in report] == ["RC804", "RC804"]
+    agree(scene, model)
+
+
+def test_sticks_of_axes_leave_names_to_nodes(tmp_path: Path) -> None:
+    world = '<innerModel><axes id="a"/><plane id="a.x"/></innerModel>'
+    scene, _, _ = load(place(tmp_path, {"world.xml": world}))
+    assert sorted(box.id for box in scene.boxes) == ["a.x", "a.x'", "a.y", "a.z"]
+
+
+def test_a_file_that_includes_itself_is_told_where_and_loaded(tmp_path: Path) -> None:
+    world = '<innerModel>\n<plane id="a"/>\n<include path="p.xml"/></innerModel>'
+    part = '<innerModel>\n<include path="world.xml"/></innerModel>'
+    scene, _, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
+    assert len(scene.boxes) == 1
+    (found,) = report
+    assert "includes itself by way of `p.xml`" in found.message
+    assert found.span.source.path.name == "p.xml"
+
+
+def test_thousands_of_nodes(tmp_path: Path) -> None:
+    """More bodies than MuJoCo has memory for, unless it is asked for."""
+    inside = "".join(
+        f'<transform id="t{i}" tx="{i}"><plane id="p{i}" size="5,5,5"/></transform>'
+        for i in range(2900)
+    )
+    scene, model, report = load(
+        place(tmp_path, {"world.xml": f"<innerModel>{inside}</innerModel>"})
+    )
+    assert not report.failed
+    agree(scene, model)
