@@ -228,7 +228,7 @@ Rename the methods and put their code in the place of the stubs.""",
 
 NOT_COPIED = Code(
     "RC961",
-    Severity.WARNING,
+    Severity.ERROR,
     "a file was not copied",
     """It is too large, cannot be read, is a link, or there is no place for it. Copy it by hand
 if the component needs it.""",

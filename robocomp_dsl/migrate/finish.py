@@ -39,6 +39,7 @@ def recorded(plan: Plan, report: Report, shown: Callable[[Path], str]) -> Output
     """`MIGRATION.md`."""
     findings = sorted(report.sorted(), key=lambda d: d.severity is Severity.NOTE)
     steps = [f"rcgen check {place or '.'}" for place, _ in plan.components]
+    steps += [f"(cd {p or '.'} && python3 main.py)" for p, m in plan.components if m.component]
     if plan.deployment:
         steps += [f"rcdeploy {plan.deployment} plan", f"rcdeploy {plan.deployment}"]
     code = any(f.path.endswith("legacy.py") for f in plan.files)

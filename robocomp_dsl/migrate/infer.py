@@ -64,7 +64,10 @@ Values: TypeAlias = dict[tuple[str, ...], Literal | list[Literal]]
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """What a component's configurations hold: the parameters, and the values of each file."""
+    """What a component's configurations hold: the parameters, and the values of each file.
+
+    `typed`: the first file is TOML.
+    """
 
     tree: Tree
     values: tuple[Values, ...]
@@ -90,7 +93,7 @@ def infer(configs: Sequence[tuple[Config, Sequence[Entry]]], report: Report) -> 
             at.entries[number] = one
     builder = _Builder([config for config, _ in configs], report)
     tree = tuple(builder.members(root, ()))
-    return Parameters(tree, tuple(builder.values), any(c.typed for c, _ in configs))
+    return Parameters(tree, tuple(builder.values), bool(configs) and configs[0][0].typed)
 
 
 class _Builder:

@@ -156,19 +156,16 @@ def test_the_new_folder_is_never_an_old_one(rcgen, old: Path, tmp_path: Path) ->
             b" Nowhere; }; language Python; };", "RC923", 1),
         ("follow.cdsl", b"\x00", "RC921", 1),
         ("Mood.idsl", b"module M { struct", "RC923", 1),
-        ("second.cdsl", b"Component second { };", None, 0),
+        ("second.cdsl", b"Component second { };", "RC961", 1),
     ],
 )  # fmt: skip
 def test_what_is_broken_is_told_and_the_rest_goes_on(
-    rcgen, old: Path, tmp_path: Path, name: str, data: bytes, code: str | None, line: int
+    rcgen, old: Path, tmp_path: Path, name: str, data: bytes, code: str, line: int
 ) -> None:
     folder = tmp_path / "follow"
     shutil.copytree(old / "follow", folder)
     (folder / name).write_bytes(data)
     done = rcgen("migrate", folder, "--format", "concise")
-    if code is None:
-        assert done.code == 0, done.err
-        return
     assert done.code == 1, done.err
     told = [row for row in done.err.splitlines() if code in row]
     assert any(f"{name.rpartition('/')[2]}:{line}" in row for row in told) or code == "RC923", told
@@ -273,3 +270,41 @@ def test_damaged_folders_give_findings_and_sound_files(
 
 
 DAMAGE = (b"", b'"', b"}", b"{", b";", b"\n", b"/*", b"\xff", b"\0", b"<", b"&", b"'", b"=", b"#x")
+
+
+def test_a_worker_that_takes_tables_gets_them_from_a_text_file(rcgen, tmp_path: Path) -> None:
+    folder = tmp_path / "eyes"
+    (folder / "etc").mkdir(parents=True)
+    (folder / "src").mkdir()
+    (folder / "eyes.cdsl").write_text("Component eyes { Communications { }; language python; };")
+    (folder / "etc/config").write_text("Config.Gain = 2.50\nPeriod.Compute = 20\n")
+    (folder / "etc/config.toml").write_text("[Config]\nGain = 3\n[Period]\nCompute = 20\n")
+    (folder / "src/specificworker.py").write_text(
+        "from genericworker import *\n"
+        "class SpecificWorker(GenericWorker):\n"
+        "    def __init__(self, proxy_map, configData):\n"
+        "        super().__init__(proxy_map, configData)\n"
+        '        print("TABLES", configData["Config"], flush=True)\n'
+        "    def compute(self):\n"
+        "        self.quit()\n"
+    )
+    assert rcgen("migrate", folder).code == 0
+    out = tmp_path / "eyes-migrated"
+    with running(out, "--middleware", "inproc") as eyes:
+        assert eyes.wait_for("TABLES") == "TABLES {'Gain': 2.5}"
+    second = ("--config", "etc/config_toml.yaml")
+    with running(out, "--middleware", "inproc", *second) as eyes:
+        assert eyes.wait_for("TABLES") == "TABLES {'Gain': 3.0}"
+
+
+def test_any_link_is_told_and_not_followed(rcgen, old: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "follow"
+    shutil.copytree(old / "follow", folder)
+    secret = tmp_path / "secret"
+    secret.write_text("a = 1")
+    (folder / "etc/config_linked").symlink_to(secret)
+    (folder / "loop").symlink_to(folder, target_is_directory=True)
+    done = rcgen("migrate", folder, "--format", "concise")
+    assert done.code == 1
+    assert "config_linked:1:1: error[RC961]" in done.err
+    assert not list((tmp_path / "follow-migrated").rglob("config_linked*"))
