@@ -20,7 +20,7 @@ Each goes on after a mistake in what it reads, which it reports with file and li
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -31,7 +31,7 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.component import interface_files, move_component
 from robocomp_dsl.migrate.ddsl import PEERS, ddsl_text, interfaces_in, peer_files
-from robocomp_dsl.migrate.deployment import by_identity, draft
+from robocomp_dsl.migrate.deployment import by_identity, called, draft
 from robocomp_dsl.migrate.instances import COMMON, Draft
 from robocomp_dsl.migrate.manager import Node, read_manager
 from robocomp_dsl.migrate.moved import Moved
@@ -59,13 +59,16 @@ def move_over(inputs: Sequence[Path], out: Path, folders: Sequence[Path], report
     alone = len(inputs) == 1 and bool(given)
     plan = Plan("deployment")
     taken: set[str] = set()
+    read = [(one, _nodes(one, report)) for one in managers]
     for one in given:
         place = "" if alone else _place(one, taken)
-        moved = move_component(one, out / place, folders, report)
+        moved = move_component(
+            one, out / place, folders, report, list(dict.fromkeys(_beside(one, read)))
+        )
         if moved is not None:
             plan.components.append((place, moved))
             plan.name = moved.name
-    nodes = [n for m in managers for n in _nodes(m, report)]
+    nodes = [node for _, found in read for node in found]
     _deploy(plan, managers, nodes, out, folders, report)
     for place, moved in plan.components:
         before = f"{place}/" if place else ""
@@ -74,6 +77,19 @@ def move_over(inputs: Sequence[Path], out: Path, folders: Sequence[Path], report
         shown = moved.folder.name if before else ""
         plan.became += [(str(Path(shown, a)), before + b) for a, b in moved.became]
     return plan
+
+
+def _beside(folder: Path, read: Sequence[tuple[Path, list[Node]]]) -> Iterator[Path]:
+    """Configurations of a component that lie beside the manager's file, as those of a robot do."""
+    name = folder.resolve().name
+    for manager, nodes in read:
+        for node in nodes:
+            if node.config is None or name.lower() not in set().union(*called(node)):
+                continue
+            path = manager.parent / node.config.name
+            usual = path.is_file() and not path.is_symlink()
+            if usual and not (folder / "etc" / path.name).exists():
+                yield path
 
 
 def _place(folder: Path, taken: set[str]) -> str:

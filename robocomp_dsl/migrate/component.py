@@ -18,7 +18,7 @@ from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.config import Config, Entry, read_config, read_source
 from robocomp_dsl.migrate.copies import copy_all, is_written
 from robocomp_dsl.migrate.description import completed, modern, tree_of
-from robocomp_dsl.migrate.folder import Fate, Found, files_of
+from robocomp_dsl.migrate.folder import CONFIG_SUFFIXES, Fate, Found, files_of
 from robocomp_dsl.migrate.ice import IceSettings, divide
 from robocomp_dsl.migrate.infer import Parameters, infer
 from robocomp_dsl.migrate.moved import Moved, MovedConfig
@@ -34,9 +34,16 @@ PERIOD = ("Period", "Compute")
 
 
 def move_component(
-    folder: Path, out: Path, folders: Sequence[Path], report: Report
+    folder: Path,
+    out: Path,
+    folders: Sequence[Path],
+    report: Report,
+    elsewhere: Sequence[Path] = (),
 ) -> Moved | None:
-    """The new component; None where there is no description to begin with, which is told."""
+    """The new component; None where there is no description to begin with, which is told.
+
+    `elsewhere` are configurations of it that are not in its folder.
+    """
     found = list(files_of(folder))
     path = _description(folder, found, report)
     workspace = Workspace((*folders, folder))
@@ -57,7 +64,7 @@ def move_component(
         report.add(codes.ALREADY_OURS, Source(path, text).whole, said)
         return None
     moved = Moved(folder, out, path.name, tree.name.text, Source(path, text).whole)
-    given = list(_configs(found, report))
+    given = list(_configs([*_own_configs(found), *elsewhere], report))
     divided = [(config, *divide(config, report)) for config in given]
     parameters = infer([(config, rest) for config, _, rest in divided], report)
     _describe(moved, path, text, parameters, _period(found, parameters, given, report))
@@ -82,15 +89,20 @@ def _description(folder: Path, found: Sequence[Found], report: Report) -> Path |
     return None
 
 
-def _configs(found: Sequence[Found], report: Report) -> Iterator[Config]:
-    """All configurations that can be read; the plain `config` is the first."""
-    there = [one for one in found if one.fate is Fate.CONFIG]
-    for one in sorted(there, key=lambda f: (f.path.stem != "config", f.path.name)):
+def _own_configs(found: Sequence[Found]) -> list[Path]:
+    """The configurations in the folder; the plain `config` is the first."""
+    there = [one.path for one in found if one.fate is Fate.CONFIG]
+    return sorted(there, key=lambda path: (path.stem != "config", path.name))
+
+
+def _configs(paths: Sequence[Path], report: Report) -> Iterator[Config]:
+    """All configurations that can be read."""
+    for path in paths:
         try:
-            config = read_config(read_source(one.path, report), report)
+            config = read_config(read_source(path, report), report)
         except UnreadableSource as error:
             said = f"the configuration was not carried over: {error}"
-            report.add(codes.UNREADABLE_FILE, Source(one.path, "").whole, said)
+            report.add(codes.UNREADABLE_FILE, Source(path, "").whole, said)
             continue
         if config is not None:
             yield config
@@ -132,8 +144,10 @@ def _configure(
     made = []
     taken: set[str] = set()
     for (config, ice, _), values in zip(divided, parameters.values, strict=True):
-        stem = config.path.stem if config.path.suffix == ".toml" else config.path.name
+        stem = config.path.stem if config.path.suffix in CONFIG_SUFFIXES else config.path.name
         stem = config.path.name.replace(".", "_") if stem in taken else stem
+        while stem in taken:
+            stem += "_"
         taken.add(stem)
         new, old = f"etc/{stem}.yaml", f"etc/{config.path.name}"
         text = yaml_text(moved.name, parameters.tree, values, old)

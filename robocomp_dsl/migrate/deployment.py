@@ -58,11 +58,16 @@ def _of_node(node: Node, name: str, moved: Sequence[Moved], report: Report) -> I
     return one
 
 
-def _component_of(node: Node, moved: Sequence[Moved]) -> Moved | None:
-    """The component of a process, by its folder, its program, its name; the surest first."""
+def called(node: Node) -> tuple[set[str], ...]:
+    """What the component of a process may be called, in lower case; the surest first."""
     words = [re.split(r"[/\\]", word)[-1] for word in node.command.split()]
     programs = {re.sub(r"\.py$", "", word).lower() for word in words}
-    for wanted in ({node.folder.name.lower()}, programs, {node.name.lower()}):
+    return {node.folder.name.lower()}, programs, {node.name.lower()}
+
+
+def _component_of(node: Node, moved: Sequence[Moved]) -> Moved | None:
+    """The component of a process, by its folder, its program, its name; the surest first."""
+    for wanted in called(node):
         for one in moved:
             if wanted & {one.folder.name.lower(), one.name.lower()}:
                 return one

@@ -43,7 +43,7 @@ class Found:
 
 _CODE = {".cpp", ".cc", ".cxx", ".c", ".h", ".hpp", ".hxx", ".cu"}
 _BUILD = {".cmake", ".pro", ".ice", ".o", ".so", ".a", ".pyc"}
-_CONFIGS = {"", ".conf", ".config", ".cfg", ".toml"}
+CONFIG_SUFFIXES = {"", ".conf", ".config", ".cfg", ".toml"}
 _GENERATED = re.compile(
     r"""(generic(worker|monitor)|specificmonitor|main|commonbehavior|interfaces)\.\w+
       | \w+I\.(cpp|h|py) | ui_\w+\.(h|py) | CMakeLists\w*\.txt | (GNU)?Makefile | [Dd]oxy[Ff]ile
@@ -77,7 +77,7 @@ def _fate(relative: PurePosixPath) -> Fate:
     in_etc = top == "etc" and len(relative.parts) == 2
     rules = (
         (suffix in (".cdsl", ".pdsl", ".idsl") and not top, Fate.DESCRIPTION),
-        (in_etc and suffix in _CONFIGS, Fate.CONFIG),
+        (in_etc and suffix in CONFIG_SUFFIXES, Fate.CONFIG),
         (name == "specificworker.py" and top in ("", "src"), Fate.WORKER),
         (suffix == ".ui", Fate.WINDOW),
         (suffix in _BUILD or bool(_GENERATED.fullmatch(name)), Fate.REPLACED),

@@ -308,3 +308,22 @@ def test_any_link_is_told_and_not_followed(rcgen, old: Path, tmp_path: Path) -> 
     assert done.code == 1
     assert "config_linked:1:1: error[RC961]" in done.err
     assert not list((tmp_path / "follow-migrated").rglob("config_linked*"))
+
+
+def test_configurations_beside_the_manager_belong_to_the_components(
+    rcgen, old: Path, tmp_path: Path
+) -> None:
+    etc = tmp_path / "robot/etc"
+    etc.mkdir(parents=True)
+    shutil.copy(old / "robot.xml", etc)
+    text = (etc / "robot.xml").read_text().replace("etc/config_slow", "robot/etc/follow.conf")
+    (etc / "robot.xml").write_text(text)
+    fast = (old / "follow/etc/config_slow").read_text().replace("Advance = 50", "Advance = 70")
+    (etc / "follow.conf").write_text(fast)
+    out = tmp_path / "new"
+    folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
+    assert rcgen("migrate", etc / "robot.xml", *folders, "-o", out).code == 0
+    found = check_ddsl(out / "robot.ddsl", Workspace(), Report())
+    assert found is not None
+    assert found.instances[2].config == out / "follow/etc/follow.yaml"
+    assert "Advance: 70" in (out / "follow/etc/follow.yaml").read_text()
