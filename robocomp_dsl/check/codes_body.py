@@ -10,9 +10,9 @@ BODY_TAG = Code(
     "this tag does not exist, or not here",
     """\
 Tags are `transform`, `translation`, `rotation`, `joint`, `prismaticjoint`, `motor`, `plane`,
-`mesh`, `differentialrobot`, `omnirobot`, `laser`, `rgbd`, `camera`, `imu`, `touchsensor`,
-`pointcloud`, `display`, `axes`, `skin` with `patch` and `taxel`, and `include`, in any case, inside
-one outermost `innerModel`.
+`mesh`, `differentialrobot`, `omnirobot`, `laser`, `rgbd`, `camera`, `imu`, `gps`, `ultrasound`,
+`battery`, `touchsensor`, `pointcloud`, `display`, `axes`, `skin` with `patch` and `taxel`, and
+`include`, in any case, inside one outermost `innerModel`.
 
 Wrong:
 

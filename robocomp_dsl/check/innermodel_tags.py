@@ -135,6 +135,15 @@ TAGS: Mapping[str, Tag] = {
         | _PORT,
     ),
     "imu": Tag(body.Imu, _ID | _PORT),
+    "gps": Tag(
+        body.Gps,
+        _ID | _each(NUMBER, "latitude", "longitude", "noise") | {"altitude": LENGTH} | _PORT,
+    ),
+    "ultrasound": Tag(
+        body.Ultrasound,
+        _ID | {"min": WHOLE, "max": WHOLE, "angle": ANGLE, "noise": NUMBER} | _PORT,
+    ),
+    "battery": Tag(body.Battery, _ID | _each(NUMBER, "capacity", "voltage", "idle") | _PORT),
     "pointcloud": Tag(body.PointCloud, _ID),
     "axes": Tag(
         body.Axes,

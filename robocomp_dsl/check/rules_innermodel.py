@@ -10,7 +10,9 @@ import math
 from robocomp_dsl.check import codes_body as codes
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.body import (
+    Battery,
     Body,
+    Gps,
     Joint,
     Laser,
     Mesh,
@@ -22,6 +24,7 @@ from robocomp_dsl.model.body import (
     Skin,
     Taxel,
     Transform,
+    Ultrasound,
 )
 from robocomp_dsl.source import Span
 
@@ -46,6 +49,8 @@ def _complaints(node: Node, parent: Node | None) -> list[str]:
             return _patch(node)
         case Taxel() if isinstance(parent, Patch):
             return _taxel(node, parent)
+        case Ultrasound() | Battery() | Gps():
+            return _sensor(node)
         case _:
             return _old_complaints(node, parent)
 
@@ -69,6 +74,17 @@ def _old_complaints(node: Node, parent: Node | None) -> list[str]:
         case Laser() if node.measures < 0 or node.angle < 0:
             said += ["`measures` and `angle` cannot be negative"]
     return said
+
+
+def _sensor(node: Ultrasound | Battery | Gps) -> list[str]:
+    match node:
+        case Ultrasound() if node.min > node.max:
+            return [f"`min` ({node.min} mm) is above `max` ({node.max} mm)"]
+        case Battery() if min(node.capacity, node.voltage) <= 0 or node.idle < 0:
+            return ["`capacity` and `voltage` must be positive, `idle` not negative"]
+        case Gps() if abs(node.latitude) > 84 or abs(node.longitude) > 180:
+            return ["`latitude` is -84 to 84 degrees, `longitude` -180 to 180"]
+    return []
 
 
 def _mesh(node: Mesh) -> list[str]:

@@ -55,6 +55,9 @@ _SERVED = (
     body.Camera,
     body.Laser,
     body.Imu,
+    body.Gps,
+    body.Ultrasound,
+    body.Battery,
     body.PointCloud,
 )
 

@@ -241,6 +241,42 @@ class Imu(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Gps(Node):
+    """A satellite receiver.
+
+    `latitude`, `longitude` (degrees) and `altitude` (mm) are those of the origin of the world;
+    x is east and z north there. `noise` is in mm.
+    """
+
+    latitude: float = 0.0
+    longitude: float = 0.0
+    altitude: float = 0.0
+    noise: float = 0.0
+    port: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Ultrasound(Node):
+    """An ultrasonic range finder that looks along z: the nearest thing in a fan of `angle` rad."""
+
+    min: int = 20
+    max: int = 4000
+    angle: float = 0.5
+    noise: float = 0.0
+    port: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Battery(Node):
+    """A battery of `capacity` Wh at `voltage` V; `idle` W are drawn while nothing moves."""
+
+    capacity: float = 100.0
+    voltage: float = 24.0
+    idle: float = 10.0
+    port: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class PointCloud(Node):
     """Points that are given while it runs."""
 

@@ -29,6 +29,9 @@ def test_a_dry_run_lists_what_is_served_and_writes_nothing(tmp_path: Path) -> No
 
 
 BAD = {
+    '<innerModel><gps id="g" latitude="95"/></innerModel>': "world.xml:1:13",
+    '<innerModel><battery id="b" capacity="0"/></innerModel>': "world.xml:1:13",
+    '<innerModel><ultrasound id="u" min="9" max="3"/></innerModel>': "world.xml:1:13",
     "<innerModel><laser/></innerMode>": "world.xml:1:",
     '<innerModel><transform id="a" tx="wide"/></innerModel>': "world.xml:1:34",
     '<innerModel><lazer id="a"/></innerModel>': "world.xml:1:14",

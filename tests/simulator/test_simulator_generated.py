@@ -59,7 +59,8 @@ robot.stopBase()
 until(lambda: not robot.getBaseState().isMoving)
 state = robot.getBaseState()
 until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
-error = refused(i.RoboCompGenericBase_HardwareFailedException, robot.setSpeedBase, float("nan"), 0.0)
+failed = i.RoboCompGenericBase_HardwareFailedException
+error = refused(failed, robot.setSpeedBase, float("nan"), 0.0)
 assert "finite" in error.what, error.what
 sideways = proxy(i.OMNIROBOT, "platform")
 sideways.setSpeedBase(300.0, 0.0, 0.0)

@@ -37,6 +37,9 @@ OFFERS = (
     Offer("camera", "CameraSimple"),
     Offer("rgbd", "CameraRGBDSimple", shared=True),
     Offer("imu", "IMU"),
+    Offer("gps", "GPS"),
+    Offer("ultrasound", "Ultrasound", shared=True),
+    Offer("battery", "BatteryStatus"),
     Offer("touchsensor", "TouchSensor", shared=True),
 )
 

@@ -1,8 +1,8 @@
 """A simulated camera: a copy of the world's state is drawn in a thread of its own.
 
 In: a frame, along whose z axis it looks, and the optics. Out: pictures, no more often than the
-camera takes them and only when somebody asks. It needs no screen (`view.screenless`); a library that
-is missing is told with the Debian package to install.
+camera takes them and only when somebody asks. It needs no screen (`view.screenless`); a library
+that is missing is told with the Debian package to install.
 """
 
 from __future__ import annotations

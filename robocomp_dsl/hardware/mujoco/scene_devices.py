@@ -12,9 +12,13 @@ from types import MappingProxyType
 from typing import Any
 
 from robocomp_dsl.hardware.camera import CameraSettings
+from robocomp_dsl.hardware.geodesy import Place
 from robocomp_dsl.hardware.laser import LaserSettings
 from robocomp_dsl.hardware.mobile_base import BaseLimits
+from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.battery import Battery
 from robocomp_dsl.hardware.mujoco.camera import Camera
+from robocomp_dsl.hardware.mujoco.gps import Gps
 from robocomp_dsl.hardware.mujoco.imu import Imu
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
@@ -22,6 +26,7 @@ from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.touch_sensor import TouchSensor, TouchSettings
+from robocomp_dsl.hardware.mujoco.ultrasound import Ultrasound
 from robocomp_dsl.hardware.scene import ROOT, Device, Scene
 
 
@@ -92,11 +97,43 @@ def _camera(site: Site, device: Device) -> Camera:
     return Camera(settings, body_name(device.frame), site.noise, name=device.id)
 
 
+def _gps(site: Site, device: Device) -> Gps:
+    given = device.settings
+    origin = Place(
+        float(given["latitude"]), float(given["longitude"]), float(given["altitude"]) * MM
+    )
+    body, noise = body_name(device.frame), float(given["noise"])
+    return Gps(origin, noise, body, site.noise, name=device.id)
+
+
+def _ultrasound(site: Site, device: Device) -> Ultrasound:
+    given = device.settings
+    settings = LaserSettings(
+        measures=15,
+        degrees=math.degrees(float(given["angle"])),
+        min_range=float(given["min"]),
+        max_range=float(given["max"]),
+        noise=float(given["noise"]),
+    )
+    carrier = body_name(site.carrier(device.frame))
+    body = body_name(device.frame)
+    return Ultrasound(settings, body, site.noise, name=device.id, carrier=carrier)
+
+
+def _battery(site: Site, device: Device) -> Battery:  # noqa: ARG001
+    given = device.settings
+    capacity, voltage = float(given["capacity"]), float(given["voltage"])
+    return Battery(capacity, voltage, float(given["idle"]), name=device.id)
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
     "omnirobot": _base,
     "imu": _imu,
+    "gps": _gps,
+    "ultrasound": _ultrasound,
+    "battery": _battery,
     "camera": _camera,
     "rgbd": _camera,
     "touchsensor": _touch,

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
+from robocomp_dsl.hardware.servants.battery import BatteryServant
 from robocomp_dsl.hardware.servants.camera import CameraServant, RgbdServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.gps import GpsServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.inner_model import InnerModelServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
@@ -18,6 +20,7 @@ from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.hardware.servants.simulation import SimulationServant
 from robocomp_dsl.hardware.servants.touch_sensor import TouchSensorServant
+from robocomp_dsl.hardware.servants.ultrasound import UltrasoundServant
 
 __all__ = ["SERVANTS"]
 
@@ -32,6 +35,9 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompCameraSimple::CameraSimple": CameraServant,
     "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,
+    "RoboCompGPS::GPS": GpsServant,
+    "RoboCompUltrasound::Ultrasound": UltrasoundServant,
+    "RoboCompBatteryStatus::BatteryStatus": BatteryServant,
     "RoboCompSimulation::Simulation": SimulationServant,
 }
 """The servant of each interface."""
