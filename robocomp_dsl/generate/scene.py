@@ -90,7 +90,7 @@ def _box(node: body.Plane, parent: body.Node) -> Data:
     normal = [node.nx, node.ny, node.nz]
     if all(abs(part) < 0.001 for part in normal):  # as RoboComp has it
         normal[2] = -1.0
-    return {
+    made: Data = {
         "id": node.id,
         "frame": parent.id,
         "size": list(node.size),
@@ -99,6 +99,10 @@ def _box(node: body.Plane, parent: body.Node) -> Data:
         "colour": node.texture if node.texture.startswith("#") else "",
         "collide": node.collide,
     }
+    if not node.texture or node.texture.startswith("#"):
+        return made
+    picture = str(node.span.source.path.parent / node.texture)
+    return made | {"texture": picture, "tile": float(node.repeat if node.repeat > 0 else 1000)}
 
 
 def _mesh(node: body.Mesh, parent: body.Node) -> Data:

@@ -56,7 +56,10 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A box in a frame; `size` is its extent, the last along `normal`. `colour` is `#rrggbb`."""
+    """A box in a frame; `size` is its extent, the last along `normal`. `colour` is `#rrggbb`.
+
+    `texture` is the file of a picture instead, repeated every `tile` mm.
+    """
 
     id: str
     frame: str
@@ -65,6 +68,8 @@ class Box:
     normal: Triple = (0.0, 0.0, -1.0)
     colour: str = ""
     collide: bool = False
+    texture: str = ""
+    tile: float = 1000.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -193,3 +193,40 @@ def test_a_body_with_physics_falls_and_the_others_stay() -> None:
     assert model.body("ball").mass == pytest.approx(2.0)
     assert data.body("ball").xpos[2] < 0.99
     assert data.body("lamp").xpos[2] == pytest.approx(1.0)
+
+
+def test_a_picture_on_a_plane_leaves_the_plane_where_it_is(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    from PIL import Image  # noqa: PLC0415
+
+    Image.new("RGB", (8, 4), (200, 100, 50)).save(tmp_path / "a.jpg")
+    (tmp_path / "no.jpg").write_text("x")
+    extents, materials = [], []
+    normals = [(0, 1, 0), (0, 0, -1), (1, 2, 3), (0, 0, 1)]
+    for file in ("", "a.jpg"):
+        texture = str(tmp_path / file) if file else ""
+        boxes = tuple(
+            Box(f"b{i}", "root", (4000, 3000, 10), (1, 2, 3), normal, texture=texture, tile=500)
+            for i, normal in enumerate(normals)
+        )
+        spec, notes = build_spec(Scene((ROOT,), boxes))
+        assert notes == []
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_kinematics(model, data)
+        corners = data.geom_xmat.reshape(-1, 3, 3) * model.geom_size[:, None, :]
+        extents.append(np.abs(corners).sum(axis=2))
+        materials.append(model.geom_matid.tolist())
+    assert extents[0] == pytest.approx(extents[1], abs=1e-9)
+    assert materials == [[-1] * 4, [0] * 4]
+    assert model.mat_texrepeat[0] == pytest.approx([2, 2])
+    assert model.tex_data[:3] == pytest.approx([200, 100, 50], abs=4)
+    for name, said in (("gone.png", "No such file"), ("no.jpg", "it is no picture")):
+        box = Box("b", "root", (1, 1, 1), texture=str(tmp_path / name))
+        _, notes = build_spec(Scene((ROOT,), (box,)))
+        assert len(notes) == 1
+        assert said in notes[0]
+
+
+def test_what_falls_and_weighs_nothing_is_told() -> None:
+    _, notes = build_spec(Scene((ROOT, Frame("f", "root", physics=True))))
+    assert notes == ["`f` falls and has no mass: it gets 0.001 kg"]

@@ -17,6 +17,7 @@ from robocomp_dsl.hardware.mesh_file import MeshError, Surface, read_mesh
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.mesh_geom import is_flat
+from robocomp_dsl.hardware.mujoco.texture import TextureError, add_material
 from robocomp_dsl.hardware.rotations import Matrix, rotation
 from robocomp_dsl.hardware.scene import Box, Mesh, Triple
 
@@ -25,17 +26,32 @@ _LARGEST = 1e6  # m
 _GREY = (0.7, 0.7, 0.7, 1.0)
 _PLACEHOLDER = (0.9, 0.4, 0.2, 0.4)
 _GEOM = mujoco.mjtGeom
+_UPRIGHT = rotation(math.pi / 2, 0.0, 0.0)
+"""Turns y to z: MuJoCo's third axis, which is y here, along a plane's thickness."""
 
 
-def add_box(body: Any, box: Box, notes: list[str]) -> None:
+def add_box(spec: Any, body: Any, box: Box, notes: list[str]) -> None:
     """Put a box on `body`."""
+    x, thick, y = _sized(box.size, box.id, notes)
+    made: dict[str, Any] = {
+        "size": [x, thick, y],
+        "quat": axes.quaternion(standing(box.normal)),
+        "rgba": _colour(box.colour, box.id, notes),
+    }
+    if box.texture:
+        try:
+            material = add_material(spec, Path(box.texture), box.tile * MM)
+        except TextureError as error:
+            notes.append(f"`{box.id}` has no picture: {box.texture}: {error}")
+        else:
+            # MuJoCo lays pictures on along the third axis of a box
+            turned = standing(box.normal) @ _UPRIGHT
+            made = {"size": [x, y, thick], "quat": axes.quaternion(turned), "material": material}
     body.add_geom(
         name=box.id,
         type=_GEOM.mjGEOM_BOX,
-        size=_sized(box.size, box.id, notes),
         pos=axes.point(*box.place),
-        quat=axes.quaternion(standing(box.normal)),
-        rgba=_colour(box.colour, box.id, notes),
+        **made,
         **_touch(box.collide),
     )
 

@@ -44,7 +44,7 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
             if frame.id != ROOT:
                 bodies[frame.id] = _add_frame(bodies, frame, notes)
         for box in scene.boxes:
-            add_box(bodies[box.frame], box, notes)
+            add_box(spec, bodies[box.frame], box, notes)
         for mesh in scene.meshes:
             add_mesh(spec, bodies[mesh.frame], mesh, notes)
     except ValueError as error:
@@ -73,6 +73,8 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
         body.mass = frame.mass
         body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
         body.inertia = [0.4 * frame.mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
+    if frame.physics and frame.parent == ROOT and frame.mass <= 0:
+        notes.append(f"`{frame.id}` falls and has no mass: it gets {_LIGHTEST:g} kg")
     if frame.physics and frame.parent == ROOT:
         body.add_freejoint(name=frame.id)
         return body
