@@ -55,7 +55,10 @@ class SpecificWorker(GenericWorker):
             self.begin()
         now = self.clock.now()
         passed, self.last = now - self.last, now
-        if not isinstance(self.clock, ClockSource):
+        if isinstance(self.clock, ClockSource):
+            if now - passed < self.params.hold_at <= now:
+                self.clock.pause()
+        else:
             passed = min(passed, MOST_BEHIND) * self.params.speed
         world = self.simulation.world
         world.advance(passed)

@@ -36,26 +36,36 @@ def until(condition: Callable[[], bool], process: subprocess.Popen[str], what: s
     pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
 
 
-def drive(folder: Path, name: str) -> tuple[bytes, str]:
-    """What the path logger wrote, and what rcdeploy said of the time meanwhile."""
+def copied(folder: Path, hold_at: float) -> Path:
+    """The deployment in lock-step, as fast as it can, in a folder that may be written to."""
     leave = shutil.ignore_patterns("__pycache__")
     components = Path(shutil.copytree(COMPONENTS, folder / "components", ignore=leave))
     ddsl = components / "wander" / "wander.ddsl"
     text = ddsl.read_text()
     text = text.replace("Deployment wander\n{", "Deployment wander\n{\n    clock sim lockstep;")
-    text = text.replace("mobile_base {", "mobile_base { set speed = 0;")
+    text = text.replace(
+        "mobile_base {", f"mobile_base {{ set speed = 0; set hold_at = {hold_at:g};"
+    )
     ddsl.write_text(text)
+    return ddsl
+
+
+def deployed(ddsl: Path, name: str) -> subprocess.Popen[str]:
     command = [str(RCDEPLOY), str(ddsl), "up", "--name", name, "--domain", name, "--no-table"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def status(name: str) -> str:
+    command = [str(RCDEPLOY), "status", name]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout
+
+
+def drive(folder: Path, name: str) -> tuple[bytes, str]:
+    """What the path logger wrote, and what rcdeploy said of the time meanwhile."""
+    process = deployed(copied(folder, SECONDS), name)
     try:
-        observer = load("wander/observer.py").Observer(name)
-        try:
-            path = observer.path()
-            until(lambda: path().time > SECONDS, process, f"{SECONDS:g} s")
-            status = [str(RCDEPLOY), "status", name]
-            shown = subprocess.run(status, capture_output=True, text=True, check=True).stdout
-        finally:
-            observer.close()
+        until(lambda: "stands still" in status(name), process, f"{SECONDS:g} s")
+        shown = status(name)
         process.send_signal(signal.SIGINT)
         said, _ = process.communicate(timeout=DEADLINE)
         assert process.returncode == 0, said
@@ -68,12 +78,33 @@ def test_two_drives_are_the_same(tmp_path: Path) -> None:
     (first, shown), (again, _) = (
         drive(tmp_path / str(number), f"step{number}-{os.getpid()}") for number in (1, 2)
     )
-    assert "times real time" in shown
-    # Ctrl-C ends them at different moments.
-    until_then = min(len(one) for one in (first, again))
-    lines = first[:until_then].splitlines()[:-1]
-    assert again[:until_then].splitlines()[:-1] == lines
-    times = [float(line.split(b",")[1]) for line in lines[1:]]
-    assert times[-1] >= SECONDS - 0.1
-    turned = {float(line.split(b",")[-1]) for line in lines[1:]}
-    assert max(abs(rot) for rot in turned) > 0.3, "it has not turned, the laser was not used"
+    assert f"simulated time {SECONDS:.2f} s, stands still" in shown
+    assert first == again
+    lines = [line.split(b",") for line in first.splitlines()[1:]]
+    assert float(lines[-1][1]) > SECONDS - 0.05
+    assert max(abs(float(line[-1])) for line in lines) > 0.3, "it has not turned"
+
+
+def test_who_is_killed_holds_nobody_up_and_comes_back(tmp_path: Path) -> None:
+    name = f"killed-{os.getpid()}"
+    process = deployed(copied(tmp_path, 0.0), name)
+    try:
+        observer = load("wander/observer.py").Observer(name)
+        try:
+            path, wander = observer.path(), observer.component("wander")
+            until(lambda: path().time > 1.0, process, "the first second")
+            before = wander.getInfo().pid
+            os.kill(before, signal.SIGKILL)
+            killed = path().time
+            until(lambda: path().time > killed + 1.0, process, "a second without it")
+            until(lambda: wander.getStatistics().cycles > 5, process, "its return")
+            assert wander.getInfo().pid != before
+        finally:
+            observer.close()
+        process.send_signal(signal.SIGINT)
+        said, _ = process.communicate(timeout=DEADLINE)
+        assert process.returncode == 0, said
+        assert "wander was lost at" in said
+        assert "wander is back at" in said
+    finally:
+        process.kill()

@@ -238,21 +238,21 @@ def test_a_reset_is_the_beginning_again(middleware: str) -> None:
 def die(runner: Runner) -> None:
     """As when the process is killed: it is gone, and has told nobody."""
     runner.middleware.close()
-    runner.middleware.announce = lambda state: None  # type: ignore[method-assign]
 
 
 @pytest.mark.parametrize(
-    ("how", "said", "level"),
+    ("how", "middleware", "said", "level"),
     [
-        (end, "recorder has ended, the others go on without it", logging.INFO),
-        (die, "of simulated time: recorder does not serve", logging.WARNING),
+        (end, "inproc", "recorder has ended, the others go on without it", logging.INFO),
+        (end, "zenoh", "recorder has ended, the others go on without it", logging.INFO),
+        (die, "inproc", "of simulated time: recorder does not serve", logging.WARNING),
     ],
 )
 def test_who_is_away_is_told_and_left_out(
     how: Callable[[Runner], None],
+    middleware: str,
     said: str,
     level: int,
-    middleware: str,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with (

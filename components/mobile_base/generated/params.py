@@ -192,6 +192,16 @@ class MobileBaseParams(Parameters):
             doc="Simulated seconds per second; 0: as many as possible, where it makes the time of a deployment.",
         ),
         Parameter(
+            "hold_at",
+            "float",
+            default=0.0,
+            low=0.0,
+            high=1000000.0,
+            unit="s",
+            live=True,
+            doc="Where it makes the time of a deployment: from here on time stands still; 0: it never does.",
+        ),
+        Parameter(
             "seed",
             "int",
             default=1,
@@ -216,6 +226,8 @@ class MobileBaseParams(Parameters):
     room: str
     # Simulated seconds per second; 0: as many as possible, where it makes the time of a deployment.
     speed: float
+    # Where it makes the time of a deployment: from here on time stands still; 0: it never does.
+    hold_at: float
     # Same seed, same noise.
     seed: int
     # Time from one published base state to the next, simulated.
