@@ -3,6 +3,7 @@
 from robocomp_dsl.check.codes_body import *  # noqa: F403 - the families have no names in common
 from robocomp_dsl.check.codes_clock import *  # noqa: F403
 from robocomp_dsl.check.codes_deployment import *  # noqa: F403
+from robocomp_dsl.check.codes_devices import *  # noqa: F403
 from robocomp_dsl.check.codes_names import *  # noqa: F403
 from robocomp_dsl.check.codes_parameters import *  # noqa: F403
 from robocomp_dsl.check.codes_states import *  # noqa: F403

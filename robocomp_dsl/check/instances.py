@@ -14,6 +14,7 @@ from pathlib import Path
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.components import Imported
 from robocomp_dsl.check.contexts import searched_of
+from robocomp_dsl.check.devices import devices_of
 from robocomp_dsl.check.imports import replace
 from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.named_files import find_beside
@@ -56,6 +57,7 @@ def instance_of(
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
     environment = without_repeats(tree.environment, "environment variable", report)
+    devices = devices_of(tree, report)
     if component is None:
         return None
     return Instance(
@@ -67,6 +69,7 @@ def instance_of(
         context=context,
         searched=searched,
         settings=settings_of(tree.settings, component, report),
+        devices=devices,
         environment=tuple((one.name.text, one.value.value) for one in environment),
         executable=executable,
         port=port,

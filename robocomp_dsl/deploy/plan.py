@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from robocomp_dsl.deploy.devices import devices_environment
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
     Clock,
@@ -131,7 +132,7 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         component=one.component.name,
         argv=tuple(argv),
         cwd=one.component.path.parent,
-        env=one.environment,
+        env=(*one.environment, *devices_environment(one.devices)),
         after=one.after,
         restart=Restart("never") if clock.stops_when_lost and clock.source is one else one.restart,
         ready_within_s=one.ready_within_s,

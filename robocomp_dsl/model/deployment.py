@@ -7,6 +7,7 @@ from ipaddress import ip_address
 from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
+from robocomp_dsl.model.devices import Devices
 from robocomp_dsl.model.types import Literal
 from robocomp_dsl.source import Span
 
@@ -76,6 +77,7 @@ class Instance:
     searched: str = ""
     settings: tuple[tuple[str, Literal], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
+    devices: Devices = field(default_factory=Devices)
     executable: str = "python3 main.py"
     port: int = 0
     after: tuple[str, ...] = ()

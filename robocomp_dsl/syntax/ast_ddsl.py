@@ -37,6 +37,32 @@ class Restart(Node):
     window: Duration | None = None
 
 
+class Device(Node):
+    """`device arm : control_board { set part = LArm; };`."""
+
+    name: Name
+    kind: Name
+    settings: tuple[Setting, ...] = ()
+    doc: str = ""
+
+
+class Attach(Node):
+    """`attach zeroing to arm, leg;`."""
+
+    device: Name
+    to: tuple[Name, ...]
+
+
+class Action(Node):
+    """`on startup level 5 calibrate arm by zeroing;`; `by` is None where nobody is named."""
+
+    phase: Name
+    level: Number
+    verb: Name
+    device: Name
+    by: Name | None = None
+
+
 class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
@@ -51,6 +77,9 @@ class Instance(Node):
     context: Text | None = None
     from_: Text | None = None
     settings: tuple[Setting, ...] = ()
+    devices: tuple[Device, ...] = ()
+    attachments: tuple[Attach, ...] = ()
+    actions: tuple[Action, ...] = ()
     environment: tuple[Environment, ...] = ()
     executable: Text | None = None
     port: Number | None = None

@@ -30,7 +30,8 @@ class DdslBuilder(Instances):
         "file_item": "`import` or `Deployment`",
         "deployment_item": "`component`, `connect`, `host`, `group`, `middleware`, `clock`",
         "host_item": "`address`, `user`, `labels`",
-        "instance_item": "a setting of the component (`config`, `set`, `env`, `after`, …)",
+        "instance_item": "a setting of the component (`config`, `set`, `after`, `device`, …)",
+        "device_item": "`set`, a parameter of the device",
         "qos_item": "`reliable`, `best_effort`, `priority`, `depth`, `deadline`",
         "group_item": "`component`, `connect`, `export`, `group`, `after`",
     }

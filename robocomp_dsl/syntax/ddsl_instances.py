@@ -11,13 +11,14 @@ from robocomp_dsl.source import Span
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.ast_base import Bool, Duration, Literal, Name, Number, Text, Unit
-from robocomp_dsl.syntax.builder import Builder, Setting, only
+from robocomp_dsl.syntax.builder import Setting, only
+from robocomp_dsl.syntax.ddsl_devices import Devices
 
 POLICIES = ("on-failure", "always", "never")
 UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
 
 
-class Instances(Builder):
+class Instances(Devices):
     """The part of the DDSL builder that is about instances and connections."""
 
     def instance(
@@ -31,6 +32,9 @@ class Instances(Builder):
             kind,
             host,
             settings=only(ast.Setting, items),
+            devices=only(ast.Device, items),
+            attachments=only(ast.Attach, items),
+            actions=only(ast.Action, items),
             environment=only(ast.Environment, items),
             doc=self.doc(span),
             **self.settings(items),

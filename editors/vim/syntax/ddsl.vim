@@ -36,6 +36,12 @@ hi def link ddsl_after_value ddslValue
 hi def link ddsl_after_name ddslName
 hi def link ddsl_after_field ddslField
 syn region ddsl_after matchgroup=ddslKeyword start=/\<after\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_after_inner,ddsl_after_value,ddsl_after_name,ddsl_after_field
+syn match ddsl_attach_inner contained /\.\@<!\<to\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_attach_inner ddslModifier
+hi def link ddsl_attach_value ddslValue
+hi def link ddsl_attach_name ddslName
+hi def link ddsl_attach_field ddslField
+syn region ddsl_attach matchgroup=ddslKeyword start=/\<attach\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_attach_inner,ddsl_attach_value,ddsl_attach_name,ddsl_attach_field
 hi def link ddsl_best_effort_inner ddslModifier
 hi def link ddsl_best_effort_value ddslValue
 hi def link ddsl_best_effort_name ddslName
@@ -82,6 +88,12 @@ hi def link ddsl_depth_value ddslValue
 hi def link ddsl_depth_name ddslName
 hi def link ddsl_depth_field ddslField
 syn region ddsl_depth matchgroup=ddslKeyword start=/\<depth\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_depth_inner,ddsl_depth_value,ddsl_depth_name,ddsl_depth_field
+syn match ddsl_device_name contained /\%(\<device\s\+\)\@<=\h\w*/
+hi def link ddsl_device_inner ddslModifier
+hi def link ddsl_device_value ddslValue
+hi def link ddsl_device_name ddslName
+hi def link ddsl_device_field ddslField
+syn region ddsl_device matchgroup=ddslDeclaration start=/\<device\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_device_inner,ddsl_device_value,ddsl_device_name,ddsl_device_field
 hi def link ddsl_env_inner ddslModifier
 hi def link ddsl_env_value ddslValue
 hi def link ddsl_env_name ddslName
@@ -133,6 +145,13 @@ hi def link ddsl_middleware_value ddslValue
 hi def link ddsl_middleware_name ddslName
 hi def link ddsl_middleware_field ddslField
 syn region ddsl_middleware matchgroup=ddslKeyword start=/\<middleware\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_middleware_inner,ddsl_middleware_value,ddsl_middleware_name,ddsl_middleware_field
+syn match ddsl_on_inner contained /\.\@<!\<by\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_on_inner contained /\.\@<!\<level\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+hi def link ddsl_on_inner ddslModifier
+hi def link ddsl_on_value ddslValue
+hi def link ddsl_on_name ddslName
+hi def link ddsl_on_field ddslField
+syn region ddsl_on matchgroup=ddslKeyword start=/\<on\>\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_on_inner,ddsl_on_value,ddsl_on_name,ddsl_on_field
 hi def link ddsl_port_inner ddslModifier
 hi def link ddsl_port_value ddslValue
 hi def link ddsl_port_name ddslName

@@ -1,0 +1,52 @@
+"""The devices in a component of a deployment, resolved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from robocomp_dsl.model.types import Literal
+from robocomp_dsl.source import Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Device:
+    """A driver, wrapper, calibrator or controller; the component knows what its kind is."""
+
+    name: str
+    kind: str
+    span: Span
+    parameters: tuple[tuple[str, Literal], ...] = ()
+    doc: str = ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Attachment:
+    """`device` stands on the devices `to`."""
+
+    device: str
+    to: tuple[str, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Action:
+    """`verb` is done to `device`, by the calibrator `by` or the only one, in a phase."""
+
+    phase: str
+    level: int
+    verb: str
+    device: str
+    by: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Devices:
+    """All of one component, in order of writing."""
+
+    devices: tuple[Device, ...] = ()
+    attachments: tuple[Attachment, ...] = ()
+    actions: tuple[Action, ...] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.devices)
