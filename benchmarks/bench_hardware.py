@@ -13,9 +13,13 @@ from robocomp_dsl.hardware.frame_layout import Layout
 from robocomp_dsl.hardware.laser import LaserSettings
 from robocomp_dsl.hardware.mujoco.differential_robot import DifferentialRobot
 from robocomp_dsl.hardware.mujoco.laser import Laser
+from robocomp_dsl.hardware.mujoco.mirror import mirror
 from robocomp_dsl.hardware.mujoco.room import Room, Wall
+from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.scene import Frame, Motion
+from robocomp_dsl.hardware.robots.build import add_robot, new_world
+from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.scene import Box, Frame, Motion, Scene
 from robocomp_dsl.hardware.transforms import TransformTree
 
 
@@ -77,6 +81,7 @@ def run() -> Iterator[dict[str, Any]]:
         "unit": "µs",
         "goal": 100.0,
     }
+    yield from mirrors()
     yield {
         "name": "simulated base with a 361-ray laser at 20 Hz, times real time",
         "value": world_speed(),
@@ -84,6 +89,45 @@ def run() -> Iterator[dict[str, Any]]:
         "goal": 10.0,
         "better": "higher",
     }
+
+
+def mirrors() -> Iterator[dict[str, Any]]:
+    """The tree of a compiled humanoid, and a world of very many nodes."""
+    spec = new_world()
+    add_robot(spec, ROBOTS["nao_h25"]())
+    model = spec.compile()
+    found, random = mirror(model), np.random.default_rng(0)
+    positions = random.uniform(-1, 1, (2, model.nq))
+
+    def follow() -> None:
+        for qpos in positions:
+            found.follow(qpos)
+            found.tree.matrix("l_hand", "r_hand")
+
+    yield {
+        "name": f"all {model.njnt} joints of a humanoid moved, hand seen from hand",
+        "value": best(follow, 100) / 2,
+        "unit": "µs",
+    }
+    start = time.perf_counter()
+    build_spec(many(10_000))[0].compile()
+    yield {
+        "name": "MuJoCo model of a world of 10 000 nodes (5000 frames, 5000 boxes)",
+        "value": time.perf_counter() - start,
+        "unit": "s",
+    }
+
+
+def many(count: int) -> Scene:
+    """Half frames that branch, a third of them joints, and half boxes."""
+    random = np.random.default_rng(0)
+    frames = [Frame("root", "")]
+    for i in range(count // 2):
+        parent = frames[int(random.integers(max(0, i - 100), i + 1))].id
+        motion = Motion("hinge", "z") if i % 3 == 0 else None
+        frames.append(Frame(f"f{i}", parent, (10.0, 20.0, 30.0), motion=motion))
+    boxes = tuple(Box(f"b{i}", f"f{i}", (5.0, 5.0, 5.0)) for i in range(count // 2))
+    return Scene(tuple(frames), boxes)
 
 
 def world_speed() -> float:

@@ -50,7 +50,8 @@ def _pixels(path: Path) -> tuple[int, int, bytes]:
             with Image.open(path) as picture:
                 picture.draft("RGB", (LARGEST, LARGEST))
                 picture.thumbnail((LARGEST, LARGEST))
-                shown = picture.convert("RGB")
+                # MuJoCo begins below, pictures begin above
+                shown = picture.convert("RGB").transpose(Image.Transpose.FLIP_TOP_BOTTOM)
     except FileNotFoundError:
         raise TextureError("No such file or directory") from None
     except UnidentifiedImageError:
