@@ -168,7 +168,15 @@ def test_every_operation_of_the_board_answers(arm: Served) -> None:
     assert board.getVariable("speed_limits").tolist() == [1.0, 2.0, 0.5]
     with pytest.raises(i.RoboCompControlBoard_Refused, match="no variable"):
         board.getVariable("colour")
+    board.setControlModes(["shoulder", "elbow"], [i.ControlMode.Position, i.ControlMode.Torque])
+    board.setTorque(["elbow"], np.array([0.25]))
+    assert board.getTargets(["elbow"]).torque.tolist() == [0.25]
+    board.setReferenceSpeed(["elbow"], np.array([0.3]))
+    assert board.getReferenceSpeed(["elbow"]).tolist() == [0.3]
+    assert board.getAcceleration([]).shape == (3,)
+    assert not board.isBusy()
     board.park(["shoulder"])
+    assert board.isBusy()
     arm.until(lambda: board.getState().modes[0].name == "Idle")
     assert board.getState().position[0] == pytest.approx(0.2, abs=0.05)
 

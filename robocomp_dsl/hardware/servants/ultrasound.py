@@ -48,7 +48,8 @@ class UltrasoundServant(Servant):
 
     def getSensorDistance(self, sensor: str) -> int:
         """What one of them measures, in mm."""
-        return round(self._known(sensor).distance())
+        distance: float = self._known(sensor).distance()
+        return round(distance)
 
     def getAllSensorDistances(self) -> Any:
         """What all of them measure, in mm."""
