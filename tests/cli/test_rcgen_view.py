@@ -1,6 +1,8 @@
 """`rcgen view`: pictures of worlds and robots, and what it says about those that are wrong."""
 
+import importlib
 import struct
+import sys
 import zlib
 from pathlib import Path
 
@@ -155,3 +157,39 @@ def test_up_is_up() -> None:
         made = painter.paint(data, Look(elevation=0)).astype(int)
     assert made[:32, :, 0].sum() > 10 * made[32:, :, 0].sum() + 1000
     assert made[32:, :, 2].sum() > made[:32, :, 2].sum()
+
+
+def test_bodies_that_start_in_each_other_are_told_where_they_stand(tmp_path: Path) -> None:
+    cup = (
+        '<transform id="{0}" ty="{1}" engine="bullet" mass="1"><plane id="{0}_p" size="100,100,100"'
+    )
+    cup += ' collide="1"/></transform>\n'
+    path = tmp_path / "world.xml"
+    path.write_text("<innerModel>\n" + cup.format("a", 0) + cup.format("b", 80) + "</innerModel>")
+    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    assert result.code == 0
+    assert "RC653]: `a` and `b` are 20 mm in each other" in result.err
+    assert "world.xml:2:1" in result.err
+
+
+def test_a_mesh_that_is_missing_is_a_box_and_told_where(tmp_path: Path) -> None:
+    path = tmp_path / "world.xml"
+    path.write_text('<innerModel>\n  <mesh id="m" file="gone.3ds" scale="100"/></innerModel>')
+    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    assert result.code == 0
+    assert "RC652]: the mesh `m`" in result.err
+    assert "world.xml:2:3" in result.err
+
+
+def test_an_empty_world_is_shown(tmp_path: Path) -> None:
+    path = tmp_path / "world.xml"
+    path.write_text("<innerModel/>")
+    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    assert (result.code, result.err) == (0, "")
+
+
+def test_what_is_missing_for_the_browser_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "viser", None)
+    monkeypatch.delitem(sys.modules, "robocomp_dsl.hardware.view.browser", raising=False)
+    with pytest.raises(ImportError, match=r"pip install 'robocomp_dsl\[view\]'"):
+        importlib.import_module("robocomp_dsl.hardware.view.browser")
