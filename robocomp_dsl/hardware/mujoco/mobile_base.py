@@ -8,6 +8,7 @@ the corrected pose is the true one unless `correct` has moved it.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import mujoco
@@ -48,8 +49,8 @@ class MobileBase:
         self._drift = drift
         self._odometry = ORIGIN
         self._correction = ORIGIN
-        self._goal = np.zeros(3)  # side, ahead, turn in m/s and rad/s, in the frame of the base
-        self._speed = np.zeros(3)
+        self._goal = [0.0, 0.0, 0.0]  # side, ahead, turn in m/s and rad/s, in the frame of the base
+        self._speed = [0.0, 0.0, 0.0]
 
     # -- as a part of the world ---------------------------------------------------------------
 
@@ -72,54 +73,69 @@ class MobileBase:
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """At rest at the start, with the errors of its odometry drawn."""
         self._random = random
-        self._errors = random.standard_normal(3)
+        self._errors = random.standard_normal(3).tolist()
         self.find(model, data)
-        self._last = np.array(data.qpos[self._where])
+        self._last = self._now()
 
     def find(self, model: Any, data: Any) -> None:
         """The same joints in another model."""
         joints = [model.joint(f"{self.name}.{part}") for part in _PARTS]
-        self._where = np.array([int(joint.qposadr[0]) for joint in joints])
-        self._rates = np.array([int(joint.dofadr[0]) for joint in joints])
-        self._motors = np.array([model.actuator(joint.name).id for joint in joints])
+        self._where = [int(joint.qposadr[0]) for joint in joints]
+        self._rates = [int(joint.dofadr[0]) for joint in joints]
+        self._motors = [int(model.actuator(joint.name).id) for joint in joints]
         self._body = int(model.body(self.name).id)
         self._data = data
 
     def relocated(self, frame: str) -> None:  # noqa: ARG002 - it has one frame
         """It was moved by hand, which wheels do not feel."""
-        self._last = np.array(self._data.qpos[self._where])
+        self._last = self._now()
 
     def before_step(self, dt: float) -> None:
         """Bring the motors nearer to the commanded speeds."""
-        most = np.array(_ACCELERATION) * dt
-        self._speed += np.clip(self._goal - self._speed, -most, most)
-        side, ahead, turn = self._speed
+        speed = self._speed
+        for i, goal in enumerate(self._goal):  # numbers, not arrays: three of them at every step
+            most = _ACCELERATION[i] * dt
+            speed[i] += min(max(goal - speed[i], -most), most)
+        side, ahead, turn = speed
         alpha = float(self._data.qpos[self._where[2]])
         sine, cosine = math.sin(alpha), math.cos(alpha)
-        self._data.ctrl[self._motors] = (
-            side * cosine + ahead * sine,
-            ahead * cosine - side * sine,
-            turn,
-        )
+        control, (x, z, about) = self._data.ctrl, self._motors
+        control[x] = side * cosine + ahead * sine
+        control[z] = ahead * cosine - side * sine
+        control[about] = turn
 
     def after_step(self, dt: float) -> None:  # noqa: ARG002  the Protocol's, not needed here
         """Sum up the odometry."""
-        now = self._data.qpos[self._where]
-        x, z, turn = now - self._last
-        if not (x or z or turn):
+        now, before = self._now(), self._last
+        if now == before:
             return
-        alpha = float(self._last[2]) + turn / 2  # of the middle of the step
+        self._last = now
+        x, z, turn = now[0] - before[0], now[1] - before[1], now[2] - before[2]
+        alpha = before[2] + turn / 2  # of the middle of the step
         sine, cosine = math.sin(alpha), math.cos(alpha)
-        moved = np.array([x * cosine - z * sine, x * sine + z * cosine, turn])
-        moved *= 1 + self._drift * self._level.factor * self._errors
+        side, ahead, turn = self._told(x * cosine - z * sine, x * sine + z * cosine, turn)
+        known = self._odometry
+        alpha = known.alpha + turn / 2
+        sine, cosine = math.sin(alpha), math.cos(alpha)
+        self._odometry = Pose(
+            known.x + (side * cosine + ahead * sine) / MM,
+            known.z + (ahead * cosine - side * sine) / MM,
+            wrapped(known.alpha + turn),
+        )
+
+    def _told(self, *moved: float) -> Iterator[float]:
+        """What the wheels tell of a motion (m, m, rad): with errors and noise."""
+        drift = self._drift * self._level.factor
         spread = self._noise * MM * self._level.factor
-        if spread:
-            way = np.sqrt(np.abs(moved))
-            moved += spread * way * self._random.standard_normal(3)
-        middle = Pose(0.0, 0.0, float(moved[2]) / 2)
-        ahead = Pose(float(moved[0]) / MM, float(moved[1]) / MM, float(moved[2]) / 2)
-        self._odometry = self._odometry.then(middle).then(ahead)
-        self._last = now.copy()
+        noise = self._random.standard_normal(3).tolist() if spread else (0.0, 0.0, 0.0)
+        for way, error, random in zip(moved, self._errors, noise, strict=True):
+            way *= 1 + drift * error  # noqa: PLW2901
+            yield way + spread * math.sqrt(abs(way)) * random
+
+    def _now(self) -> tuple[float, float, float]:
+        """x, z and alpha of the joints in m and rad."""
+        place, (x, z, about) = self._data.qpos, self._where
+        return float(place[x]), float(place[z]), float(place[about])
 
     # -- as a device --------------------------------------------------------------------------
 
@@ -154,8 +170,7 @@ class MobileBase:
 
     def stop(self) -> None:
         """Stop as fast as the motors can."""
-        self._goal[:] = 0.0
-        self._speed[:] = 0.0
+        self._goal[:] = self._speed[:] = 0.0, 0.0, 0.0
 
     def set_odometry(self, pose: Pose) -> None:
         """The odometry goes on from `pose`. Raises `CommandRefused`."""
