@@ -65,6 +65,27 @@ assert "finite" in error.what, error.what
 sideways = proxy(i.OMNIROBOT, "platform")
 sideways.setSpeedBase(300.0, 0.0, 0.0)
 until(lambda: sideways.getBaseState().correctedX > -1900)
+motors = proxy(i.JOINTMOTOR, "JointMotor")
+motors.setPosition(i.MotorGoalPosition("neck", 0.5, 0.0))
+until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
+refused(i.UnknownMotorException, motors.getMotorState, "nobody")
+nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
+near = laser.getLaserData().dist[50] / 2
+where = state.correctedZ + 200 + near
+nodes.addPlane("crate", "floor", i.Plane3D(500.0, 140.0, where, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0))
+until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
+missing = refused(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
+assert missing.err is i.ErrorType.NonExistingNode
+hand = proxy(i.SIMULATION, "Simulation")
+hand.pause()
+now = hand.getState().time
+assert abs(hand.step(10) - now - 0.02) < 1e-9
+fork = hand.fork()
+assert abs(hand.advance(fork, 1.0) - now - 1.02) < 1e-9
+assert abs(hand.getState().time - now - 0.02) < 1e-9
+refused(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
+hand.resume()
+until(lambda: hand.getState().time > now + 0.1)
 print("driven")
 """
 INPROC = """
