@@ -68,6 +68,10 @@ until(lambda: sideways.getBaseState().correctedX > -1900)
 motors = proxy(i.JOINTMOTOR, "JointMotor")
 motors.setPosition(i.MotorGoalPosition("neck", 0.5, 0.0))
 until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
+heard = []
+topic = Endpoint(i.JointMotorPubProxy.INTERFACE, "client", "JointMotorPub")
+middleware.subscribe(topic, {"motorStates": heard.append}, Execution())
+until(lambda: heard and abs(heard[-1]["neck"].pos - 0.5) < 0.01)
 refused(i.UnknownMotorException, motors.getMotorState, "nobody")
 nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
 near = laser.getLaserData().dist[50] / 2
