@@ -27,12 +27,22 @@ class Model:
     )
     ports: list[tuple[str, str]] = field(default_factory=lambda: [("implements", "Talk")])
     parameters: dict[str, str] = field(default_factory=dict)
+    states: list[str] = field(default_factory=list)
     period: int = 10
 
     def edit(self) -> None:
         """One change."""
         change = self.chance.choice(
-            [self.add, self.add, self.remove, self.rename, self.retype, self.wire, self.parameter]
+            [
+                self.add,
+                self.add,
+                self.remove,
+                self.rename,
+                self.retype,
+                self.wire,
+                self.parameter,
+                self.state,
+            ]
         )
         change()
 
@@ -67,6 +77,13 @@ class Model:
         if self.parameters.pop(name, None) is None:
             self.parameters[name] = self.chance.choice(list(VALUES))
 
+    def state(self) -> None:
+        name = f"s{self.chance.randrange(6)}"
+        if name in self.states:
+            self.states.remove(name)
+        else:
+            self.states.append(name)
+
     def _one(self) -> tuple[str, str] | None:
         found = [(i, o) for i, table in self.operations.items() for o in table]
         return self.chance.choice(found) if found else None
@@ -98,10 +115,20 @@ class Model:
         rows = "".join(f"    {n} {t} {VALUES[t]};\n" for n, t in self.parameters.items())
         return f"ComponentParams talker\n{{\n{rows}}};\n"
 
+    def smdsl(self) -> str:
+        """A chain of the states; none of them is an end, so the component goes on."""
+        first, *rest = self.states or ["s"]
+        states = f"    states {', '.join(rest)};\n" if rest else ""
+        pairs = zip([first, *rest], [*rest, first], strict=True)
+        ways = "".join(f"        {a} => {b} on next;\n" for a, b in pairs)
+        ways = f"    transitions\n    {{\n{ways}    }};\n" if rest else ""
+        return f"machine\n{{\n    initial_state {first};\n{states}{ways}}};\n"
+
     def cdsl(self) -> str:
+        machine = 'statemachine "talker.smdsl";\n    ' if self.states else ""
         ports = "".join(f"        {role} {name};\n" for role, name in self.ports)
         return (
             'import "Talk.idsl";\nComponent talker\n{\n    Communications\n    {\n'
             f"{ports}    }};\n    language Python;\n    middleware inproc;\n"
-            f'    parameters "talker.pdsl";\n    period {self.period};\n}};\n'
+            f'    parameters "talker.pdsl";\n    {machine}period {self.period};\n}};\n'
         )
