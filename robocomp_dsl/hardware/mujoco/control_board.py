@@ -86,9 +86,11 @@ class SimulatedBoard:
         """Torques that hold the arm against gravity, its own swing and the drag of its joints."""
         wanted = self.board.references.velocity
         if self._plain:
-            return self._data.qfrc_bias[self._speed] + self._damping * wanted
+            held: Floats = self._data.qfrc_bias[self._speed] + self._damping * wanted
+            return held
         drag = self._damping * (self._from_board @ wanted)
-        return self._to_board @ (self._data.qfrc_bias[self._speed] + drag)
+        weight: Floats = self._to_board @ (self._data.qfrc_bias[self._speed] + drag)
+        return weight
 
     def after_step(self, dt: float) -> None:
         """Motors warm up by their current and cool down in the room; slowly, so now and then."""
