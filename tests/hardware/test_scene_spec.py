@@ -232,3 +232,11 @@ def test_a_picture_on_a_plane_leaves_the_plane_where_it_is(tmp_path) -> None:  #
 def test_what_falls_and_weighs_nothing_is_told() -> None:
     _, notes = build_spec(Scene((ROOT, Frame("f", "root", physics=True))))
     assert notes == ["`f` falls and has no mass: it gets 0.001 kg"]
+
+
+@pytest.mark.parametrize("scale", [(float("inf"), 1, 1), (1e300, 1, 1), (float("nan"), 1, 1)])
+def test_a_mesh_of_impossible_scale_is_a_box(tmp_path, scale) -> None:  # type: ignore[no-untyped-def]
+    mesh = Mesh("m", "root", cube(tmp_path), scale=scale)
+    spec, notes = build_spec(Scene((ROOT,), meshes=(mesh,)))
+    assert "is a box: no world holds it with the scale" in notes[0]
+    assert spec.compile().geom("m").type[0] == mujoco.mjtGeom.mjGEOM_BOX

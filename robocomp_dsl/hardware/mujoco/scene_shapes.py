@@ -82,6 +82,7 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
     }
     try:
         surface = read_mesh(Path(mesh.file))
+        points = _scaled(surface, mesh.scale)
     except MeshError as error:
         notes.append(f"the mesh `{mesh.id}` ({mesh.file}) is a box: {error}")
         half = _sized(mesh.scale, mesh.id, notes)
@@ -89,7 +90,6 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
             type=_GEOM.mjGEOM_BOX, size=half, rgba=_PLACEHOLDER, **placed, **_touch(False)
         )
         return
-    points = surface.points * mesh.scale
     low, high = points.min(axis=0), points.max(axis=0)
     if len(surface.faces) and not is_flat(points):
         asset = spec.add_mesh(
@@ -112,6 +112,14 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
     placed["pos"] = axes.point(*centre)
     half = _half(tuple((high - low).tolist()))
     body.add_geom(type=_GEOM.mjGEOM_BOX, size=half, rgba=_GREY, **placed, **_touch(mesh.collide))
+
+
+def _scaled(surface: Surface, scale: Triple) -> Matrix:
+    with np.errstate(all="ignore"):
+        points: Matrix = surface.points * scale
+    if not (np.abs(points) * MM <= _LARGEST).all():
+        raise MeshError(f"no world holds it with the scale {', '.join(f'{s:g}' for s in scale)}")
+    return points
 
 
 def _outside(surface: Surface, scale: Triple) -> Any:
