@@ -81,6 +81,7 @@ class _Arm:
         add_robot(spec, robot)
         self.part = SimulatedBoard(robot_board(robot, "right_arm"))
         self.world = World(spec, [self.part])
+        self.world.model.opt.gravity[:] = 0  # a joint that fell to its limit would be held there
         self.turn, self.over = Turns(), threading.Event()
         self.driven = threading.Condition()
         self.torque = 0.0
@@ -118,7 +119,7 @@ def _latencies() -> list[dict[str, Any]]:
     try:
         for k in range(COMMANDS):
             time.sleep(0.001 + 0.002 * random.random())  # at any moment between two steps
-            taken.append(arm.latency(0.001 * (1 + k % 2)))
+            taken.append(arm.latency(0.001 * (1 - 2 * (k % 2))))
     finally:
         arm.over.set()
         thread.join()
