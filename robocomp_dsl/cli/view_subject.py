@@ -5,6 +5,7 @@ In: what the user named. Out: a compiled model, and findings with their places.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,7 +83,8 @@ def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | No
             report.add(codes.MODEL_FILE, _line(source, fault.line), fault.said)
         return None
     for one in findings:
-        _add(one, _line(source, one.line), report)
+        place = _line(source, one.line) if one.line else _tag(source, one.subject)
+        _add(one, place, report)
     return Subject(path.stem, model, {})
 
 
@@ -123,6 +125,13 @@ def _named(said: str, spans: dict[str, Span], otherwise: Span) -> Span:
     found = next((spans[name] for name in said.split("`")[1::2] if name in spans), otherwise)
     line = found.source.text.find("\n", found.start, found.end)
     return found.source.span(found.start, found.end if line < 0 else line)
+
+
+def _tag(source: Source, name: str) -> Span:
+    """Where a link or a body begins."""
+    tag = rf"<(?:link|body)\b[^<>]*\bname\s*=\s*([\"']){re.escape(name)}\1"
+    found = re.search(tag, source.text)
+    return source.span(*found.span()) if found else source.whole
 
 
 def _line(source: Source, number: int) -> Span:

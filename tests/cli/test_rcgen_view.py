@@ -193,3 +193,14 @@ def test_what_is_missing_for_the_browser_is_told(monkeypatch: pytest.MonkeyPatch
     monkeypatch.delitem(sys.modules, "robocomp_dsl.hardware.view.browser", raising=False)
     with pytest.raises(ImportError, match=r"pip install 'robocomp_dsl\[view\]'"):
         importlib.import_module("robocomp_dsl.hardware.view.browser")
+
+
+def test_links_that_start_in_each_other_are_told_where_they_stand(tmp_path: Path) -> None:
+    ball = "<body name='{}'><freejoint/><geom size='.1'/></body>\n"
+    path = tmp_path / "balls.xml"
+    balls = ball.format("a") + ball.format("b")
+    path.write_text(f"<mujoco><worldbody>\n{balls}</worldbody></mujoco>")
+    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    assert result.code == 0
+    assert "`a` and `b` are 200 mm in each other" in result.err
+    assert "balls.xml:2:1" in result.err

@@ -106,7 +106,7 @@ def overlaps(model: Any) -> list[Finding]:
         deepest[one, other] = min(deepest.get((one, other), 0.0), float(contact.dist))
     ordered = sorted(deepest.items(), key=lambda item: item[1])
     return [
-        Finding("overlap", one, f"`{one}` and `{other}` are {-depth * 1000:.2g} mm in each other")
+        Finding("overlap", one, f"`{one}` and `{other}` are {-depth * 1000:.3g} mm in each other")
         for (one, other), depth in ordered[:_MOST_OVERLAPS]
         if depth < -1e-4
     ]
