@@ -158,11 +158,21 @@ def _earlier(path: Path, against: str) -> Iterator[_Earlier]:
     data = _git(top, "archive", "--format=tar", revision.decode().strip())
     with tempfile.TemporaryDirectory() as made:
         root = Path(made).resolve()
-        with tarfile.open(fileobj=io.BytesIO(data)) as archive:
-            wanted = [m for m in archive if Path(m.name).suffix.lower() in SUFFIXES]
-            archive.extractall(root, wanted, filter="data")
+        _unpack(data, root)
         inside = path.resolve().relative_to(top.resolve())
         yield _Earlier(root / inside, root, top, against)
+
+
+def _unpack(data: bytes, folder: Path) -> None:
+    """The descriptions of an archive (Python 3.11.2 has no safe way of its own to unpack one)."""
+    with tarfile.open(fileobj=io.BytesIO(data)) as archive:
+        for member in archive:
+            content = archive.extractfile(member) if member.isfile() else None
+            path = folder / member.name
+            inside = path.resolve().is_relative_to(folder)
+            if content and inside and path.suffix.lower() in SUFFIXES:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(content.read())
 
 
 def _git(where: Path, *arguments: str) -> bytes:
