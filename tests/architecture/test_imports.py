@@ -10,9 +10,8 @@ ROOT = Path(__file__).parents[2]
 def test_import_contracts() -> None:
     # A process of its own: the linter switches off all loggers that there are.
     code = "from importlinter.cli import lint_imports_command; lint_imports_command()"
-    run = subprocess.run(
-        [sys.executable, "-c", code, "--no-cache"], cwd=ROOT, capture_output=True, text=True
-    )
+    command = [sys.executable, "-c", code, "--no-cache"]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout
 
 
