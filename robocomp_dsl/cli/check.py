@@ -20,13 +20,7 @@ Judge = Callable[[Path, Workspace, Report], object]
 
 
 @click.command()
-@click.argument(
-    "files",
-    nargs=-1,
-    required=True,
-    type=click.Path(readable=False, path_type=Path),
-    metavar="FILE…",
-)
+@options.files
 @click.option("--syntax", is_flag=True, help="Judge form only; follow no imports.")
 @click.option("--fix", "fixing", is_flag=True, help="Bring legacy forms into today's form first.")
 @click.option("--diff", is_flag=True, help="With --fix: write nothing; show what would change.")

@@ -29,13 +29,7 @@ BEGINNING = 1000
 
 
 @click.command()
-@click.argument(
-    "files",
-    nargs=-1,
-    required=True,
-    type=click.Path(readable=False, path_type=Path),
-    metavar="FILE…",
-)
+@options.files
 @click.option(
     "-o",
     "output",

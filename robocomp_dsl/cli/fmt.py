@@ -23,13 +23,7 @@ STDIN = Path("-")
 
 
 @click.command()
-@click.argument(
-    "files",
-    nargs=-1,
-    required=True,
-    type=click.Path(readable=False, path_type=Path),
-    metavar="FILE…",
-)
+@options.files
 @click.option("--check", "checking", is_flag=True, help="Write nothing; list what would change.")
 @click.option("--diff", is_flag=True, help="Write nothing; show what would change.")
 @click.option(

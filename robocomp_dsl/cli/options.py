@@ -18,6 +18,13 @@ FOR_PEOPLE = ("full", "concise")
 WHOLE = ("json", "sarif")
 """Forms that are one document, also when there is nothing in it."""
 
+files = click.argument(
+    "files",
+    nargs=-1,
+    required=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="FILE…",
+)
 folders = click.option(
     "-I",
     "folders",

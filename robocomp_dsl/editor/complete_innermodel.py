@@ -10,10 +10,11 @@ from pathlib import Path
 from lsprotocol import types as lsp
 
 from robocomp_dsl.check.innermodel_tags import FLAG, UNITS
+from robocomp_dsl.editor import complete_xml
 from robocomp_dsl.editor import innermodel_words as known
 from robocomp_dsl.editor.offer import Offer, words
 from robocomp_dsl.editor.session import Session
-from robocomp_dsl.editor.xml_cursor import Place, XmlCursor
+from robocomp_dsl.editor.xml_cursor import XmlCursor
 
 ROOT = "innerModel"
 FILES = {
@@ -27,19 +28,12 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)\s*")
 
 def offers(session: Session, cursor: XmlCursor) -> Iterator[Offer]:
     """Everything that fits."""
-    match cursor.place:
-        case Place.CONTENT:
-            yield from _tags(cursor, "<")
-            yield from ends(cursor, "</")
-        case Place.TAG:
-            yield from _tags(cursor, "")
-            yield from ends(cursor, "/")
-        case Place.CLOSING:
-            yield from ends(cursor, "")
-        case Place.ATTRIBUTE:
-            yield from _attributes(cursor)
-        case Place.VALUE:
-            yield from _values(session, cursor)
+    return complete_xml.offers(
+        cursor,
+        lambda before: _tags(cursor, before),
+        lambda: _attributes(cursor),
+        lambda: _values(session, cursor),
+    )
 
 
 def _tags(cursor: XmlCursor, before: str) -> Iterator[Offer]:
@@ -47,14 +41,6 @@ def _tags(cursor: XmlCursor, before: str) -> Iterator[Offer]:
     for name in names:
         kind, about = lsp.CompletionItemKind.Class, known.about_tag(name)
         yield Offer(before + name, kind, about.split("\n", 1)[0], about=about)
-
-
-def ends(cursor: XmlCursor, before: str) -> Iterator[Offer]:
-    """The closing tag of what is open."""
-    if cursor.around:
-        end = "" if cursor.source.text[cursor.offset : cursor.offset + 1] == ">" else ">"
-        label = f"{before}{cursor.around[-1]}{end}"
-        yield Offer(label, lsp.CompletionItemKind.Class, "ends the tag")
 
 
 def _attributes(cursor: XmlCursor) -> Iterator[Offer]:

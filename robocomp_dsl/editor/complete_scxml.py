@@ -8,12 +8,12 @@ from lsprotocol import types as lsp
 
 from robocomp_dsl.check.scxml_form import local
 from robocomp_dsl.check.scxml_tags import STATES, TAGS
-from robocomp_dsl.editor.complete_innermodel import ends
+from robocomp_dsl.editor import complete_xml
 from robocomp_dsl.editor.names_innermodel import elements
 from robocomp_dsl.editor.names_scxml import LEADS, words
 from robocomp_dsl.editor.offer import Offer
 from robocomp_dsl.editor.session import Session
-from robocomp_dsl.editor.xml_cursor import Place, XmlCursor
+from robocomp_dsl.editor.xml_cursor import XmlCursor
 from robocomp_dsl.syntax.ast_innermodel import File
 
 _ROOT = "scxml"
@@ -21,23 +21,24 @@ _ROOT = "scxml"
 
 def offers(session: Session, cursor: XmlCursor) -> Iterator[Offer]:
     """Everything that fits."""
-    match cursor.place:
-        case Place.CONTENT:
-            yield from _tags(cursor, "<")
-            yield from ends(cursor, "</")
-        case Place.TAG:
-            yield from _tags(cursor, "")
-            yield from ends(cursor, "/")
-        case Place.CLOSING:
-            yield from ends(cursor, "")
-        case Place.ATTRIBUTE:
-            known = TAGS.get(cursor.tag)
-            for name in known.attributes if known else ():
-                if name not in cursor.written:
-                    yield Offer(name, lsp.CompletionItemKind.Property)
-        case Place.VALUE:
-            if cursor.attribute in LEADS.get(cursor.tag, ()):
-                yield from _states(session, cursor)
+    return complete_xml.offers(
+        cursor,
+        lambda before: _tags(cursor, before),
+        lambda: _attributes(cursor),
+        lambda: _values(session, cursor),
+    )
+
+
+def _attributes(cursor: XmlCursor) -> Iterator[Offer]:
+    known = TAGS.get(cursor.tag)
+    for name in known.attributes if known else ():
+        if name not in cursor.written:
+            yield Offer(name, lsp.CompletionItemKind.Property)
+
+
+def _values(session: Session, cursor: XmlCursor) -> Iterator[Offer]:
+    if cursor.attribute in LEADS.get(cursor.tag, ()):
+        yield from _states(session, cursor)
 
 
 def _tags(cursor: XmlCursor, before: str) -> Iterator[Offer]:
