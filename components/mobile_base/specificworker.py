@@ -10,9 +10,9 @@ from generated.genericworker import GenericWorker
 from generated.interfaces import HardwareFailedException, LaserConfData, TBaseState, TLaserData
 from simulation import Simulation, simulate
 
-from robocomp_dsl.hardware.differential_robot import BaseState
 from robocomp_dsl.hardware.errors import HardwareError
 from robocomp_dsl.hardware.planar import ORIGIN, Pose
+from robocomp_dsl.hardware.servants.base import told_state
 from robocomp_dsl.runtime.clock_source import ClockSource
 from robocomp_dsl.runtime.parameters import Refused
 
@@ -66,13 +66,14 @@ class SpecificWorker(GenericWorker):
             period = self.params.publish_period / 1000
             self.next_publication = max(self.next_publication + period, world.time)
             state = self.simulation.base.state()
-            self.differentialrobotpub_proxy.pushBaseState(_told(state), state.time)
+            self.differentialrobotpub_proxy.pushBaseState(told_state(TBaseState, state), state.time)
 
     # implements RoboCompDifferentialRobot::DifferentialRobot
 
     def DifferentialRobot_getBaseState(self) -> TBaseState:
         """The whole state."""
-        return _told(self.simulation.base.state())
+        state: TBaseState = told_state(TBaseState, self.simulation.base.state())
+        return state
 
     def DifferentialRobot_getBasePose(self) -> tuple[int, int, float]:
         """The odometry pose alone, in whole millimetres."""
@@ -146,18 +147,3 @@ def _failures() -> Iterator[None]:
         yield
     except HardwareError as error:
         raise HardwareFailedException(what=str(error)) from None
-
-
-def _told(state: BaseState) -> TBaseState:
-    return TBaseState(
-        x=state.odometry.x,
-        correctedX=state.corrected.x,
-        z=state.odometry.z,
-        correctedZ=state.corrected.z,
-        alpha=state.odometry.alpha,
-        correctedAlpha=state.corrected.alpha,
-        advVx=0.0,
-        advVz=state.adv,
-        rotV=state.rot,
-        isMoving=state.moving,
-    )
