@@ -3,7 +3,8 @@
 In: the moments for which the source's own life cycle waits, a speed, a wall clock. Out: ticks. The
 time moves only in `wait_until`: it waits until the wall clock is there, and then it is that moment.
 So a simulator that advances its world to `clock.now()` in every `compute` needs no pacing of its
-own; its period is the resolution of the deployment's time.
+own; its period is the resolution of the deployment's time. A world that is to be there before
+anybody is told so (`carry`) goes along at every move, also at those between two computes.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Protocol
 
 from robocomp_dsl.runtime.clock import NANO, Wake
@@ -57,7 +59,8 @@ class ClockSource:
         self._began = False
         self._lived = 0
         self._paused = False
-        self._credit = 0
+        self._until = 0
+        self._carry: Callable[[float, int], None] | None = None
         self._anchor = (0.0, 0)
         self._window = (0.0, 0)
         self._factor = 0.0
@@ -109,21 +112,43 @@ class ClockSource:
         """Let time go on."""
         with self._changed:
             self._paused = False
-            self._credit = 0
+            self._until = 0
             self._re_anchor()
 
-    def step(self, periods: int = 1) -> None:
-        """While it is paused, let so many moments of the source come."""
+    def step(self, seconds: float) -> None:
+        """While it is paused, let so much time pass, as fast as possible."""
         with self._changed:
-            self._credit += periods if self._paused else 0
-            self._changed.notify_all()
+            if self._paused:
+                self._until = max(self._until, self._ns) + round(seconds * NANO)
+                self._changed.notify_all()
 
-    def reset(self) -> None:
-        """Time begins anew at 0, for all."""
+    def stepped(self, patience: float) -> bool:
+        """Wait until what `step` lets pass has passed.
+
+        False when time did not move for `patience` s of the wall clock; the rest is taken back.
+        """
+        with self._changed:
+            while (left := self._until - self._ns) > 0:
+                if not self._changed.wait_for(partial(self._is_nearer, left), patience):
+                    self._until = 0
+                    return False
+        return True
+
+    def _is_nearer(self, left: int) -> bool:
+        """Whether less than `left` ns of a step are left."""
+        return self._until - self._ns < left
+
+    def reset(self, seconds: float = 0.0) -> None:
+        """Time begins anew, at `seconds`, for all."""
         with self._changed:
             self._resets += 1
-            self._ns = 0
+            self._ns = round(seconds * NANO)
+            self._until = 0
             self._re_anchor()
+
+    def carry(self, along: Callable[[float, int], None]) -> None:
+        """Call `along(seconds, epoch)` just before it is `seconds`, from the thread that waits."""
+        self._carry = along
 
     def wait_until(self, moment: float | None, wake: Wake) -> None:
         """See `Clock`: time goes on to `moment`, no faster than the speed allows."""
@@ -157,30 +182,41 @@ class ClockSource:
                 if self._is_anew or not self._reach(due, wake):
                     return
                 self._steps.run(self.told)
-        if self._reach(target, wake):
-            with self._changed:
-                self._credit = max(self._credit - 1, 0)
+        self._reach(target, wake)
 
     def _reach(self, target: int, wake: Wake) -> bool:
         """Wait for the wall clock, then it is `target`; False when something else came first."""
         target = max(target, self._ns)
+        while (goal := self._awaited(target, wake)) is not None:
+            if self._carry:
+                self._carry(goal / NANO, self._lived)
+            with self._changed:
+                if self._is_anew:
+                    break
+                self._ns = goal
+                self._measure()
+                self._changed.notify_all()
+            self._publish(self.told)
+            if goal == target:
+                return True
+        self._publish(self.told)
+        return False
+
+    def _awaited(self, target: int, wake: Wake) -> int | None:
+        """`target`, or where a step ends on the way there, when time may be there."""
         with self._changed:
             while not wake.is_set() and not self._is_anew:
-                if (left := self._left(target)) <= 0:
-                    break
+                goal = min(target, self._until) if self._paused else target
+                if (left := self._left(goal)) <= 0:
+                    return goal
                 if not self._changed.wait(min(left, BEAT_S)) and self._paused:
                     self._publish(self.told)
-            reached = not wake.is_set() and not self._is_anew
-            if reached:
-                self._ns = target
-                self._measure()
-        self._publish(self.told)
-        return reached
+        return None
 
     def _left(self, target: int) -> float:
         """Seconds of the wall clock until it may be `target`."""
         if self._paused:
-            return 0.0 if self._credit else BEAT_S
+            return 0.0 if target > self._ns else BEAT_S
         if not self._speed:
             return 0.0
         wall, ns = self._anchor

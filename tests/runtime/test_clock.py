@@ -96,7 +96,7 @@ def test_a_source_that_was_held_up_tells_a_smaller_factor() -> None:
     assert told[-1].realTimeFactor == pytest.approx(0.5, abs=0.03)
 
 
-def test_a_pause_holds_and_a_step_lets_one_moment_come() -> None:
+def test_a_pause_holds_and_a_step_lets_some_time_pass() -> None:
     source, told, _ = began(speed=0)
     source.pause()
     reached = threading.Event()
@@ -110,10 +110,16 @@ def test_a_pause_holds_and_a_step_lets_one_moment_come() -> None:
     until(lambda: told[-1].paused)
     assert source.now() == 0.0
     assert not reached.is_set()
-    source.step()
+    source.step(0.004)
+    assert source.stepped(DEADLINE)
+    assert source.now() == 0.004
+    assert not reached.is_set()
+    source.step(0.006)
     thread.join(DEADLINE)
     assert source.now() == 0.01
     assert source.paused
+    source.step(0.01)
+    assert not source.stepped(0.01), "nobody waits for this time"
     source.resume()
     source.wait_until(0.02, Wake())
     assert source.now() == 0.02
@@ -129,6 +135,37 @@ def test_a_reset_ends_the_wait() -> None:
     source.wait_until(0.01, Wake())
     assert told[-1].time == 10_000_000
     assert told[-1].epoch == 1
+
+
+def test_time_may_begin_anew_at_another_moment() -> None:
+    source, told, _ = began(speed=0)
+    source.reset(2.5)
+    source.wait_until(0.01, Wake())
+    assert (source.now(), source.epoch) == (2.5, 1)
+    source.wait_until(2.51, Wake())
+    assert [(one.time, one.epoch) for one in told[-2:]] == [(2_500_000_000, 1), (2_510_000_000, 1)]
+
+
+def test_what_is_carried_along_is_there_first() -> None:
+    source, told, _ = began(speed=0)
+    moves: list[tuple[float, int, int]] = []
+    source.carry(lambda seconds, epoch: moves.append((seconds, epoch, told[-1].time)))
+    source.wait_until(0.01, Wake())
+    source.pause()
+    thread = threading.Thread(target=lambda: source.wait_until(0.02, Wake()))
+    thread.start()
+    for _ in range(2):
+        source.step(0.005)
+        assert source.stepped(DEADLINE)
+    thread.join(DEADLINE)
+    assert moves == [(0.01, 0, 0), (0.015, 0, 10_000_000), (0.02, 0, 15_000_000)]
+
+
+def test_what_is_carried_along_may_begin_time_anew() -> None:
+    source, told, _ = began(speed=0)
+    source.carry(lambda _seconds, _epoch: source.reset())
+    source.wait_until(0.01, Wake())
+    assert (source.now(), source.epoch, told[-1].time) == (0.0, 1, 0)
 
 
 @pytest.mark.parametrize("speed", [-1.0, float("nan"), float("inf")])
