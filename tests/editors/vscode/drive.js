@@ -14,12 +14,13 @@ async function open(page, name) {
   await page.locator(".editor-group-container.active .view-lines").click();
 }
 
+// Chosen by a click: Enter takes the row that has the focus, which may be one of the list before the last letter.
 async function command(page, title) {
   await page.keyboard.press("F1");
   const box = page.locator(".quick-input-box input.input");
   await box.fill(`>${title}`);
-  await page.locator(".quick-input-list .monaco-list-row").filter({ hasText: title }).first().waitFor();
-  await page.keyboard.press("Enter");
+  const rows = page.locator(".quick-input-list .monaco-list-row");
+  await rows.filter({ has: page.getByText(title, { exact: true }) }).first().click();
   await page.locator(".quick-input-widget").waitFor({ state: "hidden" });
 }
 
