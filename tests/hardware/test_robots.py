@@ -286,6 +286,22 @@ def test_every_field_moves_the_skin_away_from_the_touch(name, side):
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
+def test_under_the_skin_there_is_a_body(name, side):
+    robot, part = Simulated(name), description(name).part(side)
+    generic(robot, part, part.start)
+    for field in part.fields:
+        limb = part.limb(field.limb)
+        body = robot.data.body(limb.body)
+        turn = body.xmat.reshape(3, 3)
+        out = turn @ limb.axes @ np.array([0.0, *field.centre[1:]])
+        out /= np.linalg.norm(out)
+        skin = body.xpos + turn @ limb.to_body(field.centre)
+        hit = np.zeros(1, np.int32)
+        away = mujoco.mj_ray(robot.model, robot.data, skin + 0.02 * out, -out, None, 1, -1, hit)
+        assert away - 0.02 == pytest.approx(0.0, abs=0.004), field.name
+
+
+@pytest.mark.parametrize(("name", "side"), SIDES)
 def test_generic_chain_and_simulation_agree(name, side):
     robot, part = Simulated(name), description(name).part(side)
     low, high = part.mapping.limits
