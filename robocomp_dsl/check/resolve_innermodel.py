@@ -124,14 +124,16 @@ class _Resolver:
         if first is None:
             self.ids[written] = span
             return written
+        made = self._numbered(written, span, 2)
         self.report.add(
             codes.BODY_DUPLICATE,
             span,
             f"the id `{written:.60}` is given twice",
             label="choose another one",
             notes=(Note(first, "first given here"),),
+            help=f"until then the node is `{made:.70}`",
         )
-        return self._numbered(written, span, 2)
+        return made
 
     def _numbered(self, base: str, span: Span, first: int) -> str:
         while True:

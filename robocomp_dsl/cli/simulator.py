@@ -15,6 +15,7 @@ import click
 from robocomp_dsl.check import check_cdsl, check_innermodel
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
+from robocomp_dsl.cli.consequences import consequences
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
@@ -36,22 +37,31 @@ if TYPE_CHECKING:
     help="Where to; by default a folder <world>_simulator beside the file.",
 )
 @click.option("--dry-run", is_flag=True, help="Write nothing; list what would be served.")
+@click.option("--strict", is_flag=True, help="Make nothing of a world with errors.")
 @options.output_format
 @options.folders
 def command(
-    *, file: Path, output: Path | None, dry_run: bool, form: str, folders: tuple[Path, ...]
+    *,
+    file: Path,
+    output: Path | None,
+    dry_run: bool,
+    strict: bool,
+    form: str,
+    folders: tuple[Path, ...],
 ) -> None:
     """Generate a simulator from an InnerModel file: a component that serves its devices.
 
-    The world is built once to see that it can be. All is rewritten the next time but
-    `specificworker.py`, `README.md` and `etc/config.yaml`.
+    The world is built once to see that it can be; one with errors is simulated as far as it is
+    understood. All is rewritten the next time but `specificworker.py`, `README.md` and
+    `etc/config.yaml`.
     """
-    report = Report()
+    told, report = Report(), Report()
     workspace = Workspace(folders)
-    made = _world(file, workspace, report)
+    made = _world(file, workspace, told, report, strict=strict)
     folder = output or file.parent / (made.name if made else "")
     files = _files(made, folder, workspace, report) if made and not report.failed else []
-    options.show(report.sorted(), form, sys.stderr)
+    told.extend(report)
+    options.show(told.sorted(), form, sys.stderr)
     if made is None or report.failed:
         sys.exit(FINDINGS)
     if dry_run:
@@ -60,15 +70,21 @@ def command(
         _write(folder, files, made)
 
 
-def _world(file: Path, workspace: Workspace, report: Report) -> Simulator | None:
-    """The simulator of a file without errors that MuJoCo can build."""
-    body = check_innermodel(file, workspace, report)
-    if body is None or report.failed:
+def _world(
+    file: Path, workspace: Workspace, told: Report, report: Report, *, strict: bool
+) -> Simulator | None:
+    """The simulator of a file. What the file says wrongly is `told`; `report` is of its world."""
+    body = check_innermodel(file, workspace, told)
+    if body is None or (told.failed and (strict or not body.root.children)):
         return None
     from robocomp_dsl.generate.simulator import simulator  # noqa: PLC0415 - not for --help
 
     made = simulator(body)
     _build(made, body, report)
+    if told.failed and not report.failed:
+        said = f"this is simulated as far as it is understood: {consequences(told)}"
+        place = body.root.span.source.whole
+        report.add(codes.UNDERSTOOD_WORLD, place, said, help="with `--strict` nothing is made")
     return made
 
 

@@ -191,3 +191,14 @@ SIMPLIFIED_WORLD = Code(
 file is missing or in a format that only OpenSceneGraph reads becomes a box, a node with
 `engine="bullet"` inside another one moves with that instead of falling.""",
 )
+
+UNDERSTOOD_WORLD = Code(
+    "RC634",
+    Severity.WARNING,
+    "a world with errors is simulated as far as it is understood",
+    """What is wrong in a description does not keep the rest from being simulated: a second node of
+the same id gets a number (`wall#2`), a value that cannot be read is the default of its attribute,
+unknown tags and attributes and files that are not there are left out. Each is told at its place.
+
+`rcgen simulator --strict` makes nothing then; `rcgen check` fails in any case.""",
+)

@@ -28,26 +28,86 @@ def test_a_dry_run_lists_what_is_served_and_writes_nothing(tmp_path: Path) -> No
     assert [path.name for path in tmp_path.iterdir()] == ["room.xml"]
 
 
-BAD = {
-    '<innerModel><gps id="g" latitude="95"/></innerModel>': "world.xml:1:13",
-    '<innerModel><battery id="b" capacity="0"/></innerModel>': "world.xml:1:13",
-    '<innerModel><ultrasound id="u" min="9" max="3"/></innerModel>': "world.xml:1:13",
-    "<innerModel><laser/></innerMode>": "world.xml:1:",
-    '<innerModel><transform id="a" tx="wide"/></innerModel>': "world.xml:1:34",
+# what is wrong, where that is told, and what becomes of it
+WRONG = {
+    '<innerModel><gps id="g" latitude="95"/></innerModel>': (
+        "world.xml:1:13: error[RC808]",
+        "`g`: `latitude` is 84 here",
+    ),
+    '<innerModel><battery id="b" capacity="0"/></innerModel>': (
+        "world.xml:1:13: error[RC808]",
+        "`b`: `capacity` is 0.001 here",
+    ),
+    '<innerModel><ultrasound id="u" min="9" max="3"/></innerModel>': (
+        "world.xml:1:13: error[RC808]",
+        "`u`: `min` is 3 and `max` 9 here",
+    ),
+    '<innerModel><camera id="c" width="-3"/></innerModel>': (
+        "world.xml:1:13: warning[RC633]",
+        "`c`: `width` is 1 here",
+    ),
+    '<innerModel><laser id="l"></innerModel>': (
+        "world.xml:1:14: error[RC",
+        "1 place repaired in its XML",
+    ),
+    '<innerModel><transform id="a" tx="wide"/></innerModel>': (
+        "world.xml:1:34: error[RC803]",
+        "1 value replaced by the default",
+    ),
+    '<innerModel><lazer id="a"/><imu id="i"/></innerModel>': (
+        "world.xml:1:14: error[RC801]",
+        "1 tag left out",
+    ),
+    '<innerModel><laser id="a"/><laser id="a"/></innerModel>': (
+        "world.xml:1:38: error[RC804]",
+        "1 node renamed",
+    ),
+    '<innerModel><translation id="a" x="5"/><include path="b.xml"/></innerModel>': (
+        "world.xml:1:33: error[RC802]",
+        "1 attribute left out, 1 file not included",
+    ),
+    '<innerModel><joint id="a" min="2" max="1"/></innerModel>': (
+        "world.xml:1:13: error[RC808]",
+        "1 node simplified",
+    ),
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_what_is_wrong_does_not_keep_the_rest_from_being_simulated(
+    tmp_path: Path, text: str
+) -> None:
+    (tmp_path / "world.xml").write_text(text)
+    done = rcgen("simulator", "world.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
+    assert done.returncode == 0
+    place, consequence = WRONG[text]
+    assert place in done.stderr
+    assert consequence in done.stderr
+    assert "InnerModelManager" in done.stdout
+
+
+def test_a_strict_run_makes_nothing_of_errors(tmp_path: Path) -> None:
+    text = '<innerModel><imu id="i"/><lazer id="l"/></innerModel>'
+    (tmp_path / "world.xml").write_text(text)
+    done = rcgen("simulator", "world.xml", "--strict", "--format", "concise", cwd=tmp_path)
+    assert (done.returncode, done.stdout) == (1, "")
+    assert "world.xml:1:27: error[RC801]" in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["world.xml"]
+
+
+IMPOSSIBLE = {
     '<innerModel><lazer id="a"/></innerModel>': "world.xml:1:14",
-    '<innerModel><transform id="a"/><transform id="a"/></innerModel>': "world.xml:1:",
-    '<innerModel><laser id="a"/><laser id="a"/></innerModel>': "world.xml:1:",
-    '<innerModel><transform id="a" tx="1e400"/></innerModel>': "world.xml:1:",
+    "<rcmanager><node/></rcmanager>": "world.xml:1:2",
     '<innerModel><differentialrobot id="a"/><joint id="a.z"/></innerModel>': "RC632",
 }
 
 
-@pytest.mark.parametrize("text", BAD)
-def test_bad_worlds_are_told_with_their_place(tmp_path: Path, text: str) -> None:
+@pytest.mark.parametrize("text", IMPOSSIBLE)
+def test_impossible_worlds_are_told_with_their_place(tmp_path: Path, text: str) -> None:
     (tmp_path / "world.xml").write_text(text)
     done = rcgen("simulator", "world.xml", "--format", "concise", cwd=tmp_path)
     assert done.returncode == 1
-    assert BAD[text] in done.stderr
+    assert IMPOSSIBLE[text] in done.stderr
     assert "Traceback" not in done.stderr
     assert "internal error" not in done.stderr
     assert not (tmp_path / "world_simulator").exists()

@@ -1,0 +1,35 @@
+"""What becomes of the mistakes in a description that is simulated all the same.
+
+In: the findings of a body. Out: one line that counts what was done.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+
+from robocomp_dsl.check import codes_body as codes
+from robocomp_dsl.diagnostics import Diagnostic, Severity
+
+_DONE = {
+    codes.BODY_DUPLICATE: ("node", "renamed"),
+    codes.BODY_VALUE: ("value", "replaced by the default"),
+    codes.BODY_ATTRIBUTE: ("attribute", "left out"),
+    codes.BODY_TAG: ("tag", "left out"),
+    codes.BODY_NESTING: ("tag", "left out"),
+    codes.BODY_TOO_LARGE: ("body", "cut off"),
+    codes.BODY_INCLUDE: ("file", "not included"),
+    codes.BODY_RULE: ("node", "simplified"),
+}
+_FORM = ("place", "repaired in its XML")
+"""All that is wrong with the form."""
+
+
+def consequences(findings: Iterable[Diagnostic]) -> str:
+    """`2 nodes renamed, 1 tag left out`; the errors alone are counted."""
+    counts = Counter(
+        _DONE.get(one.code, _FORM) for one in findings if one.severity is Severity.ERROR
+    )
+    return ", ".join(
+        f"{count} {what}{'s' if count > 1 else ''} {done}" for (what, done), count in counts.items()
+    )
