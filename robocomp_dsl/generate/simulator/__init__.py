@@ -19,6 +19,7 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.scene import lower
 from robocomp_dsl.generate.simulator.handlers import simulator_code
 from robocomp_dsl.generate.simulator.offers import (
+    CLOCK,
     Published,
     ServedAs,
     identifier,
@@ -71,6 +72,7 @@ def descriptions(made: Simulator) -> list[OutputFile]:
     """The CDSL and the PDSL file."""
     imports = dict.fromkeys(one.interface for one in made.ports)
     imports |= dict.fromkeys(one.topic.file for one in made.topics)
+    imports |= {CLOCK: None}
     return [
         OutputFile(
             f"{made.name}.cdsl",

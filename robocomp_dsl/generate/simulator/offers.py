@@ -47,6 +47,9 @@ OFFERS = (
 OF_THE_WORLD = ("InnerModelManager", "Simulation")
 """Interfaces that are served for the world as a whole."""
 
+CLOCK = "Clock"
+"""The topic on which it tells the time, where it makes that of a deployment."""
+
 
 @dataclass(frozen=True, slots=True)
 class Topic:
@@ -87,7 +90,7 @@ class ServedAs:
 
 def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
     """The ports for a lowered scene, in the order of the table."""
-    taken = names.Scope({one.interface for one in OFFERS} | set(OF_THE_WORLD))
+    taken = names.Scope({one.interface for one in OFFERS} | {*OF_THE_WORLD, CLOCK})
     found: list[ServedAs] = []
     for interface in dict.fromkeys(one.interface for one in OFFERS):
         kinds = {one.kind: one.shared for one in OFFERS if one.interface == interface}

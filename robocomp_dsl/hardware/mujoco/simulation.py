@@ -1,4 +1,4 @@
-"""A scene that runs by itself: physics in a thread of its own, in step with the clock.
+"""A scene that runs by itself, at a `pace` of its own or that of its deployment.
 
 In: a scene and options. Out: `devices` to be served, under `turns`, the only way to touch the world
 while it runs. A world that has diverged is started again or stopped, as the options say.
@@ -8,9 +8,6 @@ from __future__ import annotations
 
 import json
 import logging
-import math
-import threading
-import time
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,16 +21,12 @@ from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.mujoco.world import World
+from robocomp_dsl.hardware.pace import Pace, pace_for
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port, serve
 from robocomp_dsl.hardware.turns import Turns
 from robocomp_dsl.runtime import ServedPort
-
-SLICE = 0.002
-"""Seconds of the wall clock from turn to turn of the physics."""
-
-MOST_BEHIND = 0.1
-"""Seconds of the wall clock that it makes up for; behind a longer pause the machine was asleep."""
+from robocomp_dsl.runtime.clock import Clock
 
 WORLD = ""
 """The world itself among the devices."""
@@ -65,14 +58,11 @@ class Simulation:
         self.turns = Turns()
         self.noise = NoiseLevel(options.noise)
         self.seed = options.seed
-        self.paused = False
         self.failure = ""
-        self.factor = 0.0
         self.physics = True
         self.devices: dict[str, Any] = {}
+        self.pace: Pace = pace_for(self, None, 1.0)
         self.set_speed(options.speed)
-        self._stopping = threading.Event()
-        self._thread: threading.Thread | None = None
         self.reset()
 
     @classmethod
@@ -84,12 +74,32 @@ class Simulation:
 
     def reset(self) -> None:
         """Everything as it was at the start, time included. Raises `SceneError`."""
+        self.renew()
+        self.pace.anew(0.0)
+
+    def renew(self) -> None:
+        """Everything as it was at the start, but for the clock. Raises `SceneError`."""
         self.become(self._built(self._scene))
+
+    def restore(self, branch: Branch) -> None:
+        """Go on from here, at its time."""
+        self.become(branch)
+        self.pace.anew(self.world.reached)
 
     @property
     def world(self) -> World:
         """The physics as it is now."""
         return self.branch.world
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s."""
+        return self.world.time
+
+    @property
+    def dt(self) -> float:
+        """Length of one step of the physics in s."""
+        return self.world.step
 
     def become(self, branch: Branch) -> None:
         """Go on from here; the devices of before are no longer those of the world."""
@@ -144,7 +154,7 @@ class Simulation:
         finite(speed=speed)
         if speed < 0:
             raise CommandRefused(f"`speed` is {speed:g}, it cannot be negative")
-        self.speed = speed
+        self.pace.set_speed(speed)
 
     def advance(self, seconds: float) -> None:
         """Let time pass. A world that diverges is reset, or stays where it is, as configured."""
@@ -163,53 +173,20 @@ class Simulation:
         if self.failure:
             raise Diverged(self.failure)
 
-    # -- the thread ---------------------------------------------------------------------------
+    # -- at any time --------------------------------------------------------------------------
 
     def serve(self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]) -> dict[str, Port]:
         """The ports of a component, answered by the devices that `chosen` lists for each."""
         return serve(ports, chosen, self.devices, self.turns)
 
-    def start(self) -> None:
-        """Let it run."""
-        self._thread = threading.Thread(target=self._live, name="physics", daemon=True)
-        self._thread.start()
+    def start(self, clock: Clock | None = None) -> None:
+        """Let it run: by `clock`, or by that of the machine. Raises `CommandRefused`."""
+        self.pace = pace_for(self, clock, self.pace.speed)
+        self.pace.start()
 
     def stop(self) -> None:
         """Let it rest for good."""
-        self._stopping.set()
-        if self._thread:
-            self._thread.join()
-
-    def _live(self) -> None:
-        due = time.perf_counter()
-        while not self._stopping.is_set():
-            begun = time.perf_counter()
-            due = max(due, begun - MOST_BEHIND) + SLICE
-            with self.turns:
-                passed = self._slice()
-            now = time.perf_counter()
-            if self.speed and due > now:
-                self._stopping.wait(due - now)
-            elif self.paused or self.failure:
-                self._stopping.wait(SLICE)
-            self._measure(passed, time.perf_counter() - begun)
-
-    def _slice(self) -> float:
-        """One turn; the simulated seconds that have passed."""
-        if self.paused or self.failure:
-            return 0.0
-        before = self.world.time
-        wanted = SLICE * self.speed if self.speed else 10 * self.world.step
-        try:
-            self.advance(wanted)
-        except Diverged:
-            return 0.0
-        return max(self.world.time - before, 0.0)
-
-    def _measure(self, passed: float, took: float) -> None:
-        """The real-time factor, smoothed over half a second."""
-        weight = 1 - math.exp(-took / 0.5)
-        self.factor += weight * (passed / max(took, 1e-9) - self.factor)
+        self.pace.stop()
 
 
 def read_data(path: Path) -> dict[str, Any]:

@@ -86,6 +86,11 @@ class World:
         """Simulated time in s."""
         return float(self.data.time)
 
+    @property
+    def reached(self) -> float:
+        """Up to where it was advanced, in s: `time`, and what is less than a step beyond."""
+        return self.time + self._owed
+
     def advance(self, seconds: float) -> None:
         """Let `seconds` pass; what is less than a step is kept for the next call.
 

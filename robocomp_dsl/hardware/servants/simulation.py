@@ -54,10 +54,10 @@ class SimulationServant(Servant):
         it = self.device()
         with it.turns:
             return self.types.State(
-                time=it.world.time,
-                speed=it.speed,
-                realTimeFactor=it.factor,
-                paused=it.paused,
+                time=it.time,
+                speed=it.pace.speed,
+                realTimeFactor=it.pace.factor,
+                paused=it.pace.paused,
                 physics=it.physics,
                 seed=it.seed,
                 noise=it.noise.factor,
@@ -66,24 +66,23 @@ class SimulationServant(Servant):
 
     def pause(self) -> None:
         """Time stands still."""
-        with self.device().turns:
-            self.device().paused = True
+        self.device().pace.pause()
 
     def resume(self) -> None:
         """Time goes on."""
-        with self.device().turns:
-            self.device().paused = False
+        self.device().pace.resume()
 
     def step(self, steps: int) -> float:
         """So many steps at once."""
         it = self.device()
         if not 0 <= steps <= MOST_STEPS:
             raise CommandRefused(f"`steps` is {steps}, it must be 0 to {MOST_STEPS}")
+        if not it.pace.paused:
+            raise CommandRefused("only a world that is paused goes step by step")
+        it.judge()
+        it.pace.step(steps * it.dt)
         with it.turns:
-            if not it.paused:
-                raise CommandRefused("only a world that is paused goes step by step")
-            it.advance(steps * it.world.step)
-            return float(it.world.time)
+            return float(it.time)
 
     def reset(self) -> None:
         """As at the start."""
@@ -122,7 +121,7 @@ class SimulationServant(Servant):
         kept = self._found(self._kept, "snapshot", snapshot)
         it = self.device()
         with it.turns:
-            it.become(kept.copy(shared=(it.noise, it.turns)))
+            it.restore(kept.copy(shared=(it.noise, it.turns)))
 
     def forget(self, snapshot: int) -> None:
         """Keep it no more."""
