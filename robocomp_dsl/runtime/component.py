@@ -7,6 +7,7 @@ extends and the user's class ends.
 from __future__ import annotations
 
 import logging
+from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from robocomp_dsl.runtime.clock import Clock
@@ -21,14 +22,16 @@ if TYPE_CHECKING:
 class Component:
     """One component. Handlers, `compute` and the other hooks run one at a time (`threads 1`).
 
-    `name` is that of this instance, `params` are its parameters, `log` is its logger. They and the
-    proxies are there from `initialize` on, not in `__init__`. A component with a state machine has
-    `machine` too, which begins behind `initialize`.
+    `name` is that of this instance, `params` are its parameters, `config_file` is where they come
+    from, if there is one, `log` is its logger. They and the proxies are there from `initialize` on,
+    not in `__init__`. A component with a state machine has `machine` too, which begins behind
+    `initialize`.
     """
 
     SPEC: ClassVar[ComponentSpec]
     name: str
     params: Parameters
+    config_file: Path | None
     log: logging.Logger
     clock: Clock
     machine: Machine
@@ -56,6 +59,10 @@ class Component:
     def end_emergency(self) -> None:
         """Restore, and compute again."""
         self._runner.lifecycle.end_emergency()
+
+    def set_period(self, milliseconds: int) -> None:
+        """Compute so often from now on; 0: only on events."""
+        self._runner.lifecycle.set_period(milliseconds)
 
     def quit(self) -> None:
         """End in order, after what is being done now."""

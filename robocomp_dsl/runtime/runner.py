@@ -85,6 +85,7 @@ class Runner:
         worker = component()
         worker.name = self.name
         worker.params = self.params
+        worker.config_file = self.settings.config
         worker.log = logging.getLogger(self.name)
         worker.clock = clock
         worker._runner = self

@@ -79,13 +79,15 @@ class GenericArm:
     def move(self, goal: Floats, speed: Floats | None = None) -> Orders:
         """Go to generic angles `goal` at `speed` [rad/s], by default and at most the limits."""
         sent = self.mapping.command(goal)
-        wished = self.speed_limits if speed is None else self._expected(np.abs(speed), "speeds")
+        wished = self.speed_limits if speed is None else self._expected(speed, "speeds")
+        if (wished[self.mapping.present] <= 0.0).any():
+            raise InvalidCommand("every joint needs a speed above 0, or it would never arrive")
         speeds = self.mapping.speed(np.minimum(wished, self.speed_limits)).values * self._to_si
         return self._orders(Control.POSITION, sent, speeds)
 
     def move_by(self, way: Floats, speed: Floats | None = None) -> Orders:
         """Go by generic displacements from where the arm is. Raises `NoState` before `sense`."""
-        return self.move(self._now().position + self._expected(way, "displacements"), speed)
+        return self.move(self.now().position + self._expected(way, "displacements"), speed)
 
     def follow(self, goal: Floats) -> Orders:
         """Be at generic angles `goal` at once; for streams of small steps."""
@@ -111,6 +113,8 @@ class GenericArm:
 
     def stiffness(self, stiffness: Floats, damping: Floats) -> tuple[Floats, Floats]:
         """Device stiffness [N m/rad] and damping [N m s/rad] (m,) of generic ones (n,)."""
+        if (stiffness < 0.0).any() or (damping < 0.0).any():
+            raise InvalidCommand("stiffness and damping are not negative")
         return self.mapping.stiffness(stiffness).values, self.mapping.stiffness(damping).values
 
     def reach(self, position: Floats, rotation: Floats | None = None) -> Orders:
@@ -118,9 +122,11 @@ class GenericArm:
 
         Raises `Unreachable`, `NoChain`, `NoState`.
         """
-        now = self._now().position
+        now = self.now().position
         if not np.isfinite(position).all() or np.shape(position) != (3,):
             raise InvalidCommand("a position is three finite numbers")
+        if rotation is not None and not _is_rotation(rotation):
+            raise InvalidCommand("a rotation is a matrix of 3 by 3 with three unit axes")
         solver = Solver(self.chain, self.low, self.high, self._tolerance)
         return self.move(solver.solve(position, now, rotation))
 
@@ -131,7 +137,7 @@ class GenericArm:
         """
         if np.shape(velocity) not in ((3,), (6,)) or not np.isfinite(velocity).all():
             raise InvalidCommand("a velocity is three or six finite numbers")
-        now = self._now().position
+        now = self.now().position
         jacobian = self.chain.jacobian(now)[: len(velocity)]
         free = self.mapping.available.copy()
         speed = np.zeros(len(now))
@@ -146,7 +152,7 @@ class GenericArm:
 
     def hand(self, angles: Floats | None = None) -> Floats:
         """Pose 4 x 4 of the hand in the base frame, at `angles` or where the arm is."""
-        return self.chain.pose(self._now().position if angles is None else angles)
+        return self.chain.pose(self.now().position if angles is None else angles)
 
     @property
     def chain(self) -> Chain:
@@ -166,7 +172,8 @@ class GenericArm:
         values = sent.values * self._to_si
         return Orders(control, self.part.joints, values, speeds, cut, sent.dropped)
 
-    def _now(self) -> ArmState:
+    def now(self) -> ArmState:
+        """Where the arm was measured last. Raises `NoState` before the first `sense`."""
         if self.state is None:
             raise NoState(f"`{self.part.name}` has not been measured yet")
         return self.state
@@ -175,6 +182,14 @@ class GenericArm:
         if values.shape != (self.mapping.size,) or not np.isfinite(values).all():
             raise InvalidCommand(f"{self.mapping.size} finite {what} are needed")
         return values
+
+
+def _is_rotation(matrix: Floats) -> bool:
+    """Whether the columns are a right-handed set of axes, up to rounding."""
+    if np.shape(matrix) != (3, 3) or not np.isfinite(matrix).all():
+        return False
+    square = np.allclose(matrix.T @ matrix, np.eye(3), atol=1e-3)
+    return bool(square and np.linalg.det(matrix) > 0)
 
 
 def _damped(jacobian: Floats, velocity: Floats, damping: float) -> Floats:

@@ -1,0 +1,142 @@
+"""One control board, as far as the arm uses it: its joints, their modes, commands to them.
+
+In: a proxy, the names of the joints. Out: what the board measures, and commands in the mode that
+they need. Failures of the board keep their type; `Refusal` says what it refuses, and where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+from generated.interfaces import (
+    BoardState,
+    ControlBoardProxy,
+    ControlMode,
+    Impedance,
+    InteractionMode,
+    Refused,
+    UnknownJoint,
+    WrongMode,
+)
+
+from robocomp_dsl.tactile.arm.generic_arm import Control
+from robocomp_dsl.tactile.arrays import Bools, Floats, Ints
+
+MODES = {
+    Control.POSITION: ControlMode.Position,
+    Control.DIRECT: ControlMode.PositionDirect,
+    Control.VELOCITY: ControlMode.Velocity,
+    Control.TORQUE: ControlMode.Torque,
+}
+
+
+class Refusal(Exception):
+    """A board does not do what it was told; the message has its words."""
+
+
+class WrongBoard(Exception):
+    """A board without the joints that the description expects."""
+
+
+class Overtaken(Exception):
+    """A command that was given up for a later one."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Joints:
+    """The joints `names` of the physical part `part`; `at` (k,) of the arm's joints (m,)."""
+
+    part: str
+    names: tuple[str, ...]
+    at: Ints
+
+
+class Board:
+    """The board at the port `port`. `rows` (k,) are its numbers of the joints, after `reach`."""
+
+    def __init__(self, port: str, proxy: ControlBoardProxy, joints: Joints) -> None:
+        self.port, self.joints = port, joints
+        self.rows: Ints = np.zeros(0, np.int64)
+        self._proxy, self._names = proxy, list(joints.names)
+        self._modes: list[ControlMode] = []  # empty: not known
+        self._changes = 0
+
+    def reach(self) -> None:
+        """Find the joints on the board. Raises `WrongBoard`, and what the call raises."""
+        found = {one.name: i for i, one in enumerate(self._proxy.getJoints())}
+        missing = [name for name in self._names if name not in found]
+        if missing:
+            raise WrongBoard(
+                f"the board at `{self.port}` has no joint `{missing[0]}`, which the description"
+                f" expects on `{self.joints.part}`; it has {', '.join(found)}: is the port wired"
+                " to another board?"
+            )
+        self.rows = np.array([found[name] for name in self._names], np.int64)
+
+    def read(self) -> BoardState:
+        """Everything it measured last."""
+        changes = self._changes
+        state = self._proxy.getState()
+        if self._changes == changes:  # else a command changed them while this answer was on its way
+            self._modes = [state.modes[row] for row in self.rows]
+        return state
+
+    def prepare(self, control: Control, speeds: Floats | None) -> None:
+        """Bring the joints into the mode that `control` needs; moves go at `speeds` (k,)."""
+        with self._words():
+            self._change(MODES[control])
+            if speeds is not None:
+                self._proxy.setReferenceSpeed(self._names, speeds)
+
+    def send(self, control: Control, values: Floats, hold: float) -> Bools:
+        """The command itself, (k,); which values the board clipped."""
+        proxy, names = self._proxy, self._names
+        with self._words():
+            if control is Control.POSITION:
+                return np.asarray(proxy.positionMove(names, values))
+            if control is Control.DIRECT:
+                return np.asarray(proxy.setPosition(names, values))
+            if control is Control.VELOCITY:
+                return np.asarray(proxy.velocityMove(names, values, hold))
+            return np.asarray(proxy.setTorque(names, values))
+
+    def arrived(self) -> bool:
+        """Whether no joint is on its way to a goal."""
+        return bool(np.all(self._proxy.motionDone(self._names)))
+
+    def stop(self) -> None:
+        """End motions; joints that were pushed hold where they are."""
+        with self._words():
+            self._proxy.stopMotion(self._names)
+            if ControlMode.Torque in self._modes or not self._modes:
+                self._change(ControlMode.Position)
+
+    def soften(self, stiffness: Floats, damping: Floats) -> None:
+        """Springs and dampers (k,)."""
+        with self._words():
+            for name, k, d in zip(self._names, stiffness, damping, strict=True):
+                self._proxy.setImpedance(name, Impedance(float(k), float(d), 0.0))
+            self._proxy.setInteractionMode(self._names, InteractionMode.Compliant)
+
+    def stiffen(self) -> None:
+        """Stiff joints."""
+        with self._words():
+            self._proxy.setInteractionMode(self._names, InteractionMode.Stiff)
+
+    def _change(self, mode: ControlMode) -> None:
+        if any(one is not mode for one in self._modes) or not self._modes:
+            self._changes += 1
+            self._proxy.setControlMode(self._names, mode)
+            self._modes = [mode] * len(self._names)
+
+    @contextmanager
+    def _words(self) -> Iterator[None]:
+        """What the board refuses, with the port before it."""
+        try:
+            yield
+        except (Refused, UnknownJoint, WrongMode) as error:
+            self._modes = []  # whatever they are, they are not what was thought
+            raise Refusal(f"`{self.port}`: {error.what}") from None

@@ -1,0 +1,81 @@
+"""A simulated robot whose control boards are served in the test's own process.
+
+Time passes when a board is asked for its state: the test is as fast as the machine, and no result
+depends on the clock.
+"""
+
+from __future__ import annotations
+
+import threading
+from types import ModuleType
+from typing import Any
+
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
+from robocomp_dsl.hardware.mujoco.world import World
+from robocomp_dsl.hardware.robots.boards import board_names, robot_board
+from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
+from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.serving import Port
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.statistics import Statistics
+
+TICK = 0.01
+"""So much time passes with every question for a state [s]."""
+
+
+class ServedRobot:
+    """The robot `name`; every board is a port of the component `robot`, named as the board."""
+
+    def __init__(self, name: str, interfaces: ModuleType, domain: str) -> None:
+        self.robot = ROBOTS[name]()
+        self.parts = {
+            b: SimulatedBoard(robot_board(self.robot, b)) for b in board_names(self.robot)
+        }
+        spec = new_world()
+        add_robot(spec, self.robot)
+        self.world = World(spec, list(self.parts.values()))
+        set_pose(self.world.model, self.world.data, self.robot)
+        self.world.advance(0.001)
+        for part in self.parts.values():
+            part.commands.set_mode(None, Mode.POSITION)
+        self.ticking = True
+        self.calls: list[tuple[str, str]] = []
+        self._interfaces, self._domain = interfaces, domain
+        self._turn = threading.RLock()
+        self.connect()
+
+    def connect(self) -> None:
+        """Be there for others."""
+        self._execution = Execution()
+        self._middleware = open_middleware(
+            "inproc", Host("robot", self._domain, self._execution, Statistics())
+        )
+        interface = self._interfaces.CONTROLBOARD
+        for name, part in self.parts.items():
+            servant = ControlBoardServant(interface, name, (name,), {name: part})
+            handlers = {
+                one.name: self._watched(
+                    name, one.name, getattr(Port(servant, self._turn), one.name)
+                )
+                for one in interface.operations
+            }
+            at = Endpoint(interface, "robot", name)
+            self._middleware.serve(at, handlers, self._execution)
+
+    def _watched(self, board: str, operation: str, call: Any) -> Any:
+        def answer(*given: Any) -> Any:
+            if operation == "getState" and self.ticking:
+                with self._turn:
+                    self.world.advance(TICK)
+            self.calls.append((board, operation))
+            return call(*given)
+
+        return answer
+
+    def away(self) -> None:
+        """Be there no more."""
+        self._middleware.close()
