@@ -159,6 +159,20 @@ def test_up_is_up() -> None:
     assert made[32:, :, 2].sum() > made[:32, :, 2].sum()
 
 
+def test_every_one_of_many_sites_is_drawn() -> None:
+    import mujoco  # noqa: PLC0415
+
+    dots = "<site size='.01' rgba='0 0 1 1'/>" * 3000
+    text = "<mujoco><worldbody><geom size='.2' rgba='0 0 1 1'/>" + dots
+    text += "<site size='.2' pos='0 0 .3' rgba='1 0 0 1'/></worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    with Painter(model, 64, 64) as painter:
+        made = painter.paint(data, Look(elevation=0, distance=3)).astype(int)
+    assert ((made[:, :, 0] > 150) & (made[:, :, 2] < 80)).any()
+
+
 def test_bodies_that_start_in_each_other_are_told_where_they_stand(tmp_path: Path) -> None:
     cup = (
         '<transform id="{0}" ty="{1}" engine="bullet" mass="1"><plane id="{0}_p" size="100,100,100"'

@@ -65,7 +65,8 @@ class Painter:
             self._gl.free()
             raise NoRendering(f"OpenGL cannot draw this model: {error}") from None
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
-        self._scene = mujoco.MjvScene(model, maxgeom=min(_MOST_GEOMS, 1000 + 8 * model.ngeom))
+        most = min(_MOST_GEOMS, 1000 + 8 * model.ngeom + model.nsite)
+        self._scene = mujoco.MjvScene(model, maxgeom=most)
 
     def __enter__(self) -> Self:
         return self
