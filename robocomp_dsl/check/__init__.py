@@ -12,6 +12,7 @@ about the file itself all, about the files that it mentions the errors.
     SMDSL     parse_smdsl   resolve_smdsl             rules_smdsl, rules_states `check_machine`
     SCXML     parse_scxml   scxml_form, resolve_scxml rules_states             `check_machine`
     InnerModel              resolve_innermodel        rules_innermodel         `check_innermodel`
+    generic parts and skin, in YAML or XML            `tactile`                `check_tactile`
 
 The parts of a DDSL file: `components`, `instances`, `settings`, `order`, `wiring`, `implied_wires`.
 
@@ -61,6 +62,9 @@ Tree = TypeVar("Tree")
 
 def check_file(path: Path, workspace: Workspace, report: Report) -> Model | None:
     """The model of any file; its suffix says which language it is written in."""
+    if _tells_touch(path):
+        check_tactile(path, workspace, report)
+        return None
     check = CHECKS.get(path.suffix.lower())
     if check is None:
         _report_language(path, report)
@@ -71,7 +75,9 @@ def check_file(path: Path, workspace: Workspace, report: Report) -> Model | None
 def check_syntax(path: Path, workspace: Workspace, report: Report) -> None:
     """Judge the form of a file only; no import is followed."""
     parser = PARSERS.get(path.suffix.lower())
-    if parser is None:
+    if _tells_touch(path):
+        check_tactile(path, workspace, report, alone=True)
+    elif parser is None:
         _report_language(path, report)
     else:
         _parsed(path, parser, workspace, report)
@@ -145,6 +151,34 @@ def check_innermodel(path: Path, workspace: Workspace, report: Report) -> Body |
     return body
 
 
+def check_tactile(path: Path, workspace: Workspace, report: Report, *, alone: bool = False) -> None:
+    """A description of generic parts and skin; `alone`: without the model that it names."""
+    from robocomp_dsl.check import tactile  # noqa: PLC0415 - numpy and YAML
+
+    try:
+        source = workspace.files.read(path)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return
+    if path.suffix.lower() == ".xml":
+        tactile.judge_part(source, report)
+        return
+    robot = tactile.judge_robot(source, report)
+    if robot and robot.model and not alone:
+        tactile.judge_model(robot, source, workspace, report)
+
+
+def _tells_touch(path: Path) -> bool:
+    """Whether the file is YAML, or XML of one generic part."""
+    if path.suffix.lower() != ".xml":
+        return path.suffix.lower() in TACTILE
+    try:
+        with path.open("rb") as file:
+            return b"<Generic_Robot_Part" in file.read(_HEAD)
+    except OSError:
+        return False
+
+
 CHECKS: Mapping[str, Check] = {
     ".idsl": check_idsl,
     ".cdsl": check_cdsl,
@@ -155,6 +189,11 @@ CHECKS: Mapping[str, Check] = {
     ".xml": check_innermodel,
 }
 """File suffix (lower case) to all passes of its language."""
+
+TACTILE = (".yaml", ".yml")
+"""Suffixes of descriptions of touch, which are no language of their own."""
+
+_HEAD = 4096
 
 PARSERS: Mapping[str, Callable[[Source, Report], object]] = {
     **LANGUAGES,
@@ -180,7 +219,7 @@ def _report_unreadable(path: Path, error: UnreadableSource, report: Report) -> N
 
 
 def _report_language(path: Path, report: Report) -> None:
-    known = ", ".join(f"`{suffix}`" for suffix in CHECKS)
+    known = ", ".join(f"`{suffix}`" for suffix in (*CHECKS, TACTILE[0]))
     report.add(
         codes.UNKNOWN_SUFFIX,
         Source(path, "").whole,

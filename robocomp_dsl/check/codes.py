@@ -7,4 +7,5 @@ from robocomp_dsl.check.codes_devices import *  # noqa: F403
 from robocomp_dsl.check.codes_names import *  # noqa: F403
 from robocomp_dsl.check.codes_parameters import *  # noqa: F403
 from robocomp_dsl.check.codes_states import *  # noqa: F403
+from robocomp_dsl.check.codes_tactile import *  # noqa: F403
 from robocomp_dsl.check.codes_types import *  # noqa: F403

@@ -356,7 +356,8 @@ UNKNOWN_SUFFIX = Code(
     "the language of a file cannot be told",
     """\
 The end of a file's name says in which language it is written: `.idsl` interfaces, `.cdsl` a
-component, `.pdsl` parameters, `.ddsl` a deployment, `.xml` a body.
+component, `.pdsl` parameters, `.ddsl` a deployment, `.smdsl` and `.scxml` states, `.xml` a body,
+`.yaml` generic parts and skin.
 
 Wrong:
 

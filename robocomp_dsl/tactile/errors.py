@@ -6,6 +6,8 @@ TactileError
     Unreachable          no joint angles within the limits reach the pose
     RejectedFrame        a taxel frame cannot be used; says why
     BadFit               points describe no cone
+    BadGeometry          what a skin tells of its taxels contradicts itself
+    InvalidField         a receptive field that this skin and this arm cannot have
     NoState              the arm has not been measured yet
     NoChain              the description gives no kinematic chain
 """
@@ -14,11 +16,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import Enum
+from enum import Enum, StrEnum
 
 
 class TactileError(Exception):
     """Anything this package raises for its caller."""
+
+
+class Fault(StrEnum):
+    """What kind of fault a file has."""
+
+    FORM = "form"
+    JOINT = "joint"
+    LIMITS = "limits"
+    BODY = "body"
+    OFF_BODY = "off body"
+    TWICE = "twice"
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +43,7 @@ class Finding:
     column: int
     message: str
     help: str = ""
+    fault: Fault = Fault.FORM
 
     def __str__(self) -> str:
         told = f"{self.file}:{self.line}:{self.column}: {self.message}"
@@ -46,6 +60,14 @@ class DescriptionError(TactileError):
 
 class BadFit(TactileError):
     """The points do not describe a cone; the message says why."""
+
+
+class BadGeometry(TactileError):
+    """What a skin tells of its taxels contradicts itself; the message says where."""
+
+
+class InvalidField(TactileError):
+    """A receptive field that this skin and this arm cannot have; the message says which and why."""
 
 
 class NoState(TactileError):

@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 from shown import shown
 
-from robocomp_dsl.check import CHECKS, check_file, codes
+from robocomp_dsl.check import CHECKS, TACTILE, check_file, codes
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Code, Report
 
 HERE = Path(__file__).parent.parent
 CASES = Path("cases")
 INTERFACES = CASES / "interfaces"
+FAMILIES = ("RC2", "RC3", "RC4", "RC5", "RC7", "RC82")
 
 
 def _cases() -> list[Path]:
@@ -21,7 +22,7 @@ def _cases() -> list[Path]:
         path
         for pattern in ("*/sem_*", "*/sem_*/main.*")
         for path in (HERE / CASES).glob(pattern)
-        if path.is_file() and path.suffix in CHECKS
+        if path.is_file() and path.suffix in {*CHECKS, *TACTILE}
     ]
     return sorted(path.relative_to(HERE) for path in files)
 
@@ -57,7 +58,7 @@ def test_again_finds_the_same(case: Path) -> None:
 
 def _codes() -> list[Code]:
     known = [one for one in vars(codes).values() if isinstance(one, Code)]
-    return [one for one in known if one.id[:3] in ("RC2", "RC3", "RC4", "RC5", "RC7")]
+    return [one for one in known if one.id.startswith(FAMILIES)]
 
 
 def test_every_code_has_a_case() -> None:

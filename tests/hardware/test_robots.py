@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
-from robocomp_dsl.hardware.robots.catalog import ROBOTS, compare, description
+from robocomp_dsl.hardware.robots.catalog import ROBOTS, description, facts
+from robocomp_dsl.tactile.description.check import compare
 from robocomp_dsl.tactile.errors import DescriptionError
 
 PI = np.pi
@@ -323,6 +324,6 @@ def test_the_start_pose_of_the_description_is_that_of_the_robot():
 
 def test_a_description_of_another_robot_does_not_fit():
     with pytest.raises(DescriptionError, match="the robot has no joint `LShoulderPitch`"):
-        compare(description("nao_h21"), ROBOTS["icub_v2"]())
+        compare(description("nao_h21"), facts(ROBOTS["icub_v2"]()))
     with pytest.raises(KeyError):
         description("none")

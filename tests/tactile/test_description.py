@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robocomp_dsl.tactile.description.check import check_bodies, check_joints
+from robocomp_dsl.tactile.description.check import Facts, compare
 from robocomp_dsl.tactile.description.listing import read_listing
 from robocomp_dsl.tactile.description.read import read_robot, rotation
-from robocomp_dsl.tactile.errors import DescriptionError
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 from robocomp_dsl.tactile.skin.cone import cartesian
 
 GOOD = """\
@@ -154,17 +154,18 @@ def test_positions_come_from_a_file_beside_the_description(tmp_path):
 
 def test_joints_and_bodies_of_the_robot_are_compared():
     robot = read_robot(GOOD, Path("r.yaml"))
-    check_joints(robot, {"Pitch": (-2.1, 2.0), "roll": (0, 160)})
-    check_bodies(robot, frozenset({"LForeArm"}))
+    turn = np.deg2rad(160)
+    compare(robot, Facts({"Pitch": (-2.1, 2.0), "roll": (0, turn)}, frozenset({"LForeArm"})))
+    wrong = {"Pitsch": (-2.1, 2.0), "roll": (0, np.deg2rad(90))}
     with pytest.raises(DescriptionError) as caught:
-        check_joints(robot, {"Pitsch": (-2.1, 2.0), "roll": (0, 90)})
-    told = [str(one) for one in caught.value.findings]
-    assert told == [
+        compare(robot, Facts(wrong, frozenset({"LForearm", "torso"})))
+    assert [str(one) for one in caught.value.findings] == [
         "r.yaml:5:9: the robot has no joint `Pitch` (did you mean `Pitsch`?)",
         "r.yaml:7:9: the limits of `roll` are wider than the robot's (the robot has 0 to 90 deg)",
+        "r.yaml:17:14: the limb `lower` is on `LForeArm`, which the robot does not have "
+        "(did you mean `LForearm`?)",
     ]
-    with pytest.raises(DescriptionError, match=r"LForeArm.*did you mean `LForearm`"):
-        check_bodies(robot, frozenset({"LForearm", "torso"}))
+    assert [one.fault for one in caught.value.findings] == [Fault.JOINT, Fault.LIMITS, Fault.BODY]
 
 
 def test_rotations_turn_about_fixed_axes():

@@ -12,8 +12,7 @@ from robocomp_dsl.hardware.robots.icub import icub_v2
 from robocomp_dsl.hardware.robots.links import Robot
 from robocomp_dsl.hardware.robots.nao import nao_h21, nao_h25
 from robocomp_dsl.tactile.description import model
-from robocomp_dsl.tactile.description.check import check_bodies, check_joints
-from robocomp_dsl.tactile.description.located import UNITS
+from robocomp_dsl.tactile.description.check import Facts, compare
 from robocomp_dsl.tactile.description.read import load_robot
 
 ROBOTS: dict[str, Callable[[], Robot]] = {
@@ -31,19 +30,11 @@ def description(name: str) -> model.Robot:
     """
     body = ROBOTS[name]()
     read = load_robot(_DESCRIPTIONS / f"{name}.yaml")
-    compare(read, body)
+    compare(read, facts(body))
     return read
 
 
-def compare(read: model.Robot, body: Robot) -> None:
-    """Pass when every joint and body of the description is the robot's own, limits included.
-
-    Raises `DescriptionError` with every finding.
-    """
-    units = {s.joint: UNITS[s.unit] for part in read.parts for s in part.servos if s.joint}
-    limits = {
-        name: (joint.low / units.get(name, 1.0), joint.high / units.get(name, 1.0))
-        for name, joint in body.joints.items()
-    }
-    check_joints(read, limits)
-    check_bodies(read, frozenset(link.name for link in body.links))
+def facts(body: Robot) -> Facts:
+    """What a description is compared with."""
+    joints = {name: (joint.low, joint.high) for name, joint in body.joints.items()}
+    return Facts(joints, frozenset(link.name for link in body.links))

@@ -1,19 +1,20 @@
 """Judge a robot's description: what each value alone cannot tell.
 
-In: `Robot` as read, and where known the joints of the real or simulated robot. Out: findings in
-the reading, each at the line of the item it is about.
+In: `Robot` as read, and where known the joints and bodies of the real or simulated robot. Out:
+findings in the reading, each at the line of the item it is about.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from difflib import get_close_matches
 
 import numpy as np
 
-from robocomp_dsl.tactile.description.located import Place, Reading
-from robocomp_dsl.tactile.description.model import Part, Patch, Robot, Servo
-from robocomp_dsl.tactile.errors import Finding
+from robocomp_dsl.tactile.description.located import UNITS, Place, Reading
+from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot, Servo
+from robocomp_dsl.tactile.errors import Fault, Finding
 
 OFF_BODY = 0.015
 """A taxel further than this from its limb's cone is not on it [m]."""
@@ -21,7 +22,15 @@ OFF_BODY = 0.015
 WIDEST = 2 * np.pi
 """No joint of an arm turns further than this from the generic zero [rad]."""
 
-Complain = Callable[[Place, str, str], None]
+Complain = Callable[[Fault, Place, str, str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What a model says of its robot: limits of the joints [rad, m], and names of the bodies."""
+
+    joints: Mapping[str, tuple[float, float]]
+    bodies: frozenset[str]
 
 
 def check(robot: Robot, reading: Reading) -> None:
@@ -36,36 +45,26 @@ def check(robot: Robot, reading: Reading) -> None:
     _ids_once(robot, complain)
 
 
-def check_joints(robot: Robot, limits: Mapping[str, tuple[float, float]]) -> None:
-    """Against the robot's joints and their limits, in the unit of each servo.
+def compare(robot: Robot, facts: Facts) -> None:
+    """Against the robot's joints and bodies.
 
-    Raises `DescriptionError` for joints that do not exist and for limits or start poses that the
-    robot does not have.
+    Raises `DescriptionError` for joints and bodies that do not exist, and for limits that are wider
+    than the robot's.
     """
     reading = Reading(robot.file)
     complain = _into(reading)
     for part in robot.parts:
         for servo in part.servos:
             if servo.joint:
-                _exists(servo, limits, complain)
-    reading.finish()
-
-
-def check_bodies(robot: Robot, bodies: frozenset[str]) -> None:
-    """Against the robot's bodies. Raises `DescriptionError` for limbs on none of them."""
-    reading = Reading(robot.file)
-    for part in robot.parts:
+                _exists(servo, facts.joints, complain)
         for limb in part.limbs:
-            for body in (limb.body, *limb.covers):
-                if body not in bodies:
-                    said = f"the limb `{limb.name}` is on `{body}`, which the robot does not have"
-                    _into(reading)(limb.place, said, _near(body, bodies))
+            _carried(limb, facts.bodies, complain)
     reading.finish()
 
 
 def _into(reading: Reading) -> Complain:
-    def complain(place: Place, message: str, help: str) -> None:
-        found = Finding(str(reading.file), place.line, place.column, message, help)
+    def complain(fault: Fault, place: Place, message: str, help: str) -> None:
+        found = Finding(str(reading.file), place.line, place.column, message, help, fault)
         reading.findings.append(found)
 
     return complain
@@ -75,24 +74,27 @@ def _servo(servo: Servo, complain: Complain) -> None:
     if not servo.joint:
         if not servo.low <= servo.sigma <= servo.high:
             said = f"sigma {servo.sigma:g} of the missing joint leaves its limits"
-            complain(servo.place, said, f"they are {servo.low:g} to {servo.high:g}")
+            complain(Fault.LIMITS, servo.place, said, f"they are {servo.low:g} to {servo.high:g}")
         return
     if servo.speed <= 0.0:
-        complain(servo.place, f"the speed of `{servo.joint}` must be positive", "")
+        complain(Fault.FORM, servo.place, f"the speed of `{servo.joint}` must be positive", "")
     if not servo.low <= servo.start <= servo.high:
         said = f"the start pose {servo.start:g} of `{servo.joint}` leaves its limits"
-        complain(servo.place, said, f"they are {servo.low:g} to {servo.high:g} {servo.unit}")
+        allowed = f"they are {servo.low:g} to {servo.high:g} {servo.unit}"
+        complain(Fault.LIMITS, servo.place, said, allowed)
     ends = servo.gamma * np.array([servo.low, servo.high]) + servo.sigma
     if servo.unit in ("deg", "rad") and np.abs(ends).max() > WIDEST:
         said = f"sigma and gamma of `{servo.joint}` leave the limits of a turning joint"
-        complain(servo.place, said, f"its generic range is {ends.min():.3f} to {ends.max():.3f}")
+        reach = f"its generic range is {ends.min():.3f} to {ends.max():.3f}"
+        complain(Fault.LIMITS, servo.place, said, reach)
 
 
 def _joints_once(part: Part, complain: Complain) -> None:
     seen: set[str] = set()
     for servo in part.servos:
         if servo.joint and servo.qualified in seen:
-            complain(servo.place, f"`{servo.qualified}` is mapped twice in `{part.name}`", "")
+            said = f"`{servo.qualified}` is mapped twice in `{part.name}`"
+            complain(Fault.TWICE, servo.place, said, "")
         seen.add(servo.qualified)
 
 
@@ -107,7 +109,7 @@ def _on_body(part: Part, patch: Patch, complain: Complain) -> None:
         worst = off[np.argmax(away[off])]
         said = f"{len(off)} taxels of `{patch.name}` are off their body"
         far = f"taxel {patch.ids[worst]} is {1000 * away[worst]:.0f} mm from `{patch.limb}`"
-        complain(patch.place, said, far)
+        complain(Fault.OFF_BODY, patch.place, said, far)
 
 
 def _ids_once(robot: Robot, complain: Complain) -> None:
@@ -117,24 +119,31 @@ def _ids_once(robot: Robot, complain: Complain) -> None:
             twice = [one for one in patch.ids if one in owner]
             if twice:
                 said = f"taxel id {twice[0]} of `{patch.name}` is also in `{owner[twice[0]]}`"
-                complain(
-                    patch.place, said, f"{len(twice)} ids occur twice; choose `first_id` apart"
-                )
+                apart = f"{len(twice)} ids occur twice; choose `first_id` apart"
+                complain(Fault.TWICE, patch.place, said, apart)
             owner.update(dict.fromkeys(patch.ids, patch.name))
 
 
-def _exists(servo: Servo, limits: Mapping[str, tuple[float, float]], complain: Complain) -> None:
-    if servo.joint not in limits:
+def _exists(servo: Servo, joints: Mapping[str, tuple[float, float]], complain: Complain) -> None:
+    if servo.joint not in joints:
         said = f"the robot has no joint `{servo.joint}`"
-        complain(servo.place, said, _near(servo.joint, limits))
+        complain(Fault.JOINT, servo.place, said, _near(servo.joint, joints))
         return
-    low, high = limits[servo.joint]
+    low, high = (end / UNITS[servo.unit] for end in joints[servo.joint])
     slack = 1e-3 * max(high - low, 1e-9)
     if servo.low < low - slack or servo.high > high + slack:
         said = f"the limits of `{servo.joint}` are wider than the robot's"
-        complain(servo.place, said, f"the robot has {low:g} to {high:g} {servo.unit}")
+        has = f"the robot has {low:g} to {high:g} {servo.unit}"
+        complain(Fault.LIMITS, servo.place, said, has)
+
+
+def _carried(limb: Limb, bodies: frozenset[str], complain: Complain) -> None:
+    for body in (limb.body, *limb.covers):
+        if body not in bodies:
+            said = f"the limb `{limb.name}` is on `{body}`, which the robot does not have"
+            complain(Fault.BODY, limb.place, said, _near(body, bodies))
 
 
 def _near(word: str, known: Mapping[str, object] | frozenset[str]) -> str:
-    found = get_close_matches(word, list(known), n=1)
+    found = get_close_matches(word, sorted(known), n=1)
     return f"did you mean `{found[0]}`?" if found else ""

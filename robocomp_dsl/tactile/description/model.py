@@ -145,11 +145,13 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """All generic parts of a robot."""
+    """All generic parts of a robot. `model`: the file of its body, relative to `file`, or empty."""
 
     name: str
     parts: tuple[Part, ...] = field(default=())
     file: Path = Path()
+    model: str = ""
+    model_place: Place = NOWHERE
 
     def part(self, name: str) -> Part:
         """The part of that name; `KeyError` without one."""

@@ -3,6 +3,7 @@
 In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every finding. The form:
 
     robot: name
+    model: body.xml          (InnerModel, MJCF or URDF; may be left out)
     parts:
       left_arm:
         servos: [{joint, part, gamma, sigma, limits, speed, stiffness, damping, start, unit}, ...]
@@ -14,6 +15,7 @@ In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every 
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -33,10 +35,13 @@ def read_robot(text: str, file: Path) -> Robot:
     """The robot that `text` describes. Raises `DescriptionError` with every finding."""
     reading = Reading(file)
     top = reading.root(text).table()
-    name, parts = top.text("robot"), top.need("parts")
+    name, parts, body = top.text("robot"), top.need("parts"), top.get("model")
     top.finish()
     rows = parts.table().rows if parts else {}
-    robot = Robot(name, tuple(_part(key, entry) for key, entry in rows.items()), file)
+    found = tuple(_part(key, entry) for key, entry in rows.items())
+    robot = Robot(name, found, file)
+    if body:
+        robot = replace(robot, model=body.text(), model_place=body.place)
     reading.finish()
     check(robot, reading)
     reading.finish()

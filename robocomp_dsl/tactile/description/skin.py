@@ -71,7 +71,8 @@ def _from_file(entry: Entry, limb: Limb) -> Layout | None:
         entry.reading.findings.extend(error.findings)
         return None
     except (OSError, UnicodeDecodeError) as error:
-        entry.complain(f"the taxel positions cannot be read: {error}")
+        why = getattr(error, "strerror", None) or error
+        entry.complain(f"the taxel positions cannot be read: {why}")
         return None
     used = np.flatnonzero(read.used)
     points = limb.to_limb(read.positions[used])
