@@ -44,9 +44,14 @@ class Board:
         self.time, self.dt = 0.0, 0.001
         self.offset = np.zeros(n)
         self.position, self.velocity, self.acceleration = (np.zeros(n) for _ in range(3))
-        self.torque, self.current = np.zeros(n), np.zeros(n)
+        self.torque = np.zeros(n)
         self._started = False
         self.refresh()
+
+    @property
+    def current(self) -> Floats:
+        """Currents (n,) of the motors [A]."""
+        return self.motors.current(self.torque)
 
     def begin(self, position: Floats, velocity: Floats) -> None:
         """The first measurement: everything starts at rest from here, before any command."""
@@ -71,9 +76,8 @@ class Board:
         error = self.references.position - self.position
         late = self.references.velocity - self.velocity
         wished = self.law.step(error, late, self.velocity, feedforward, dt)
-        torque = self.limits.guard(self.position, self.velocity, wished) * self.law.driven
-        self.current = self.motors.current(torque)
-        self.torque = torque
+        torque = self.limits.guard(self.position, self.velocity, wished)
+        self.torque = self.law.of_driven(torque)
         self._watch(error)
         return self.torque
 
@@ -124,7 +128,7 @@ class Board:
             reference=self.references.position.copy(),
             motor_counts=self.motors.encoder(self.position),
             motor_speed=self.motors.speed(self.velocity),
-            current=self.current.copy(),
+            current=self.current,
             duty=self.motors.duty(self.torque, self.velocity) * self.law.driven,
             temperature=self.motors.temperature.copy(),
             modes=tuple(self.table.modes),
@@ -162,15 +166,14 @@ class Board:
 
     def _watch(self, error: Floats) -> None:
         """Look for faults in what the step has led to."""
-        over = overloaded(self.motors, self.current)
-        if np.count_nonzero(over):
-            self._trip(np.flatnonzero(over), Fault.OVERCURRENT, "the motor current is too large")
-        hot = too_hot(self.motors)
-        if np.count_nonzero(hot):
-            self._trip(np.flatnonzero(hot), Fault.OVERTEMPERATURE, "the motor is too hot")
-        late = np.abs(error) > self.pid.error_limit
-        if np.count_nonzero(late):
-            held = np.flatnonzero(late & self.law.positioned)
+        if self.motors.overloadable:
+            over = np.flatnonzero(overloaded(self.motors, self.current))
+            self._trip(over, Fault.OVERCURRENT, "the motor current is too large")
+        if self.motors.hot:
+            hot = np.flatnonzero(too_hot(self.motors))
+            self._trip(hot, Fault.OVERTEMPERATURE, "the motor is too hot")
+        if self.pid.tracks:
+            held = np.flatnonzero((np.abs(error) > self.pid.error_limit) & self.law.positioned)
             self._trip(held, Fault.TRACKING, "the position error is too large")
 
     def _trip(self, joints: Ints, code: Fault, message: str) -> None:

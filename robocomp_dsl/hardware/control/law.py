@@ -33,7 +33,8 @@ class Law:
         self._modes: tuple[Mode, ...] = (Mode.IDLE,) * n
         self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
         self._back_emf: Floats | None = None
-        self._stiff = self._comply = False
+        self._commanded = False
+        self._stiff = self._comply = self._all_driven = False
 
     def choose(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
         """Work out which terms each joint uses."""
@@ -46,6 +47,7 @@ class Law:
         self._held, self._spring = self.positioned.astype(float), soft.astype(float)
         direct = self._mask(Mode.TORQUE) + self._mask(Mode.PWM) + self._mask(Mode.CURRENT)
         self.driven = self._held + direct
+        self._all_driven = bool(self.driven.all())
         duty = self._mask(Mode.PWM)
         self._back_emf = duty[:, None] * self._motors.back_emf if duty.any() else None
         self.apply()
@@ -58,6 +60,7 @@ class Law:
         self._direct = torque * self.torque
         self._direct += duty * self._motors.torque_of_current(stalled)
         self._direct += current * self._motors.torque_of_current(self.current * current)
+        self._commanded = bool(self._direct.any())
 
     def step(
         self,
@@ -70,7 +73,8 @@ class Law:
         """Wished torques. `feedforward` (n,) is added where a position is held: weight, mostly."""
         wished = self._direct
         if self._stiff:
-            wished = wished + self._pid.step(error, velocity_error, dt)
+            held = self._pid.step(error, velocity_error, dt)
+            wished = held + wished if self._commanded else held
         if self._comply:
             wished = wished + self._spring * self._impedance.torque(error, velocity_error)
         if feedforward is not None:
@@ -78,6 +82,10 @@ class Law:
         if self._back_emf is not None:
             wished = wished - self._back_emf @ velocity
         return wished
+
+    def of_driven(self, torque: Floats) -> Floats:
+        """`torque` (n,) where motors are on, else 0."""
+        return torque if self._all_driven else torque * self.driven
 
     def _mask(self, mode: Mode) -> Floats:
         return np.array([float(one is mode) for one in self._modes])

@@ -30,8 +30,8 @@ class Limits:
         self.speed, self.torque = spec.column("speed_limit"), spec.column("torque_limit")
         self._widest = self.low.copy(), self.high.copy()
         self._trusted = np.ones(len(self.low), bool)
-        self._stops = self.low, self.high
         self._check(self.low, self.high)
+        self._place_stops()
 
     def trust(self, calibrated: Bools) -> None:
         """Where the encoders (n,) tell true angles; elsewhere there are no soft stops."""
@@ -51,6 +51,7 @@ class Limits:
         if (speed <= 0.0).any():
             raise BadValue("a speed limit must be positive")
         self.speed[joints] = speed
+        self._bound()
 
     def clip(self, joints: Ints, position: Floats) -> tuple[Floats, Bools]:
         """Positions within the limits, and where they had to be moved."""
@@ -59,8 +60,18 @@ class Limits:
 
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
         """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
+        ahead = _AHEAD * dq
+        ahead += q
+        all_ = np.concatenate((ahead, dq, torque))
+        kept = np.maximum(all_, self._lowest)
+        np.minimum(kept, self._highest, out=kept)
+        if np.count_nonzero(kept == all_) == len(all_):
+            return torque
+        return self._held_back(q, dq, torque, ahead)
+
+    def _held_back(self, q: Floats, dq: Floats, torque: Floats, ahead: Floats) -> Floats:
+        """Torques where some joint is near a limit; `ahead` (n,) is where joints will be soon."""
         low, high = self._stops
-        ahead = q + _AHEAD * dq
         past = ahead - np.minimum(np.maximum(ahead, low), high)
         fast = np.abs(dq) > self.speed
         if np.count_nonzero(past):
@@ -78,6 +89,13 @@ class Limits:
         low = np.where(self._trusted, self.low, -np.inf)
         high = np.where(self._trusted, self.high, np.inf)
         self._stops = low, high
+        self._bound()
+
+    def _bound(self) -> None:
+        """What places soon, speeds and torques, one after the other, (3 n,), may be at ease."""
+        low, high = self._stops
+        self._lowest = np.concatenate((low, -self.speed, -self.torque))
+        self._highest = np.concatenate((high, self.speed, self.torque))
 
     @staticmethod
     def _check(low: Floats, high: Floats) -> None:

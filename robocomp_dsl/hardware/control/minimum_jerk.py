@@ -18,16 +18,21 @@ from robocomp_dsl.hardware.control.joints import Floats, Ints
 PEAK = 1.875
 """Peak speed over mean speed, from rest to rest."""
 
+AHEAD = 24
+"""For so many steps references are worked out at once: numpy needs hardly longer than for one."""
+
 
 class MinimumJerk:
     """The trajectories; `position` and `velocity` (n,) are the references after the last step.
 
     `active` tells whether any joint moves. A joint at rest is a trajectory of rate 0, so that a
-    step treats all joints alike; ends are looked for only when the next one is due.
+    step treats all joints alike. The steps to come are worked out ahead, no further than to the
+    next end; whatever changes a trajectory forgets them. They keep between `bounds` (n,), if given.
     """
 
-    def __init__(self, position: Floats) -> None:
+    def __init__(self, position: Floats, bounds: tuple[Floats, Floats] | None = None) -> None:
         n = len(position)
+        self._bounds = bounds
         self.position = position.copy()
         self.velocity = np.zeros(n)
         self.goal = position.copy()
@@ -41,9 +46,13 @@ class MinimumJerk:
         self._clock = 0.0
         self._end = np.full(n, np.inf)
         self._next_end = np.inf
+        self._rows = np.empty((0, 2, n))
+        self._next = 0
+        self._dt = 0.0
 
     def move(self, joints: Ints, goal: Floats, speed: Floats, dt: float) -> None:
         """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves."""
+        self._forget()
         start, way = self.position[joints], goal - self.position[joints]
         duration = np.abs(way) / speed
         at_once = duration < dt
@@ -61,6 +70,7 @@ class MinimumJerk:
 
     def halt(self, joints: Ints, position: Floats) -> None:
         """Forget the motion of `joints`: at rest at `position`."""
+        self._forget()
         self.position[joints] = self.goal[joints] = position
         self.velocity[joints] = self._rate[joints] = 0.0
         self._factors[:, :, joints] = 0.0
@@ -74,6 +84,8 @@ class MinimumJerk:
         """Carry everything along by `way` (n,), between `low` and `high`."""
         self.position = np.minimum(np.maximum(self.position + way, low), high)
         self.goal = np.minimum(np.maximum(self.goal + way, low), high)
+        if self.active:
+            self._rows[self._next :, 0] += way
         start = self._factors[0, 0]
         start += way
         np.copyto(start, self.position, where=~self.moving)
@@ -82,16 +94,41 @@ class MinimumJerk:
         """Let `dt` seconds pass."""
         if not self.active:
             return
+        if self._next == len(self._rows) or dt != self._dt:
+            self._look_ahead(dt)
+        self.position, self.velocity = self._rows[self._next]
+        self._next += 1
         self._clock += dt
-        t = self._time
-        t += self._rate * dt
+        if self._clock >= self._next_end - 0.5 * dt:
+            done = np.flatnonzero(self._end <= self._clock + 0.5 * dt)
+            self.halt(done, self.goal[done])
+
+    def _look_ahead(self, dt: float) -> None:
+        """Positions and velocities (steps, 2, n) of the next steps."""
+        self._forget()
+        left = int(min((self._next_end - self._clock) / dt, AHEAD)) + 1
+        later = np.arange(1, left + 1)[:, None, None] * (self._rate * dt)
+        t = self._time + later
         value = self._factors[5] * t
         for factor in self._factors[4:0:-1]:
             value += factor
             value *= t
         value += self._factors[0]
-        self.position = value[0]
-        np.multiply(value[1], self._rate, out=self.velocity)
-        if self._clock >= self._next_end - 0.5 * dt:
-            done = np.flatnonzero(self._end <= self._clock + 0.5 * dt)
-            self.halt(done, self.goal[done])
+        value[:, 1] *= self._rate
+        if self._bounds:
+            self._keep_within(value, *self._bounds)
+        self._rows, self._next, self._dt = value, 0, dt
+
+    @staticmethod
+    def _keep_within(rows: Floats, low: Floats, high: Floats) -> None:
+        """A reference that would pass a bound stands still there."""
+        kept = np.minimum(np.maximum(rows[:, 0], low), high)
+        outside = kept != rows[:, 0]
+        if np.count_nonzero(outside):
+            rows[:, 0] = kept
+            rows[:, 1][outside] = 0.0
+
+    def _forget(self) -> None:
+        """Be where the last step led to; what was worked out for later no longer holds."""
+        self._time += self._next * self._dt * self._rate
+        self._rows, self._next = self._rows[:0], 0

@@ -15,7 +15,10 @@ ROOM_TEMPERATURE = 25.0
 
 
 class Motors:
-    """All arrays (n,), by motor."""
+    """All arrays (n,), by motor.
+
+    `overloadable` tells whether any can reach its largest current, `hot` whether any is too hot.
+    """
 
     def __init__(self, spec: BoardSpec) -> None:
         self.gear = spec.motor_column("gear")
@@ -26,6 +29,7 @@ class Motors:
         self.max_current = spec.motor_column("max_current")
         self.temperature_limit = spec.motor_column("temperature_limit")
         self.temperature = np.full(len(self.gear), ROOM_TEMPERATURE)
+        self.hot = False
         self.zero = np.zeros(len(self.gear))  # counts at motor angle 0, as set by the user
         self.to_motor = self.gear[:, None] * spec.coupling
         self._torque_to_motor = np.linalg.inv(self.to_motor).T
@@ -33,6 +37,9 @@ class Motors:
         self._per_amp = self.to_motor.T * self.torque_constant
         bemf = self.torque_constant**2 / self.resistance
         self.back_emf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
+        most = np.abs(self._torque_to_motor) @ spec.column("torque_limit")
+        self._most_current = most / self.torque_constant
+        self.overloadable = self._may_overload()
 
     def current(self, torque: Floats) -> Floats:
         """Motor currents [A] that make the joint torques (n,) [N m]."""
@@ -74,8 +81,18 @@ class Motors:
         """Encoder counts per second."""
         return np.asarray(self.to_motor @ joint_velocities / (2 * np.pi) * self.counts)
 
+    def set_temperature(self, temperature: Floats) -> None:
+        """What thermometers (n,) tell now [degC]."""
+        self.temperature = temperature
+        self.hot = bool((temperature > self.temperature_limit).any())
+
     def set_max_current(self, motors: Ints, current: Floats) -> None:
         """The current [A] at which a motor faults."""
         if (current < 0.0).any():
             raise BadValue("a largest current must not be negative")
         self.max_current[motors] = current
+        self.overloadable = self._may_overload()
+
+    def _may_overload(self) -> bool:
+        """Whether torques within the joints' limits can bring a motor to its largest current."""
+        return bool((self._most_current >= self.max_current).any())

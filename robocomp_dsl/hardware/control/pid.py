@@ -45,13 +45,17 @@ def default_gains(spec: BoardSpec) -> tuple[Gains, ...]:
 
 
 class PidBank:
-    """The regulators; each works where it is both enabled by the user and in use by the law."""
+    """The regulators; each works where it is both enabled by the user and in use by the law.
+
+    `tracks` tells whether any error counts as a fault.
+    """
 
     def __init__(self, gains: tuple[Gains, ...]) -> None:
         n = len(gains)
         self.gains = list(gains)
         self.integral, self.output, self.error = np.zeros(n), np.zeros(n), np.zeros(n)
         self.error_limit = np.full(n, np.inf)
+        self.tracks = False
         self.enabled: Bools = np.ones(n, bool)
         self._in_use: Bools = np.ones(n, bool)
         self._prepare()
@@ -64,6 +68,13 @@ class PidBank:
     def set_offset(self, joint: int, offset: float) -> None:
         """Give one regulator another constant output."""
         self.set(joint, replace(self.gains[joint], offset=offset))
+
+    def set_error_limits(self, error: Floats) -> None:
+        """Errors (n,) that are faults where a position is held; infinite: none is."""
+        if (error <= 0.0).any():
+            raise BadValue("an error limit must be positive")
+        self.error_limit[:] = error
+        self.tracks = bool(np.isfinite(error).any())
 
     def enable(self, joints: Ints, on: bool) -> None:
         """Switch regulators on or off; one that is off gives 0."""
@@ -82,26 +93,28 @@ class PidBank:
     def step(self, error: Floats, derivative: Floats, dt: float) -> Floats:
         """Outputs (n,); 0 where a regulator does not work."""
         kp, ki, kd, offset, bound, most = self._columns
-        grown = self.integral + (ki * dt) * error
-        np.minimum(grown, most, out=grown)
-        np.maximum(grown, -most, out=grown)
-        wanted = kp * error
+        grown = (ki * dt) * error
+        grown += self.integral
+        wanted: Floats = kp * error
         wanted += kd * derivative
-        wanted += offset
+        if self._shifted:
+            wanted += offset
+        if np.count_nonzero(np.abs(grown) > most):
+            grown = np.maximum(np.minimum(grown, most), -most)
         wanted += grown
-        output: Floats = np.minimum(wanted, bound)
-        np.maximum(output, -bound, out=output)
-        at_bound = wanted != output
-        if np.count_nonzero(at_bound):  # an output at its bound must not wind the integral up
-            held = at_bound & (grown * error > 0.0)
-            grown = np.where(held, self.integral, grown)
-        self.integral, self.output, self.error = grown, output, error
-        return output
+        at_bound = np.abs(wanted) > bound
+        if np.count_nonzero(at_bound):
+            # an output at its bound must not wind the integral up
+            grown = np.where(at_bound & (grown * error > 0.0), self.integral, grown)
+            wanted = np.maximum(np.minimum(wanted, bound), -bound)
+        self.integral, self.output, self.error = grown, wanted, error
+        return wanted
 
     def _prepare(self) -> None:
         """Gains as columns, zero where a regulator does not work."""
         table = np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
         works = self.enabled & self._in_use
         table[:, ~works] = 0.0
-        self._columns = table
+        self._columns = tuple(table)
+        self._shifted = bool(table[3].any())
         self.integral = np.where(works, self.integral, 0.0)

@@ -26,7 +26,7 @@ class References:
     def __init__(self, spec: BoardSpec, limits: Limits) -> None:
         n = len(spec.joints)
         self._limits = limits
-        self.trajectory = MinimumJerk(np.zeros(n))
+        self.trajectory = MinimumJerk(np.zeros(n), (limits.low, limits.high))
         self.ramp = VelocityRamp(n)
         self.reference_speed = spec.column("reference_speed")
         self.acceleration = spec.column("acceleration")
@@ -83,9 +83,13 @@ class References:
 
     def step(self, measured: Floats, dt: float) -> None:
         """Let `dt` seconds pass; `measured` (n,) keeps a blocked joint's reference near it."""
-        if not (self.trajectory.active or self.ramp.active or self._streaming or self._changed):
+        alone = not (self.ramp.active or self._streaming or self._changed)
+        if alone and not self.trajectory.active:
             return
         self.trajectory.step(dt)
+        if alone and self.trajectory.active:  # which keeps to the limits by itself
+            self.position, self.velocity = self.trajectory.position, self.trajectory.velocity
+            return
         velocity = self.trajectory.velocity.copy()
         if self.ramp.active:
             velocity = velocity + self._driven(measured, dt)
@@ -99,7 +103,7 @@ class References:
             velocity = np.where(outside, 0.0, velocity)
         self.velocity = velocity
         # once more after the last motion, so that the end itself is taken over
-        self._changed = self.trajectory.active or self.ramp.active or self._streaming
+        self._changed = self.ramp.active or self._streaming
 
     def _driven(self, measured: Floats, dt: float) -> Floats:
         """Carry trajectories along at the ramp's velocities; the velocities that they got.

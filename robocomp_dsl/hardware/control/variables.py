@@ -43,7 +43,7 @@ class RemoteVariables:
             ),
             "tracking_limits": Variable(
                 lambda: board.pid.error_limit,
-                lambda v: _positive(board.pid.error_limit, v),
+                board.pid.set_error_limits,
                 "position errors that fault [rad]",
             ),
             "gears": Variable(lambda: motors.gear, None, "motor turns per joint turn"),
@@ -86,9 +86,3 @@ def _gains(board: Board, joint: int) -> Variable:
         board.pid.set(joint, made)
 
     return Variable(read, write, "position regulator: kp, ki, kd, offset")
-
-
-def _positive(into: Floats, values: Floats) -> None:
-    if (values <= 0.0).any():
-        raise BadValue("an error limit must be positive")
-    into[:] = values

@@ -99,7 +99,8 @@ class SimulatedBoard:
             return
         motors, current = self.board.motors, self.board.current
         final = ROOM_TEMPERATURE + WARMING * motors.resistance * current * current
-        motors.temperature += (final - motors.temperature) * (self._unheated / COOLING)
+        warmer = (final - motors.temperature) * (self._unheated / COOLING)
+        motors.set_temperature(motors.temperature + warmer)
         self._unheated = 0.0
 
     @staticmethod
