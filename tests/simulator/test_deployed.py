@@ -1,0 +1,271 @@
+"""A user's component against a generated simulator: deployed, by each clock, twice over."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+from worlds import CLIENT, ROOM, rcgen, run
+
+DEADLINE = 120.0
+RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
+SECONDS = 5.0
+"""Of simulated time that are recorded: the robot comes near the wall and turns away."""
+
+WORLD = ROOM.replace('<differentialrobot id="robot"', '<differentialrobot noise="0.02" id="robot"')
+WORLD = WORLD.replace('<laser id="laser"', '<laser id="laser" noise="8"')
+WORLD = WORLD.replace('<imu id="inertia"/>', '<imu id="inertia"/><gps id="sky" noise="30"/>')
+
+CDSL = """\
+import "DifferentialRobot.idsl";
+import "GPS.idsl";
+import "IMUPub.idsl";
+import "JointMotor.idsl";
+import "Laser.idsl";
+
+/** Drives to the wall and away from it, looks about, and writes down all that it sees. */
+Component patrol
+{
+    Communications
+    {
+        requires Laser, DifferentialRobot, JointMotor, GPS;
+        subscribesTo IMUPub;
+    };
+    language Python;
+    parameters "patrol.pdsl";
+    period 20;
+};
+"""
+
+PDSL = """\
+ComponentParams patrol
+{
+    /** Where to write. */
+    file string "";
+    /** Moment of the last line. */
+    last float 5 [s] 0:1000;
+};
+"""
+
+WORKER = '''\
+"""patrol: to the wall and away from it."""
+
+from __future__ import annotations
+
+from typing import TextIO
+
+from generated.genericworker import GenericWorker
+from generated.interfaces import DataImu, MotorGoalPosition
+
+
+class SpecificWorker(GenericWorker):
+    """Drives about by its laser, and writes down all that it sees."""
+
+    lines: TextIO
+
+    def initialize(self) -> None:
+        """Nothing is written yet."""
+        self.lines = open(self.params.file, "w", encoding="utf-8")
+        self.imu = DataImu()
+        self.begun: float | None = None
+
+    def compute(self) -> None:
+        """Look, drive, write."""
+        now = self.clock.now()
+        if self.begun is None:
+            self.begun = now
+        state = self.differentialrobot_proxy.getBaseState()
+        scan = self.laser_proxy.getLaserData()
+        neck = self.jointmotor_proxy.getMotorState("neck")
+        here = self.gps_proxy.getData()
+        near = float(scan.dist.min())
+        self.differentialrobot_proxy.setSpeedBase(*((700.0, 0.0) if near > 900 else (0.0, 0.8)))
+        side = 0.6 if neck.pos < 0.3 else -0.6
+        self.jointmotor_proxy.setPosition(MotorGoalPosition("neck", side, 1.0))
+        if self.lines.closed:
+            return
+        told = (now, self.clock.epoch, near, state, neck, here, self.imu, scan.dist.tobytes())
+        self.lines.write(f"{now!r};{near!r};{told!r}\\n")
+        self.lines.flush()
+        if now - self.begun >= self.params.last:
+            self.lines.close()
+            self.log.info("all is written")
+
+    def finalize(self) -> None:
+        """Whatever is there is kept."""
+        self.lines.close()
+
+    # subscribesTo RoboCompIMUPub::IMUPub
+
+    def IMUPub_publish(self, imu: DataImu) -> None:
+        """Keep the latest."""
+        self.imu = imu
+'''
+
+DDSL = """\
+import "room_simulator/room_simulator.cdsl";
+import "patrol/patrol.cdsl";
+
+Deployment demo
+{{
+    {clock}
+    component room_simulator {{ ready within 60 s; {settings} }};
+    component patrol {{ after room_simulator; set file = "{file}"; set last = {last:g}; }};
+
+    connect patrol.Laser -> room_simulator.laser;
+    connect patrol.DifferentialRobot -> room_simulator.robot;
+    connect patrol.JointMotor -> room_simulator.JointMotor;
+    connect patrol.GPS -> room_simulator.sky;
+    connect room_simulator.inertia_pub -> patrol.IMUPub;
+}};
+"""
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder with both components, as the commands make them."""
+    made = tmp_path_factory.mktemp("home")
+    (made / "room.xml").write_text(WORLD)
+    (made / "patrol").mkdir()
+    (made / "patrol" / "patrol.cdsl").write_text(CDSL)
+    (made / "patrol" / "patrol.pdsl").write_text(PDSL)
+    for command in (("simulator", "room.xml"), ("component", "patrol/patrol.cdsl")):
+        done = rcgen(*command, cwd=made)
+        assert done.returncode == 0, done.stderr
+    (made / "patrol" / "specificworker.py").write_text(WORKER)
+    return made
+
+
+def until(condition: Callable[[], bool], process: subprocess.Popen[str], what: str) -> None:
+    deadline = time.monotonic() + DEADLINE
+    while time.monotonic() < deadline:
+        if process.poll() is not None:
+            pytest.fail(f"rcdeploy ended early:\n{process.communicate()[0]}")
+        if condition():
+            return
+        time.sleep(0.05)
+    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+
+
+@contextmanager
+def deployed(
+    home: Path, name: str, clock: str, settings: str = "", last: float = SECONDS
+) -> Iterator[tuple[subprocess.Popen[str], Path]]:
+    """The running deployment, and the file that the patrol writes; ends in order."""
+    written = home / f"{name}.txt"
+    ddsl = home / f"{name}.ddsl"
+    ddsl.write_text(DDSL.format(clock=clock, settings=settings, file=written, last=last))
+    command = [str(RCDEPLOY), str(ddsl), "up", "--name", name, "--domain", name, "--no-table"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    try:
+        yield process, written
+        process.send_signal(signal.SIGINT)
+        said, _ = process.communicate(timeout=DEADLINE)
+        assert process.returncode == 0, said
+        assert "failed" not in said
+    finally:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.communicate(timeout=DEADLINE)
+            finally:
+                process.kill()
+
+
+def times(written: Path) -> list[float]:
+    """The moments that are written down so far."""
+    if not written.exists():
+        return []
+    whole = written.read_text().rpartition("\n")[0]
+    return [float(line.partition(";")[0]) for line in whole.splitlines()]
+
+
+def status(name: str) -> str:
+    command = [str(RCDEPLOY), "status", name]
+    return subprocess.run(command, capture_output=True, text=True, check=False).stdout
+
+
+def recorded(home: Path, name: str, seed: int) -> bytes:
+    """What the patrol saw in lock-step."""
+    settings = f"set speed = 0; set seed = {seed};"
+    with deployed(home, name, "clock sim lockstep;", settings) as (process, written):
+        until(lambda: (times(written) or [0])[-1] >= SECONDS, process, f"{SECONDS:g} s")
+    return written.read_bytes()
+
+
+def test_in_lockstep_a_seed_says_all(home: Path) -> None:
+    one, again, other = (
+        recorded(home, f"step-{os.getpid()}-{number}", seed)
+        for number, seed in enumerate((7, 7, 8))
+    )
+    assert one == again
+    assert one != other
+    lines = one.decode().splitlines()
+    moments = [float(line.split(";")[0]) for line in lines]
+    assert moments == [round(n * 0.02, 9) for n in range(len(moments))]
+    near = np.array([float(line.split(";")[1]) for line in lines])
+    assert near[0] == pytest.approx(2000, abs=1300)
+    assert near.min() < 950, "it has not come to the wall"
+    assert len({line.split(";", 2)[2] for line in lines}) == len(lines)
+
+
+HAND = """
+hand = proxy(i.SIMULATION, "Simulation")
+until(lambda: hand.getState().time > 1)
+hand.pause()
+now = hand.getState().time
+assert abs(hand.step(50) - now - 0.1) < 1e-9
+state = hand.getState()
+assert state.paused and state.realTimeFactor == 0
+kept = hand.snapshot()
+hand.setSpeed(2.0)
+hand.resume()
+until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
+hand.pause()
+hand.restore(kept)
+assert abs(hand.getState().time - state.time) < 1e-9
+hand.resume()
+until(lambda: hand.getState().time > state.time + 0.5)
+hand.pause()
+hand.reset()
+assert hand.getState().time == 0
+hand.resume()
+middleware.close()
+print("held")
+"""
+
+
+def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(home: Path) -> None:
+    name = f"sim-{os.getpid()}"
+    with deployed(home, name, "clock sim;", last=1000) as (process, written):
+        until(lambda: bool(times(written)), process, "the first line")
+        until(lambda: "times real time" in status(name), process, "the factor")
+        until(lambda: " 0.00 times" not in status(name), process, "a factor")
+        said = run(home / "room_simulator", CLIENT + HAND, "zenoh", name, "room_simulator")
+        assert said == "held\n"
+        backwards = lambda: sum(np.diff(times(written)) < 0) >= 2  # noqa: E731
+        until(backwards, process, "time that begins anew twice")
+    moments = np.array(times(written))
+    assert moments * 100 == pytest.approx(np.round(moments * 100)), "moments of the source"
+    first, second = moments[1:][np.diff(moments) < 0][:2]
+    assert first > 1.0, "a snapshot is gone back to"
+    assert second < first, "a reset is a new beginning"
+
+
+def test_with_the_clock_of_the_machine_it_is_driven(home: Path) -> None:
+    name = f"wall-{os.getpid()}"
+    with deployed(home, name, "") as (process, written):
+        until(lambda: len(times(written)) > 1, process, "the first lines")
+        done = lambda: times(written)[-1] - times(written)[0] >= SECONDS  # noqa: E731
+        until(done, process, f"{SECONDS:g} s")
+        assert "simulated time" not in status(name)
+    near = [float(line.split(";")[1]) for line in written.read_text().splitlines()]
+    assert min(near) < 1500 < max(near), "it drives towards the wall"
