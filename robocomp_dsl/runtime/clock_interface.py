@@ -12,8 +12,8 @@ from robocomp_dsl.runtime import types as rt
 class Tick(rt.Struct):
     """RoboCompClock::Tick.
 
-    time [ns]: Simulated time since the last reset.
-    epoch: How often the source was reset.
+    time [ns]: Simulated time: 0 at the start and after a reset.
+    epoch: How often time has begun anew: at a reset, or where an earlier state was gone back to.
     realTimeFactor: Simulated seconds per second of late; 0 while it is held.
     paused: Time stands still.
     """
