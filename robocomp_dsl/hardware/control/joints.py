@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,10 +71,15 @@ class BoardSpec:
         if np.linalg.matrix_rank(self.coupling) < n:
             raise BadValue("the coupling cannot be turned round: some joint has no motor")
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Joint names in the order of all arrays."""
         return tuple(joint.name for joint in self.joints)
+
+    @cached_property
+    def prismatic(self) -> Bools:
+        """Which joints slide, (n,)."""
+        return np.array([joint.prismatic for joint in self.joints])
 
     def column(self, name: str) -> Floats:
         """One number of every joint, (n,)."""

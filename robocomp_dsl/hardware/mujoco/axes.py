@@ -20,6 +20,9 @@ MM = 1e-3
 
 Array = NDArray[np.float64]
 
+EXCHANGED = np.array([0, 2, 1, 6, 8, 7, 3, 5, 4])
+"""Where the 9 numbers of a rotation of RoboComp are in one of MuJoCo."""
+
 
 def point(x: float, y: float, z: float) -> list[float]:
     """A point of RoboComp's (mm) in MuJoCo's frame (m)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import mujoco
@@ -62,14 +63,14 @@ class Imu:
 
     def measure(self) -> Inertial:
         """What the sensors say after the latest step."""
-        field = self._read("field")
-        length = float(np.linalg.norm(field)) or 1.0
+        (ax, ay, az), (tx, ty, tz), (fx, fy, fz) = (self._read(what) for what in _SENSORS)
+        length = math.hypot(fx, fy, fz) or 1.0
         return Inertial(
             time=float(self._data.time),
-            acceleration=_told(self._read("acceleration")),
-            # an axis of rotation changes its sign in a mirror
-            turning=_told(-self._read("turning")),
-            field=_told(field / length),
+            # y and z are exchanged; an axis of rotation changes its sign in a mirror
+            acceleration=(ax, az, ay),
+            turning=(-tx, -tz, -ty),
+            field=(fx / length, fz / length, fy / length),
             orientation=angles(self._reference.T @ self._rotation()),
             temperature=_TEMPERATURE,
         )
@@ -79,16 +80,11 @@ class Imu:
         self._reference = self._rotation()
 
     def _rotation(self) -> NDArray[np.float64]:
-        return axes.matrix(self._data.site_xpos[self._site], self._data.site_xmat[self._site])[
-            :3, :3
-        ]
+        turned: NDArray[np.float64] = self._data.site_xmat[self._site][axes.EXCHANGED]
+        return turned.reshape(3, 3)
 
-    def _read(self, what: str) -> NDArray[np.float64]:
+    def _read(self, what: str) -> Triple:
+        """In MuJoCo's axes."""
         first = self._first[what]
-        return np.array(self._data.sensordata[first : first + 3])
-
-
-def _told(vector: NDArray[np.float64]) -> Triple:
-    """A vector in MuJoCo's axes, in RoboComp's."""
-    x, y, z = vector.tolist()
-    return x, z, y
+        x, y, z = self._data.sensordata[first : first + 3].tolist()
+        return x, y, z

@@ -9,7 +9,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import UnknownJoint, WrongMode
 from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
@@ -20,6 +19,22 @@ from robocomp_dsl.hardware.servants.control_board_settings import BoardSettings,
 _MODES, _INTERACTIONS = tuple(Mode), tuple(Interaction)  # in the order of the interface
 
 
+class _Told:
+    """Modes as values of the interface; made anew only when one has changed, hardly ever."""
+
+    def __init__(self, order: Sequence[Any]) -> None:
+        self._order = order
+        self._modes: Sequence[Any] = ()
+        self._values: list[Any] = []
+
+    def told(self, made: Callable[[int], Any], modes: Sequence[Any]) -> list[Any]:
+        """The `modes` as values of the enumeration `made`, in a list of the caller's own."""
+        if modes != self._modes:
+            self._values = [made(self._order.index(one)) for one in modes]
+            self._modes = modes
+        return self._values.copy()
+
+
 class ControlBoardServant(BoardSettings):
     """All joints of the port are on one board; an empty list of names means all."""
 
@@ -28,6 +43,10 @@ class ControlBoardServant(BoardSettings):
         (WrongMode, "WrongMode"),
         (HardwareError, "Refused"),
     )
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self._modes, self._interactions = _Told(_MODES), _Told(_INTERACTIONS)
 
     def getJoints(self) -> list[Any]:
         """What joints there are."""
@@ -51,7 +70,22 @@ class ControlBoardServant(BoardSettings):
 
     def getState(self) -> Any:
         """Everything that was measured last."""
-        return board_state(self.types, self._board)
+        it = self._board.state()
+        return self.types.BoardState(
+            time=it.time,
+            position=it.position,
+            velocity=it.velocity,
+            acceleration=it.acceleration,
+            torque=it.torque,
+            reference=it.reference,
+            motorCounts=it.motor_counts,
+            motorSpeed=it.motor_speed,
+            current=it.current,
+            duty=it.duty,
+            temperature=it.temperature,
+            modes=self._modes.told(self.types.ControlMode, it.modes),
+            interactions=self._interactions.told(self.types.InteractionMode, it.interactions),
+        )
 
     def getTargets(self, joints: Names) -> Any:
         """The references as they were accepted."""
@@ -144,23 +178,3 @@ class ControlBoardServant(BoardSettings):
 
     def _begin(self, lead: Callable[[Any], None], joints: Names) -> None:
         lead(self._board.select.indices(some(joints)))
-
-
-def board_state(types: Any, board: Board) -> Any:
-    """The state of a board as the struct of the interface."""
-    it = board.state()
-    return types.BoardState(
-        time=it.time,
-        position=it.position,
-        velocity=it.velocity,
-        acceleration=it.acceleration,
-        torque=it.torque,
-        reference=it.reference,
-        motorCounts=it.motor_counts,
-        motorSpeed=it.motor_speed,
-        current=it.current,
-        duty=it.duty,
-        temperature=it.temperature,
-        modes=[types.ControlMode(_MODES.index(mode)) for mode in it.modes],
-        interactions=[types.InteractionMode(_INTERACTIONS.index(i)) for i in it.interactions],
-    )

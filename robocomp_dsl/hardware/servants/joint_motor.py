@@ -17,6 +17,9 @@ from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.errors import HardwareError
 from robocomp_dsl.hardware.servants.servant import Servant
 
+_MM = 1e-3
+_LEAST, _MOST = -(2**31), 2**31 - 1
+
 _ROUNDING = 1e-5
 """What a goal of 32 bits may be beyond a limit [rad or m]."""
 
@@ -115,34 +118,20 @@ class JointMotorServant(Servant):
 
     def _states(self, joints: Iterable[int]) -> dict[str, Any]:
         board = self._board
-        state, units = board.state(), self._units(np.arange(len(board.spec.joints)))
+        state, units = board.state(), np.where(board.spec.prismatic, _MM, 1.0)
         moving = (np.abs(state.velocity) > 1e-3) | board.references.trajectory.moving
         columns = (
             (state.position / units).tolist(),
             (state.velocity / units).tolist(),
             (state.torque * state.velocity).tolist(),
-            state.motor_counts.astype(np.int64).tolist(),
-            state.motor_speed.astype(np.int64).tolist(),
+            _whole(state.motor_counts),
+            _whole(state.motor_speed),
             moving.tolist(),
             state.temperature.astype(np.int64).tolist(),
         )
-        rows = list(zip(*columns, strict=True))
-        return {board.spec.names[i]: self._state(f"{state.time:.6f}", *rows[i]) for i in joints}
-
-    def _state(
-        self, time: str, pos: float, vel: float, power: float, p: int, v: int, *rest: Any
-    ) -> Any:
-        moving, temperature = rest
-        return self.types.MotorState(
-            pos=pos,
-            vel=vel,
-            power=power,
-            timeStamp=time,
-            p=_whole(p),
-            v=_whole(v),
-            isMoving=moving,
-            temperature=temperature,
-        )
+        names, rows = board.spec.names, list(zip(*columns, strict=True))
+        time, made = f"{state.time:.6f}", self.types.MotorState
+        return {names[i]: _state(made, time, rows[i]) for i in joints}
 
     # -- how they are built -------------------------------------------------------------------
 
@@ -186,12 +175,28 @@ class JointMotorServant(Servant):
         return self._board.select.indices(list(names))
 
     def _unit(self, joint: int) -> float:
-        return 1e-3 if self._board.spec.joints[joint].prismatic else 1.0
+        return _MM if self._board.spec.prismatic[joint] else 1.0
 
     def _units(self, joints: Ints) -> Floats:
-        return np.array([self._unit(joint) for joint in joints.tolist()])
+        return np.where(self._board.spec.prismatic[joints], _MM, 1.0)
 
 
-def _whole(counts: int) -> int:
+def _state(made: type[Any], time: str, row: tuple[Any, ...]) -> Any:
+    """The struct `made` of one motor."""
+    pos, vel, power, p, v, moving, temperature = row
+    return made(
+        pos=pos,
+        vel=vel,
+        power=power,
+        timeStamp=time,
+        p=p,
+        v=v,
+        isMoving=moving,
+        temperature=temperature,
+    )
+
+
+def _whole(counts: Floats) -> list[int]:
     """Counts that fit into the 32 bits of the interface."""
-    return max(min(counts, 2**31 - 1), -(2**31))
+    fitting: list[int] = np.clip(counts, _LEAST, _MOST).astype(np.int64).tolist()
+    return fitting

@@ -27,12 +27,10 @@ class Types:
         for one in interface.operations:
             for type_ in (*(t for _, t in (*one.inputs, *one.outputs)), *one.throws):
                 _walk(type_, seen)
-        self._found = {_plain_name(one): one for one in seen}
+        vars(self).update({_plain_name(one): one for one in seen})
 
     def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):  # also while it is being copied
-            raise AttributeError(name)
-        return self._found[name]
+        raise AttributeError(f"the interface has no type `{name}`")
 
 
 def _walk(type_: Any, seen: dict[Any, None]) -> None:
