@@ -42,6 +42,7 @@
      "language"
      "middleware"
      "no_gui"
+     "optional"
      "options"
      "parameters"
      "period"

@@ -2,7 +2,7 @@
 
 In: instances, the written wires, and what groups export. Out: a wire from each requirement to the
 only component that implements it, and from all publishers of a topic to each subscriber that has no
-written one. What is in the same group goes before what is outside of it.
+written one; what is missing or not clear, unless it is optional. What is in the same group goes before what is outside of it.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def implied_wires(
             found = _nearest(instance, others, exports)
             if len(found) == 1:
                 yield Connection(instance, port, *found[0], instance.span, implied=True)
-            elif instance.name not in written.troubled:
+            elif instance.name not in written.troubled and not port.optional:
                 shown = [_shown(instance, end, exports) for end in found]
                 _judge_requirement((instance, port), found, shown, imported, report, whole=whole)
     publishers = list(_ends(instances, Role.PUBLISHES))
@@ -51,7 +51,7 @@ def implied_wires(
             heard = _nearest(instance, _serving(port, publishers), exports)
             for publisher, topic in heard:
                 yield Connection(publisher, topic, instance, port, instance.span, implied=True)
-            if not heard and whole:
+            if not heard and whole and not port.optional:
                 _report_unheard(instance, port, report)
 
 

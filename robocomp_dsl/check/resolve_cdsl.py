@@ -79,7 +79,8 @@ def _ports(
         middleware = mark_of(tree.middleware, workspace.middlewares, report)
         if interface is not None and name is not None:
             span = tree.alias.span if tree.alias else tree.interface.span
-            found.append((tree, Port(Role(tree.role), interface, name, span, middleware)))
+            role, optional = Role(tree.role), tree.optional is not None
+            found.append((tree, Port(role, interface, name, span, middleware, optional)))
     return found
 
 

@@ -32,7 +32,7 @@ class Port:
 
     `name` identifies the port in the component: the instance name (`requires Laser as front`), else
     the interface's name, with the suffix 1, 2, … for a repeated one. `middleware` is empty for the
-    component's own.
+    component's own. An `optional` one may be left without a peer.
     """
 
     role: Role
@@ -40,6 +40,7 @@ class Port:
     name: str
     span: Span
     middleware: str = ""
+    optional: bool = False
 
     def pattern(self, operation: Operation) -> Pattern:
         """How `operation` travels through this port."""

@@ -10,15 +10,16 @@ Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
 
 
 class Port(Node):
-    """One interface of a list: `requires Laser(ice) as front` gives a port.
+    """One interface of a list: `requires Laser(ice) as front optional` gives a port.
 
-    `role` is spelled as in `Role` however the user wrote it.
+    `role` is spelled as in `Role` however the user wrote it; `optional` is the word, if it is there.
     """
 
     role: Role
     interface: QualifiedName
     alias: Name | None = None
     middleware: Name | None = None
+    optional: Name | None = None
 
 
 class Gui(Node):

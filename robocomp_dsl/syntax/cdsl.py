@@ -95,10 +95,21 @@ class CdslBuilder(Settings):
     def ports(self, _span: Span, role: Name, *children: Any) -> tuple[ast.Port, ...]:
         """`requires A, B;`."""
         known = cast("ast.Role", _ROLES[role.text.lower()])
-        return tuple(
-            ast.Port(one.span, known, one.interface, one.alias, one.middleware)
-            for one in self.without_comma(children)
-        )
+        return tuple(self._with_role(known, one) for one in self.without_comma(children))
+
+    def _with_role(self, role: ast.Role, port: ast.Port) -> ast.Port:
+        """The port in its list. What a component offers is there: it cannot be optional."""
+        optional = port.optional
+        if optional is not None and role in ("implements", "publishes"):
+            self.say(
+                codes.MISPLACED,
+                optional.span,
+                "only what others offer can be `optional`",
+                label=f"this component {role} it",
+                fix=self.rewrite("delete it", optional.span),
+            )
+            optional = None
+        return ast.Port(port.span, role, port.interface, port.alias, port.middleware, optional)
 
     def no_ports(self, span: Span, role: Name) -> tuple[ast.Port, ...]:
         """`requires;`."""
@@ -114,12 +125,15 @@ class CdslBuilder(Settings):
         """`Laser(ice) as front`, still without a role."""
         alias: Name | None = None
         middleware: Name | None = None
+        optional: Name | None = None
         for kind, name in options:
             if kind == "as":
                 alias = self.once(alias, name, "the instance name")
+            elif kind == "optional":
+                optional = self.once(optional, name, "`optional`")
             else:
                 middleware = self.once(middleware, name, "the middleware")
-        return ast.Port(span, "requires", interface, alias, middleware)
+        return ast.Port(span, "requires", interface, alias, middleware, optional)
 
     def second_middleware(self, _span: Span, name: Name) -> tuple[str, Name]:
         """`(ice)`."""
@@ -128,6 +142,10 @@ class CdslBuilder(Settings):
     def alias(self, _span: Span, name: Name) -> tuple[str, Name]:
         """`as front`."""
         return "as", name
+
+    def optional(self, _span: Span, word: Name) -> tuple[str, Name]:
+        """`optional`."""
+        return "optional", word
 
     def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
         """`Name` or `Module::Name`."""

@@ -46,6 +46,7 @@ hi def link cdsl_gui_name cdslName
 hi def link cdsl_gui_field cdslField
 syn region cdsl_gui matchgroup=cdslKeyword start=/\<gui\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_gui_inner,cdsl_gui_value,cdsl_gui_name,cdsl_gui_field
 syn match cdsl_implements_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match cdsl_implements_inner contained /\.\@<!\<optional\>\.\@!\%(\s*\%((\|,\|;\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link cdsl_implements_inner cdslModifier
 hi def link cdsl_implements_value cdslValue
 hi def link cdsl_implements_name cdslName
@@ -90,6 +91,7 @@ hi def link cdsl_period_name cdslName
 hi def link cdsl_period_field cdslField
 syn region cdsl_period matchgroup=cdslKeyword start=/\<period\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_period_inner,cdsl_period_value,cdsl_period_name,cdsl_period_field
 syn match cdsl_publishes_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match cdsl_publishes_inner contained /\.\@<!\<optional\>\.\@!\%(\s*\%((\|,\|;\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link cdsl_publishes_inner cdslModifier
 hi def link cdsl_publishes_value cdslValue
 hi def link cdsl_publishes_name cdslName
@@ -101,6 +103,7 @@ hi def link cdsl_qtversion_name cdslName
 hi def link cdsl_qtversion_field cdslField
 syn region cdsl_qtversion matchgroup=cdslLegacy start=/\<qtversion\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_qtversion_inner,cdsl_qtversion_value,cdsl_qtversion_name,cdsl_qtversion_field
 syn match cdsl_requires_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match cdsl_requires_inner contained /\.\@<!\<optional\>\.\@!\%(\s*\%((\|,\|;\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link cdsl_requires_inner cdslModifier
 hi def link cdsl_requires_value cdslValue
 hi def link cdsl_requires_name cdslName
@@ -113,6 +116,7 @@ hi def link cdsl_statemachine_name cdslName
 hi def link cdsl_statemachine_field cdslField
 syn region cdsl_statemachine matchgroup=cdslKeyword start=/\<statemachine\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_statemachine_inner,cdsl_statemachine_value,cdsl_statemachine_name,cdsl_statemachine_field
 syn match cdsl_subscribesTo_inner contained /\.\@<!\<as\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match cdsl_subscribesTo_inner contained /\.\@<!\<optional\>\.\@!\%(\s*\%((\|,\|;\|\h\|\/[*\/]\|$\)\)\@=/
 hi def link cdsl_subscribesTo_inner cdslModifier
 hi def link cdsl_subscribesTo_value cdslValue
 hi def link cdsl_subscribesTo_name cdslName

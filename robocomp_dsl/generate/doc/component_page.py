@@ -107,7 +107,8 @@ def _port(port: Port, site: Site) -> Row:
     spoken = joined(
         ((*badge(pattern), BLANK, *joined(ones)) for pattern, ones in groups.items()), BLANK
     )
-    front = (code(port.name), text(ROLES[port.role]), site.declared(port.interface))
+    how = f"{ROLES[port.role]}, optional" if port.optional else ROLES[port.role]
+    front = (code(port.name), text(how), site.declared(port.interface))
     return Row((*front, spoken, code(port.middleware)))
 
 
