@@ -27,7 +27,9 @@ from robocomp_dsl.check.innermodel_tags import (
     Kind,
 )
 
-_NUMBERS = ("0", "1", "-1", "0.5", "-250", "1e3", "3.14159265", "1570", "0.0001", ".5", "-.1", "+2")
+_USUAL = ("0", "1", "-1", "0.5", "-250", "1e3", "3.14159265", "1570", "0.0001", ".5", "-.1", "+2")
+_HUGE = ("1e300", "-1e300", "1e-300", "-1e9", "9999999999")
+_NUMBERS = (*_USUAL, *_USUAL, *_HUGE)
 _ODD_NUMBERS = ("", "0,5", "abc", "1e999", "nan", "1 2", "--3", "0x10", "1.2.3")
 _VALUES: Mapping[Kind, tuple[str, ...]] = {
     NUMBER: _NUMBERS,
@@ -37,9 +39,15 @@ _VALUES: Mapping[Kind, tuple[str, ...]] = {
     LIMIT: (*_NUMBERS, "inf", "-inf"),
     ANGLE_LIMIT: (*_NUMBERS, "inf"),
     LENGTH_LIMIT: (*_NUMBERS, "-inf"),
-    WHOLE: ("0", "1", "10004", "-1", "640"),
-    EXTENT: ("1", "0", "100,200,300", "0,0,0", "2000,1000", "-5,5,5", "1e6,1e6,1e-6", "10, 20, 30"),
-    SCALE: ("1", "1,1,1", "0.01", "1000,1000,1000", "0,1,1", "-1,1,1", "2,3"),
+    WHOLE: ("0", "1", "10004", "-1", "640", "2147483647"),
+    EXTENT: (
+        *("1", "0", "100,200,300", "0,0,0", "2000,1000", "-5,5,5", "1e6,1e6,1e-6", "10, 20, 30"),
+        *("1e300", "1e-300,1,1", "inf", "2500,1e9,10"),
+    ),
+    SCALE: (
+        *("1", "1,1,1", "0.01", "1000,1000,1000", "0,1,1", "-1,1,1", "2,3"),
+        *("1e300", "1e-300", "inf", "1e9,1e-9,1"),
+    ),
     LENGTHS: ("1,2", "33 mm, 60 mm"),
     FLAG: ("0", "1", "true", ""),
     TEXT: (
@@ -55,7 +63,23 @@ _FILES = (
     "gone.obj", "gone.ive", "gone.osg", "gone.3ds", "", "/opt/robocomp/x.osg", "folder",
     "damaged.obj", "cube.obj", "flat.obj", "points.osg", "letters.stl",
 )  # fmt: skip
-_IDS = ("a", "b", "c", "world", "root", "robot", "räder", "a b", "x/y", "f#2", "100")
+_IDS = (
+    *("a", "b", "c", "world", "root", "robot", "räder", "a b", "x/y", "f#2", "100", "A"),
+    *(
+        "import",
+        "self",
+        "None",
+        "int32",
+        "list",
+        "_x",
+        "x&quot;y",
+        "a\\b",
+        "`q`",
+        "a&#10;b",
+        "L" * 300,
+    ),
+    *("simulation", "Simulation", "JointMotor", "clock", "component", "compute", "params", "a.b"),
+)
 
 
 def odd_world(seed: int) -> dict[str, str]:

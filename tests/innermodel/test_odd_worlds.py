@@ -14,6 +14,7 @@ from robocomp_dsl.generate.scene import lower
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.mirror import mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
+from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name, build_spec
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.transforms import TransformTree
@@ -39,9 +40,9 @@ def load(path: Path) -> tuple[Scene, object, Report]:
     report = Report()
     body = check_innermodel(path, Workspace(()), report)
     assert body is not None
-    scene = Scene.of_data(lower(body))
+    scene, told = fitting(Scene.of_data(lower(body)))
     spec, notes = build_spec(scene)
-    assert all(isinstance(note, str) and "`" in note for note in notes)
+    assert all(isinstance(note, str) and "`" in note for note in told + notes)
     return scene, compiled(spec, []), report
 
 

@@ -47,8 +47,14 @@ OFFERS = (
 OF_THE_WORLD = ("InnerModelManager", "Simulation")
 """Interfaces that are served for the world as a whole."""
 
+COMPONENT = "Component"
+"""What every component serves of itself."""
+
 CLOCK = "Clock"
 """The topic on which it tells the time, where it makes that of a deployment."""
+
+
+_SHARED = tuple(dict.fromkeys(one.interface for one in OFFERS if one.shared))
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +96,7 @@ class ServedAs:
 
 def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
     """The ports for a lowered scene, in the order of the table."""
-    taken = names.Scope({one.interface for one in OFFERS} | {*OF_THE_WORLD, CLOCK})
+    taken = {one.lower() for one in (*_SHARED, *OF_THE_WORLD, CLOCK, COMPONENT)}
     found: list[ServedAs] = []
     for interface in dict.fromkeys(one.interface for one in OFFERS):
         kinds = {one.kind: one.shared for one in OFFERS if one.interface == interface}
@@ -100,7 +106,7 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
             found.append(ServedAs(interface, interface, together))
         for device in here:
             if not kinds[device["kind"]]:
-                port = taken.claim(identifier(device["id"]))
+                port = _free(identifier(device["id"]), taken)
                 pair = (device["id"], device["kind"])
                 found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
     return (*found, *(ServedAs(name, name) for name in OF_THE_WORLD))
@@ -123,6 +129,15 @@ def published(ports: Sequence[ServedAs]) -> tuple[Published, ...]:
         for t in TOPICS
         if t.interface == p.interface
     )
+
+
+def _free(wanted: str, taken: set[str]) -> str:
+    """The name of a port that no other has; upper and lower case are the same."""
+    made = names.identifier(wanted, ())
+    while made.lower() in taken:
+        made += "_"
+    taken.add(made.lower())
+    return made
 
 
 def identifier(written: str) -> str:

@@ -22,6 +22,7 @@ from robocomp_dsl.hardware.rotations import Matrix, rotation
 from robocomp_dsl.hardware.scene import Box, Mesh, Triple
 
 _THINNEST = 1e-6  # m: MuJoCo has no geoms without thickness
+_SMALLEST = 1e-5  # m: MuJoCo makes no meshes of almost no area
 _LARGEST = 1e6  # m
 _GREY = (0.7, 0.7, 0.7, 1.0)
 _PLACEHOLDER = (0.9, 0.4, 0.2, 0.4)
@@ -91,7 +92,7 @@ def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
         )
         return
     low, high = points.min(axis=0), points.max(axis=0)
-    if len(surface.faces) and not is_flat(points):
+    if len(surface.faces) and not is_flat(points) and (high - low).max() * MM > _SMALLEST:
         asset = spec.add_mesh(
             name=mesh.id,
             uservert=axes.points(points).ravel().tolist(),

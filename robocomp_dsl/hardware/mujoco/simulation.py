@@ -16,9 +16,9 @@ from typing import Any, Literal
 
 from robocomp_dsl.hardware.errors import CommandRefused, Diverged, SceneError, finite
 from robocomp_dsl.hardware.mujoco.branch import Branch
-from robocomp_dsl.hardware.mujoco.device_limits import fitting
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
+from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.pace import Pace, pace_for
@@ -129,11 +129,11 @@ class Simulation:
         forget: Collection[str] = (),
     ) -> Branch:
         try:
-            spec, self.notes = build_spec(scene)
+            scene, told = fitting(scene)
+            spec, notes = build_spec(scene)
+            self.notes = told + notes
             spec.option.timestep = self.options.step
-            fit, told = fitting(scene)
-            self.notes += told
-            parts = parts_of(fit, self.noise, kept)
+            parts = parts_of(scene, self.noise, kept)
             unique = dict.fromkeys(parts.values())
             world = World(spec, unique, seed=self.seed, before=before, forget=forget)
         except ValueError as error:  # what MuJoCo says of a body that it does not take

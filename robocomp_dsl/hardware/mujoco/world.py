@@ -100,13 +100,20 @@ class World:
         dt = self.step
         steps = int(self._owed / dt + 1e-9)
         self._owed -= steps * dt
-        for _ in range(steps):
+        try:
+            self._steps(steps, dt)
+        except (ValueError, ArithmeticError):  # what devices make of numbers that are not finite
+            self._check()
+            raise
+        self._check()
+
+    def _steps(self, count: int, dt: float) -> None:
+        for _ in range(count):
             for part in self._parts:
                 part.before_step(dt)
             mujoco.mj_step(self.model, self.data)
             for part in self._parts:
                 part.after_step(dt)
-        self._check()
 
     def _take_over(self, before: World, forget: Collection[str]) -> None:
         """Positions, speeds and forces of joints that are in both worlds."""

@@ -1,0 +1,54 @@
+"""Whatever is in a well-formed file: a simulator is made of it, and time passes in its world."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+from odd_worlds import odd_world
+from test_odd_worlds import place
+
+from robocomp_dsl.check import check_innermodel
+from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.simulator import command
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.hardware.errors import Diverged
+from robocomp_dsl.hardware.mujoco.simulation import Simulation
+from robocomp_dsl.hardware.scene import Scene
+
+
+def listed(path: Path) -> str:
+    """What the dry run prints; anything but success fails."""
+    done = CliRunner().invoke(command, [str(path), "--dry-run", "--format", "concise"])
+    assert done.exception is None, (path, done.output, done.exception)
+    return done.output
+
+
+def run(path: Path) -> None:
+    """Some steps; a world of absurd numbers may diverge, but it says so."""
+    body = check_innermodel(path, Workspace(()), Report())
+    assert body is not None
+    simulation = Simulation(Scene.of_data(lower(body)))
+    try:
+        simulation.world.advance(0.01)
+    except Diverged:
+        assert any("cannot be simulated" in note for note in simulation.notes)
+
+
+@pytest.mark.parametrize("tens", range(6))
+def test_a_simulator_comes_of_every_odd_world(tmp_path: Path, tens: int) -> None:
+    for seed in range(1000 + 10 * tens, 1010 + 10 * tens):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        path = place(folder, odd_world(seed))
+        assert "InnerModelManager" in listed(path)
+        run(path)
+
+
+def test_a_port_keeps_clear_of_others_in_any_case(tmp_path: Path) -> None:
+    names = ("simulation", "Simulation", "clock", "jointmotor", "Component", "a", "A", "a b", "a_b")
+    inside = "".join(f'<imu id="{name}"/>' for name in names)
+    path = place(tmp_path, {"world.xml": f'<innerModel>{inside}<joint id="j"/></innerModel>'})
+    ports = [line.split()[-1].lower() for line in listed(path).splitlines()[1:]]
+    assert len(ports) == len(names) + 4
+    assert len(set(ports)) == len(ports)
