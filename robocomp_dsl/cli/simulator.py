@@ -18,7 +18,7 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.consequences import consequences
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import codes
+from robocomp_dsl.generate import codes, codes_model
 from robocomp_dsl.source import Span
 
 if TYPE_CHECKING:
@@ -99,12 +99,14 @@ def _build(made: Simulator, body: Body, report: Report) -> None:
     from robocomp_dsl.hardware.scene import Scene  # noqa: PLC0415
 
     try:
-        notes = Simulation(Scene.of_data(made.scene)).notes
+        simulation = Simulation(Scene.of_data(made.scene))
     except HardwareError as error:
         report.add(codes.IMPOSSIBLE_WORLD, _place(str(error), body), str(error))
         return
-    for note in notes:
+    for note in simulation.notes:
         report.add(codes.SIMPLIFIED_WORLD, _place(note, body), note)
+    for one in simulation.overlaps():
+        report.add(codes_model.MODEL_OVERLAP, _place(one.said, body), one.said)
 
 
 def _place(said: str, body: Body) -> Span:

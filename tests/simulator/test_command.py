@@ -135,3 +135,29 @@ def test_a_world_may_be_called_world(tmp_path: Path) -> None:
     )
     done = rcgen("simulator", "world.xml", "--dry-run", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+APART = """\
+<innerModel>
+ <plane id="ground" ny="1" size="9000,9000,50" py="-25" collide="1"/>
+ <transform id="table"><plane id="top" ny="1" size="800,400,100" py="500" collide="1"/></transform>
+ <transform id="crate" engine="bullet" mass="1" tx="30" ty="{y}">
+  <plane id="side" ny="1" size="100,100,100" collide="1"/>
+ </transform>
+</innerModel>
+"""
+
+
+@pytest.mark.parametrize(
+    ("y", "said"),
+    [
+        (600, ""),
+        (560, "world.xml:4:2: warning[RC653]: `crate` and `table` are 40 mm in each other\n"),
+        (37.5, "world.xml:4:2: warning[RC653]: `crate` and `ground` are 12.5 mm in each other\n"),
+    ],
+)
+def test_what_begins_in_something_else_is_told(tmp_path: Path, y: float, said: str) -> None:
+    (tmp_path / "world.xml").write_text(APART.format(y=y))
+    done = rcgen("simulator", "world.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, said)
+    assert "crate" not in done.stdout

@@ -16,6 +16,7 @@ import mujoco
 
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
 from robocomp_dsl.hardware.mujoco.mjcf_spec import build_mjcf, located
+from robocomp_dsl.hardware.mujoco.overlaps import overlaps
 from robocomp_dsl.hardware.mujoco.scene_spec import make_room
 from robocomp_dsl.hardware.mujoco.urdf_spec import build_urdf
 from robocomp_dsl.hardware.urdf import read_urdf
@@ -24,7 +25,6 @@ _OUTERMOST = re.compile(rb"<\s*([A-Za-z_][\w.:-]*)")
 _SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
 _WEIGHTLESS = "mass and inertia of moving bodies"
 _LIGHTEST = 1e-3
-_MOST_OVERLAPS = 10
 
 
 @dataclass(slots=True)
@@ -89,24 +89,4 @@ def _light(model: Any) -> list[Finding]:
         for i in range(1, model.nbody)
         if model.body_jntnum[i] and model.body_mass[i] <= _LIGHTEST
         for name in [model.body(i).name or f"body{i}"]
-    ]
-
-
-def overlaps(model: Any) -> list[Finding]:
-    """Bodies that are in each other at the start, the deepest first; at most ten pairs."""
-    data = mujoco.MjData(model)
-    try:
-        mujoco.mj_forward(model, data)
-    except mujoco.FatalError as error:
-        raise located(error) from None
-    deepest: dict[tuple[str, str], float] = {}
-    for contact in data.contact:
-        bodies = [int(model.geom_bodyid[geom]) for geom in contact.geom if geom >= 0]
-        one, other = sorted(model.body(i).name or f"body{i}" for i in (*bodies, 0)[:2])
-        deepest[one, other] = min(deepest.get((one, other), 0.0), float(contact.dist))
-    ordered = sorted(deepest.items(), key=lambda item: item[1])
-    return [
-        Finding("overlap", one, f"`{one}` and `{other}` are {-depth * 1000:.3g} mm in each other")
-        for (one, other), depth in ordered[:_MOST_OVERLAPS]
-        if depth < -1e-4
     ]

@@ -15,8 +15,10 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from robocomp_dsl.hardware.errors import CommandRefused, Diverged, SceneError, finite
+from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.branch import Branch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.overlaps import overlaps_of
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
 from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
@@ -172,6 +174,10 @@ class Simulation:
         """Pass while it is well. Raises `Diverged` for a world that has stopped for good."""
         if self.failure:
             raise Diverged(self.failure)
+
+    def overlaps(self) -> list[Finding]:
+        """What is in each other now, the deepest first."""
+        return overlaps_of(self.world.model, self.world.data)
 
     # -- at any time --------------------------------------------------------------------------
 
