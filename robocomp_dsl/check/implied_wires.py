@@ -2,7 +2,8 @@
 
 In: instances, the written wires, and what groups export. Out: a wire from each requirement to the
 only component that implements it, and from all publishers of a topic to each subscriber that has no
-written one; what is missing or not clear, unless it is optional. What is in the same group goes before what is outside of it.
+written one; findings where that cannot be, unless the port is optional. What is in the same group
+goes before what is outside of it.
 """
 
 from __future__ import annotations

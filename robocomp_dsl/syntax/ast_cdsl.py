@@ -12,7 +12,8 @@ Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
 class Port(Node):
     """One interface of a list: `requires Laser(ice) as front optional` gives a port.
 
-    `role` is spelled as in `Role` however the user wrote it; `optional` is the word, if it is there.
+    `role` is spelled as in `Role` however the user wrote it; `optional` is the word, if it is
+    there.
     """
 
     role: Role
