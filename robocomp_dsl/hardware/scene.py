@@ -7,14 +7,19 @@ angles rad, in the frame of `axes` (x right, y up, z ahead).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 Axis: TypeAlias = Literal["x", "y", "z"]
 Triple: TypeAlias = tuple[float, float, float]
+Given: TypeAlias = Literal["", "body", "joint", "mark"]
 
 ROOT = "root"
+
+JOINTS = ("joint", "prismaticjoint")
+"""Kinds of devices that are joints, and on the control board."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +46,8 @@ class Frame:
     """A frame in its `parent`: T(place) · Rx · Ry · Rz of `turn`, at the start.
 
     `drives` marks a mobile base, which leaves its place along x and z and turns about y. With
-    `physics` it falls and is pushed; `mass` is in kg.
+    `physics` it falls and is pushed; `mass` is in kg. What is `given` by the model file that the
+    scene begins with has no place here, the simulation knows it; only a body can hold more.
     """
 
     id: str
@@ -52,6 +58,7 @@ class Frame:
     drives: bool = False
     physics: bool = False
     mass: float = 0.0
+    given: Given = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +103,21 @@ class Device:
 
 
 @dataclass(frozen=True, slots=True)
+class Model:
+    """A file in MJCF or URDF that a scene begins with, in the units of MuJoCo.
+
+    `start` are positions of joints (one number, four of a ball, seven of a free body) and `held`
+    the commands of motors that no device drives, by name, where these are not 0. What moves without
+    mass has at least `boundmass` kg.
+    """
+
+    file: Path
+    boundmass: float = 0.0
+    start: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    held: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
 class Scene:
     """All of it. Frames come after their parents; the first is the root."""
 
@@ -103,15 +125,18 @@ class Scene:
     boxes: tuple[Box, ...] = ()
     meshes: tuple[Mesh, ...] = ()
     devices: tuple[Device, ...] = ()
+    model: Model | None = None
 
     @classmethod
-    def of_data(cls, data: Mapping[str, Any]) -> Scene:
-        """The scene in `data`, as `generate.scene` makes it."""
+    def of_data(cls, data: Mapping[str, Any], folder: Path = Path()) -> Scene:
+        """The scene in `data`, as `generate.scene` makes it; a model file stands in `folder`."""
+        model = data.get("model")
         return cls(
             tuple(_frame(one) for one in data["frames"]),
             tuple(Box(**_tuples(one)) for one in data["boxes"]),
             tuple(Mesh(**_tuples(one)) for one in data["meshes"]),
             tuple(Device(**one) for one in data["devices"]),
+            Model(**model | {"file": folder / model["file"]}) if model else None,
         )
 
 

@@ -44,8 +44,9 @@ def parents(scene: Scene) -> dict[str, str]:
         below.setdefault(frame.parent, []).append(frame.id)
     for frame_id, shape in _shapes(scene):
         below.setdefault(frame_id, []).append(shape)
+    frames = {one.id for one in scene.frames}
     for device in scene.devices:
-        if device.id != device.frame:
+        if device.id not in frames:
             below.setdefault(device.frame, []).append(device.id)
     found: dict[str, str] = {}
     todo = [(ROOT, "")]
@@ -72,6 +73,13 @@ def frame_of(scene: Scene, id: str) -> Frame:
     raise NodeError(Mistake.MISSING, f"there is no node `{id}`")
 
 
+def _is_holder(scene: Scene, id: str) -> None:
+    found = frame_of(scene, id)
+    if found.given in {"joint", "mark"}:
+        said = f"`{id}` is a {found.given} of the model file: only a body can hold something"
+        raise NodeError(Mistake.WRONG_NODE, said)
+
+
 def _is_new(scene: Scene, id: str) -> None:
     if not id:
         raise NodeError(Mistake.VALUES, "a node needs a name")
@@ -81,21 +89,21 @@ def _is_new(scene: Scene, id: str) -> None:
 
 def with_frame(scene: Scene, frame: Frame) -> Scene:
     """One more frame."""
-    frame_of(scene, frame.parent)
+    _is_holder(scene, frame.parent)
     _is_new(scene, frame.id)
     return replace(scene, frames=(*scene.frames, frame))
 
 
 def with_box(scene: Scene, box: Box) -> Scene:
     """One more box."""
-    frame_of(scene, box.frame)
+    _is_holder(scene, box.frame)
     _is_new(scene, box.id)
     return replace(scene, boxes=(*scene.boxes, box))
 
 
 def with_mesh(scene: Scene, mesh: Mesh) -> Scene:
     """One more mesh."""
-    frame_of(scene, mesh.frame)
+    _is_holder(scene, mesh.frame)
     _is_new(scene, mesh.id)
     return replace(scene, meshes=(*scene.meshes, mesh))
 
@@ -147,33 +155,42 @@ def subtree(scene: Scene, id: str) -> set[str]:
     return found
 
 
+def _is_changeable(scene: Scene, id: str, done: str) -> None:
+    if id in FIXED:
+        raise NodeError(Mistake.WRONG_NODE, f"`{id}` cannot be {done}")
+    given = {one.id for one in scene.frames if one.given}
+    own = {one.id for one in scene.devices if one.frame in given}
+    if id in given | own:
+        raise NodeError(Mistake.WRONG_NODE, f"`{id}` is of the model file and cannot be {done}")
+
+
 def without(scene: Scene, id: str) -> Scene:
     """The scene without a node and all below it."""
-    if id in FIXED:
-        raise NodeError(Mistake.WRONG_NODE, f"`{id}` cannot be removed")
+    _is_changeable(scene, id, "removed")
     gone = subtree(scene, id)
-    return Scene(
-        tuple(one for one in scene.frames if one.id not in gone),
-        tuple(one for one in scene.boxes if one.id not in gone),
-        tuple(one for one in scene.meshes if one.id not in gone),
-        tuple(one for one in scene.devices if one.id not in gone),
+    return replace(
+        scene,
+        frames=tuple(one for one in scene.frames if one.id not in gone),
+        boxes=tuple(one for one in scene.boxes if one.id not in gone),
+        meshes=tuple(one for one in scene.meshes if one.id not in gone),
+        devices=tuple(one for one in scene.devices if one.id not in gone),
     )
 
 
 def moved(scene: Scene, id: str, into: str) -> Scene:
     """A node, with all below it, in another frame; its pose is told there as before."""
-    if id in FIXED:
-        raise NodeError(Mistake.WRONG_NODE, f"`{id}` cannot be moved")
+    _is_changeable(scene, id, "moved into another")
     below = subtree(scene, id)
-    frame_of(scene, into)
+    _is_holder(scene, into)
     if into in below:
         raise NodeError(Mistake.WRONG_NODE, f"`{into}` is part of `{id}` and cannot hold it")
     frames = tuple(replace(one, parent=into) if one.id == id else one for one in scene.frames)
-    return Scene(
-        _in_order(frames),
-        tuple(replace(one, frame=into) if one.id == id else one for one in scene.boxes),
-        tuple(replace(one, frame=into) if one.id == id else one for one in scene.meshes),
-        tuple(
+    return replace(
+        scene,
+        frames=_in_order(frames),
+        boxes=tuple(replace(one, frame=into) if one.id == id else one for one in scene.boxes),
+        meshes=tuple(replace(one, frame=into) if one.id == id else one for one in scene.meshes),
+        devices=tuple(
             replace(one, frame=into) if one.id == id and one.frame != id else one
             for one in scene.devices
         ),

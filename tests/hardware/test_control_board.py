@@ -196,7 +196,7 @@ def test_heat_and_lateness_are_faults():
     command.set_mode(None, [Mode.POSITION, Mode.POSITION, Mode.IDLE])
     board.step(np.zeros(3), np.zeros(3), 0.001)
     board.motors.set_temperature(np.array([100.0, 25.0, 25.0]))
-    board.pid.set_error_limits(np.full(3, 0.2))
+    board.pid.set_error_limits(np.arange(3), np.full(3, 0.2))
     board.step(np.array([0.0, 0.3, 0.3]), np.zeros(3), 0.001)
     assert [one.code for one in board.faults.last] == [
         Fault.OVERTEMPERATURE,

@@ -95,12 +95,16 @@ class Calibrator:
         for joint in chosen.tolist():
             self._go_home(joint, self._procedures[joint])
 
-    def quit(self) -> None:
+    def quit(self, joints: Ints | None = None) -> None:
         """Stop calibrating; the joints stay without calibration, and idle."""
-        for joint in list(self._runs):
+        for joint in self._runs.keys() & set(self._board.select.indices(joints).tolist()):
             self._board.table.calibrated[joint] = False
             self._board.drive_as(joint, Mode.NOT_CONFIGURED)
-        self._runs.clear()
+            del self._runs[joint]
+
+    def leads(self, joints: Ints) -> bool:
+        """Whether any of `joints` is still on its way."""
+        return not self._runs.keys().isdisjoint(joints.tolist())
 
     @property
     def busy(self) -> bool:

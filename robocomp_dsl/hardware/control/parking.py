@@ -53,12 +53,17 @@ class Parking:
         for joint in chosen.tolist():
             self.states[joint] = ParkState.PARKING
 
-    def quit(self) -> None:
+    def quit(self, joints: Ints | None = None) -> None:
         """Stop parking; joints on their way stay where they are, in position mode."""
-        away = [i for i, state in enumerate(self.states) if state is ParkState.PARKING]
+        chosen = self._board.select.indices(joints).tolist()
+        away = [i for i in chosen if self.states[i] is ParkState.PARKING]
         self._board.references.stop(np.array(away, dtype=np.int64))
         for joint in away:
             self.states[joint] = ParkState.AWAY
+
+    def leads(self, joints: Ints) -> bool:
+        """Whether any of `joints` is still on its way."""
+        return any(self.states[i] is ParkState.PARKING for i in joints.tolist())
 
     @property
     def busy(self) -> bool:

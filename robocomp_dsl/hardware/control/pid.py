@@ -69,12 +69,12 @@ class PidBank:
         """Give one regulator another constant output."""
         self.set(joint, replace(self.gains[joint], offset=offset))
 
-    def set_error_limits(self, error: Floats) -> None:
-        """Errors (n,) that are faults where a position is held; infinite: none is."""
+    def set_error_limits(self, joints: Ints, error: Floats) -> None:
+        """Errors that are faults where a position is held; infinite: none is."""
         if (error <= 0.0).any():
             raise BadValue("an error limit must be positive")
-        self.error_limit[:] = error
-        self.tracks = bool(np.isfinite(error).any())
+        self.error_limit[joints] = error
+        self.tracks = bool(np.isfinite(self.error_limit).any())
 
     def enable(self, joints: Ints, on: bool) -> None:
         """Switch regulators on or off; one that is off gives 0."""

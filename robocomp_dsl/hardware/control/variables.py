@@ -12,7 +12,7 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ControlRefused
-from robocomp_dsl.hardware.control.joints import Floats, numbers
+from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,32 +25,33 @@ class Variable:
 
 
 class RemoteVariables:
-    """The variables of one board, by key."""
+    """The variables of `joints` of a board, or of all, by key."""
 
-    def __init__(self, board: Board) -> None:
-        everyone = np.arange(len(board.spec.joints))
-        limits, motors = board.limits, board.motors
+    def __init__(self, board: Board, joints: Ints | None = None) -> None:
+        here = board.select.indices(joints)
+        limits, motors, names = board.limits, board.motors, board.spec.names
         self.variables: dict[str, Variable] = {
             "speed_limits": Variable(
-                lambda: limits.speed,
-                lambda v: limits.set_speed(everyone, v),
+                lambda: limits.speed[here],
+                lambda v: limits.set_speed(here, v),
                 "largest joint speeds [rad/s]",
             ),
             "max_currents": Variable(
-                lambda: motors.max_current,
-                lambda v: motors.set_max_current(everyone, v),
+                lambda: motors.max_current[here],
+                lambda v: motors.set_max_current(here, v),
                 "motor currents that fault [A]",
             ),
             "tracking_limits": Variable(
-                lambda: board.pid.error_limit,
-                board.pid.set_error_limits,
+                lambda: board.pid.error_limit[here],
+                lambda v: board.pid.set_error_limits(here, v),
                 "position errors that fault [rad]",
             ),
-            "gears": Variable(lambda: motors.gear, None, "motor turns per joint turn"),
-            "temperatures": Variable(lambda: motors.temperature, None, "of the motors [degC]"),
+            "gears": Variable(lambda: motors.gear[here], None, "motor turns per joint turn"),
+            "temperatures": Variable(
+                lambda: motors.temperature[here], None, "of the motors [degC]"
+            ),
         }
-        for i, name in enumerate(board.spec.names):
-            self.variables[f"pid.{name}"] = _gains(board, i)
+        self.variables |= {f"pid.{names[i]}": _gains(board, i) for i in here.tolist()}
 
     def keys(self) -> list[str]:
         """All keys, sorted."""

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import mujoco
 
 from robocomp_dsl.hardware.errors import FrameError
 from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.rotations import Matrix
-from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.hardware.scene import JOINTS, Scene
 
 
 @dataclass(slots=True)
@@ -28,6 +29,7 @@ class Branch:
     scene: Scene
     world: World
     devices: dict[str, Any]
+    _mirror: Mirror | None = field(default=None, repr=False)
 
     def copy(self, shared: Iterable[object] = ()) -> Branch:
         """Another world that would go on in the same way."""
@@ -41,12 +43,20 @@ class Branch:
 
     def matrix(self, frame: str) -> Matrix:
         """What takes points of `frame` to the root, shape (4, 4), mm. Raises `FrameError`."""
-        body = self.body(frame)
-        data = self.world.data
-        return axes.matrix(data.xpos[body], data.xmat[body])
+        mirrored = self._mirrored()
+        if mirrored is None or frame not in mirrored.tree or frame in mirrored.bodies:
+            return self._place(self.body(frame))
+        # a joint or a mark: its place in the body that holds it, which a mocap body may carry
+        holder = next(one for one in mirrored.tree.path(frame) if one in mirrored.bodies)
+        mirrored.follow(self.world.data.qpos)
+        seen: Matrix = self._place(self.body(holder)) @ mirrored.tree.matrix(frame, holder)
+        return seen
 
     def body(self, frame: str) -> int:
         """The body of a frame. Raises `FrameError`."""
+        mirrored = self._mirrored()
+        if mirrored is not None and frame in mirrored.bodies:
+            return mirrored.bodies.index(frame)
         name = body_name(frame)
         found = mujoco.mj_name2id(self.world.model, mujoco.mjtObj.mjOBJ_BODY, name)
         if found < 0:
@@ -55,12 +65,24 @@ class Branch:
 
     def joint(self, frame: str) -> float:
         """The value of a joint in rad or mm. Raises `FrameError`."""
-        motion = next((one.motion for one in self.scene.frames if one.id == frame), None)
-        if motion is None:
-            raise FrameError(f"there is no joint `{frame}`")
         model = self.world.model
-        value = float(self.world.data.qpos[model.joint(frame).qposadr[0]])
-        return value / axes.MM if motion.kind == "slide" else value
+        served = {one.id for one in self.scene.devices if one.kind in JOINTS}
+        known = served | {one.id for one in self.scene.frames if one.motion}
+        if frame not in known:
+            raise FrameError(f"there is no joint `{frame}`")
+        joint = model.joint(frame)
+        value = float(self.world.data.qpos[joint.qposadr[0]])
+        return value / axes.MM if joint.type[0] == mujoco.mjtJoint.mjJNT_SLIDE else value
+
+    def _mirrored(self) -> Mirror | None:
+        """The frames of a model file and of what was added to it."""
+        if self._mirror is None and self.scene.model is not None:
+            self._mirror = mirror(self.world.model)
+        return self._mirror
+
+    def _place(self, body: int) -> Matrix:
+        data = self.world.data
+        return axes.matrix(data.xpos[body], data.xmat[body])
 
     def set_physics(self, on: bool) -> None:
         """Gravity and contacts, or neither."""

@@ -47,6 +47,7 @@ class SimulatedBoard:
         self.board = Board(robot_board.spec)
         self.commands, self.settings = Commands(self.board), Settings(self.board)
         self._joints = tuple(prefix + name for name in robot_board.joints)
+        self._motors = self._joints
         self._hold_weight = hold_weight
         self._unheated = 0.0
         self._zero = np.zeros(n) if encoder_zero is None else encoder_zero
@@ -60,12 +61,18 @@ class SimulatedBoard:
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002 - shared
         """Find joints and motors; raises `SceneError` for one that is not there."""
-        self._data = data
-        self._where, self._speed, self._motor = (
-            np.array([self._find(model, name)[i] for name in self._joints]) for i in range(3)
-        )
-        self._damping = model.dof_damping[self._speed].copy()
+        self.find(model, data)
         self.board.begin(*self._measure())
+
+    def find(self, model: Any, data: Any) -> None:
+        """The same joints in another model."""
+        self._data = data
+        found = [
+            self._find(model, *names) for names in zip(self._joints, self._motors, strict=True)
+        ]
+        self._where, self._speed, self._motor = (np.array(one) for one in zip(*found, strict=True))
+        self._damping = model.dof_damping[self._speed].copy()
+        self._borne = bool(model.ngravcomp)
 
     def before_step(self, dt: float) -> None:
         """Measure, let the board work, and set the motors."""
@@ -85,11 +92,14 @@ class SimulatedBoard:
     def _weight(self) -> Floats:
         """Torques that hold the arm against gravity, its own swing and the drag of its joints."""
         wanted = self.board.references.velocity
+        bias = self._data.qfrc_bias[self._speed]
+        if self._borne:  # what weighs nothing needs nobody to hold it
+            bias = bias - self._data.qfrc_gravcomp[self._speed]
         if self._plain:
-            held: Floats = self._data.qfrc_bias[self._speed] + self._damping * wanted
+            held: Floats = bias + self._damping * wanted
             return held
         drag = self._damping * (self._from_board @ wanted)
-        weight: Floats = self._to_board @ (self._data.qfrc_bias[self._speed] + drag)
+        weight: Floats = self._to_board @ (bias + drag)
         return weight
 
     def after_step(self, dt: float) -> None:
@@ -104,9 +114,9 @@ class SimulatedBoard:
         self._unheated = 0.0
 
     @staticmethod
-    def _find(model: Any, name: str) -> tuple[int, int, int]:
+    def _find(model: Any, name: str, motor_name: str) -> tuple[int, int, int]:
         joint = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_JOINT, name)
-        motor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, name)
+        motor = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_ACTUATOR, motor_name)
         if joint < 0 or motor < 0:
             what = "joint" if joint < 0 else "motor"
             raise SceneError(f"the world has no {what} `{name}` for the control board")

@@ -15,9 +15,9 @@ from typing import Any
 import mujoco
 
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
+from robocomp_dsl.hardware.mujoco.memory import make_room
 from robocomp_dsl.hardware.mujoco.mjcf_spec import build_mjcf, located
 from robocomp_dsl.hardware.mujoco.overlaps import overlaps
-from robocomp_dsl.hardware.mujoco.scene_spec import make_room
 from robocomp_dsl.hardware.mujoco.urdf_spec import build_urdf
 from robocomp_dsl.hardware.urdf import read_urdf
 

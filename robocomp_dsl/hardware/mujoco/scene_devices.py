@@ -23,7 +23,7 @@ from robocomp_dsl.hardware.mujoco.imu import Imu
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
-from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard
+from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard, driven
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.touch_sensor import TouchSensor, TouchSettings
 from robocomp_dsl.hardware.mujoco.ultrasound import Ultrasound
@@ -154,10 +154,10 @@ def parts_of(
         for one in scene.devices
         if one.kind in SINGLE
     }
-    joints = [one for one in scene.frames if one.motion]
+    joints = driven(scene)
     if joints:
-        former = kept.get(joints[0].id)
-        same = former is not None and former.names == tuple(one.id for one in joints)
-        board = former if same else JointBoard(joints)
-        made |= dict.fromkeys((one.id for one in joints), board)
+        former = kept.get(joints[0].name)
+        same = former is not None and former.names == tuple(one.name for one in joints)
+        board = former if same else JointBoard(joints, hold_weight=scene.model is not None)
+        made |= dict.fromkeys((one.name for one in joints), board)
     return made

@@ -1,13 +1,16 @@
 """The joints of a scene on a control board: each gets a motor that is fit for it.
 
-In: the frames of a scene that move. Out: a part of the world; its joints hold their places from the
-start. What a description leaves open (force, speed) is chosen here; frames of a scene weigh nothing
-(MuJoCo compensates it), so that motors need not hold it.
+In: joints, of frames of the scene or of the model file that it begins with. Out: a part of the
+world; its joints hold their places from the start. What a description leaves open (force, speed) is
+chosen here. Frames of a scene weigh nothing (MuJoCo compensates it), so that motors need not hold
+them; what a model file weighs is held.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -20,24 +23,54 @@ from robocomp_dsl.hardware.control.parking import Parking
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
 from robocomp_dsl.hardware.robots.boards import GEAR, SUPPLY, RobotBoard
-from robocomp_dsl.hardware.scene import Frame, Motion
+from robocomp_dsl.hardware.scene import JOINTS, Device, Frame, Motion, Scene
 
-_FORCE = {"hinge": 50.0, "slide": 500.0}  # N·m, N
-_SPEED = {"hinge": math.tau, "slide": 1.0}  # rad/s, m/s
+FORCE = {"hinge": 50.0, "slide": 500.0}
+"""Largest torque [N·m] or force [N] where none is given."""
+
+SPEED = {"hinge": math.tau, "slide": 1.0}
+"""Largest speed [rad/s, m/s] where none is given."""
+
 _INERTIA = 0.005
 """Of a motor per unit of its force: slow against the regulator, which is set by the force, too."""
 
 
-class JointBoard(SimulatedBoard):
-    """The board of the frames `joints`; `homes` (n,) is where each rests [rad, m]."""
+@dataclass(frozen=True, slots=True)
+class Driven:
+    """A joint and its motor in rad, N·m, m, N; the motor has the inertia `armature`.
 
-    def __init__(self, joints: list[Frame]) -> None:
-        moved = [(one.id, one.motion) for one in joints if one.motion]
-        n = len(moved)
-        spec = BoardSpec(tuple(_joint(*one) for one in moved), tuple(_motor(*one) for one in moved))
-        names = tuple(name for name, _ in moved)
-        super().__init__(RobotBoard(spec, names, np.eye(n)), hold_weight=False)
-        self.homes = np.array([motion.home * _unit(motion) for _, motion in moved])
+    Joints of one `group` are served together.
+    """
+
+    name: str
+    kind: str
+    low: float
+    high: float
+    speed: float
+    force: float
+    home: float
+    armature: float
+    gear: float = 1.0
+    group: str = ""
+
+
+def driven(scene: Scene) -> list[Driven]:
+    """The joints of a scene that have motors."""
+    given = [_of_device(one) for one in scene.devices if one.kind in JOINTS and _is_given(one)]
+    return [*given, *(_of_frame(one, one.motion) for one in scene.frames if one.motion)]
+
+
+class JointBoard(SimulatedBoard):
+    """The board of `joints`; `homes` (n,) is where each rests [rad, m], `groups` by their names."""
+
+    def __init__(self, joints: Sequence[Driven], *, hold_weight: bool) -> None:
+        spec = BoardSpec(tuple(map(_joint, joints)), tuple(map(_motor, joints)))
+        names = tuple(one.name for one in joints)
+        robot_board = RobotBoard(spec, names, np.eye(len(joints)))
+        super().__init__(robot_board, hold_weight=hold_weight)
+        self._driven = tuple(joints)
+        self.groups = {one.name: one.group for one in joints}
+        self.homes = np.array([one.home for one in joints])
         homes = np.clip(self.homes, self.board.limits.low, self.board.limits.high)
         self.parking = Parking(self.board, homes)
         self.calibrator = Calibrator(
@@ -50,24 +83,23 @@ class JointBoard(SimulatedBoard):
         return self.board.spec.names
 
     def build(self, spec: Any) -> None:
-        """A motor of the joint's name for each."""
-        for joint in self.board.spec.joints:
-            made = spec.joint(joint.name)
-            made.armature = _INERTIA * joint.torque_limit
-            spec.add_actuator(name=joint.name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+        """A motor for each, in the place of those that a model file gives it."""
+        given: dict[str, list[Any]] = {}
+        for motor in spec.actuators:
+            if motor.trntype in _ON_JOINTS:
+                given.setdefault(motor.target, []).append(motor)
+        taken = {motor.name for motor in spec.actuators}
+        motors = []
+        for one in self._driven:
+            spec.joint(one.name).armature = one.armature
+            motors.append(_motor_of(spec, one.name, given.get(one.name, []), taken))
+        self._motors = tuple(motors)
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find joints and motors, and hold what is found."""
         super().bind(model, data, random)
         joints = np.arange(len(self.homes))
         self.board.set_modes(joints, [Mode.POSITION] * len(joints))
-
-    def find(self, model: Any, data: Any) -> None:
-        """The same joints in another model."""
-        self._data = data
-        self._where, self._speed, self._motor = (
-            np.array([self._find(model, name)[i] for name in self._joints]) for i in range(3)
-        )
 
     def relocated(self, frame: str) -> None:
         """A joint was moved by hand: it stays there."""
@@ -78,41 +110,74 @@ class JointBoard(SimulatedBoard):
         self.board.pid.reset(one)
 
 
-def _unit(motion: Motion) -> float:
-    return MM if motion.kind == "slide" else 1.0
+_ON_JOINTS = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 
 
-def _limits(motion: Motion) -> tuple[float, float]:
-    """Low and high in rad or m; none where they do not leave a way between them."""
-    if motion.low >= motion.high:
-        return -math.inf, math.inf
-    return motion.low * _unit(motion), motion.high * _unit(motion)
+def _motor_of(spec: Any, joint: str, given: list[Any], taken: set[str]) -> str:
+    """The name of the one motor of a joint, which takes a torque; others of it do nothing."""
+    for motor in given:
+        motor.set_to_motor()
+        motor.forcelimited = motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
+        motor.gear = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        motor.gainprm[0] = float(motor is given[0])
+    if given:
+        return str(given[0].name)
+    name = joint
+    while name in taken:
+        name += "'"
+    spec.add_actuator(name=name, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    return name
 
 
-def _speed_and_force(motion: Motion) -> tuple[float, float]:
-    speed = motion.velocity * _unit(motion)
-    return (
-        speed if 0 < speed < math.inf else _SPEED[motion.kind],
-        motion.force if 0 < motion.force < math.inf else _FORCE[motion.kind],
+def _is_given(device: Device) -> bool:
+    return "board" in device.settings
+
+
+def _of_device(device: Device) -> Driven:
+    """A joint of a model file: all is said in its settings, in MuJoCo's units."""
+    given = {name: float(value) for name, value in device.settings.items() if name != "board"}
+    return Driven(
+        device.id,
+        "hinge" if device.kind == "joint" else "slide",
+        given.get("low", -math.inf),
+        given.get("high", math.inf),
+        given["speed"],
+        given["force"],
+        given["home"],
+        given["armature"],
+        group=str(device.settings["board"]),
     )
 
 
-def _joint(name: str, motion: Motion) -> JointSpec:
-    low, high = _limits(motion)
-    return JointSpec(name, low, high, *_speed_and_force(motion), prismatic=motion.kind == "slide")
+def _of_frame(frame: Frame, motion: Motion) -> Driven:
+    unit = MM if motion.kind == "slide" else 1.0
+    low, high = -math.inf, math.inf
+    if motion.low < motion.high:  # else they do not leave a way between them
+        low, high = motion.low * unit, motion.high * unit
+    speed, force = motion.velocity * unit, motion.force
+    if not 0 < speed < math.inf:
+        speed = SPEED[motion.kind]
+    if not 0 < force < math.inf:
+        force = FORCE[motion.kind]
+    home, gear = motion.home * unit, motion.gear if motion.gear > 0 else 1.0
+    return Driven(frame.id, motion.kind, low, high, speed, force, home, _INERTIA * force, gear)
 
 
-def _motor(name: str, motion: Motion) -> MotorSpec:
+def _joint(one: Driven) -> JointSpec:
+    slides = one.kind == "slide"
+    return JointSpec(one.name, one.low, one.high, one.speed, one.force, prismatic=slides)
+
+
+def _motor(one: Driven) -> MotorSpec:
     """It turns the joint twice as fast as it may and stalls at three times the largest torque.
 
     A fault comes at six times the current of that torque.
     """
-    speed, force = _speed_and_force(motion)
-    per_amp = SUPPLY / (2.0 * speed)  # joint torque per ampere: what back EMF allows
-    current = force / per_amp
-    gear = motion.gear * GEAR if motion.gear > 0 else GEAR
+    per_amp = SUPPLY / (2.0 * one.speed)  # joint torque per ampere: what back EMF allows
+    current = one.force / per_amp
+    gear = one.gear * GEAR
     return MotorSpec(
-        name,
+        one.name,
         gear=gear,
         torque_constant=per_amp / gear,
         resistance=SUPPLY / (3.0 * current),

@@ -16,13 +16,13 @@ import numpy as np
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
+from robocomp_dsl.hardware.mujoco.memory import make_room
+from robocomp_dsl.hardware.mujoco.model_start import begin
 from robocomp_dsl.hardware.mujoco.scene_shapes import add_box, add_mesh
 from robocomp_dsl.hardware.rotations import rotation
-from robocomp_dsl.hardware.scene import ROOT, Frame, Motion, Scene, Triple
+from robocomp_dsl.hardware.scene import ROOT, Frame, Model, Motion, Scene, Triple
 
 _LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
-_MANY = 1000
-_USUAL_ROOM = 2**24
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -33,16 +33,13 @@ def body_name(frame: str) -> str:
 
 def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     """The model of `scene`, and notes on what is not as described. Raises `SceneError`."""
-    spec = mujoco.MjSpec()
-    spec.compiler.degree = False
-    spec.compiler.boundmass = _LIGHTEST
-    spec.compiler.boundinertia = _LIGHTEST * 1e-3
-    notes: list[str] = []
-    bodies = {ROOT: spec.worldbody}
+    spec, notes = _begun(scene.model)
+    bodies = {body.name: body for body in spec.bodies} | {ROOT: spec.worldbody}
+    degrees = math.degrees(1.0) if spec.compiler.degree else 1.0
     try:
         for frame in scene.frames:
-            if frame.id != ROOT:
-                bodies[frame.id] = _add_frame(bodies, frame, notes)
+            if frame.id != ROOT and not frame.given:
+                bodies[frame.id] = _add_frame(bodies, frame, degrees, notes)
         for box in scene.boxes:
             add_box(spec, bodies[box.frame], box, notes)
         for mesh in scene.meshes:
@@ -53,14 +50,27 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     return spec, notes
 
 
-def make_room(spec: Any) -> None:
-    """Give many bodies the memory they need: collision detection lists all pairs of them."""
-    count = len(spec.bodies)
-    if spec.memory < 0 and count > _MANY:
-        spec.memory = _USUAL_ROOM + 3 * count * count
+def _begun(model: Model | None) -> tuple[Any, list[str]]:
+    """The specification that the scene is added to: what its file holds, or nothing."""
+    if model is None:
+        spec, notes = mujoco.MjSpec(), list[str]()
+        spec.compiler.degree = False
+        lightest = _LIGHTEST
+    else:
+        try:
+            started = begin(model.file)
+        except OSError as error:
+            said = f"`{model.file}` cannot be read: {error.strerror or error}"
+            raise SceneError(said) from None
+        spec, notes = started.spec, [str(one) for one in started.findings]
+        lightest = max(model.boundmass, spec.compiler.boundmass)
+    spec.compiler.boundmass = lightest
+    spec.compiler.boundinertia = max(lightest * 1e-3, spec.compiler.boundinertia)
+    return spec, notes
 
 
-def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
+def _add_frame(bodies: dict[str, Any], frame: Frame, degrees: float, notes: list[str]) -> Any:
+    """The body of a frame; ranges of hinges are told in rad, `degrees` times."""
     if frame.parent not in bodies:
         raise SceneError(f"`{frame.id}` stands in `{frame.parent}`, which is no frame before it")
     body = bodies[frame.parent].add_body(
@@ -82,20 +92,20 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, notes: list[str]) -> Any:
     if frame.physics:
         notes.append(f"`{frame.id}` stands in another frame and is moved by that, not by physics")
     if frame.motion:
-        _add_joint(body, frame, frame.motion)
+        _add_joint(body, frame, frame.motion, degrees)
     elif frame.drives:
         _add_wheels(body, frame)
     return body
 
 
-def _add_joint(body: Any, frame: Frame, motion: Motion) -> None:
+def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:
     hinge = motion.kind == "hinge"
     at = "xyz".index(motion.axis)
     if hinge:
         # Rx·Ry·Rz: the turns behind the joint's own stand between it and the body
         behind = [turn if i > at else 0.0 for i, turn in enumerate(frame.turn)]
         axis = axes.turn_axis(rotation(*behind).T @ _UNIT[motion.axis])
-        now, unit = frame.turn[at], 1.0
+        now, unit = frame.turn[at], degrees
     else:
         axis = axes.direction(_UNIT[motion.axis])
         now, unit = frame.place[at] - motion.offset, MM

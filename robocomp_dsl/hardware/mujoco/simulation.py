@@ -70,7 +70,7 @@ class Simulation:
     @classmethod
     def read(cls, path: Path, options: Options = Options()) -> Simulation:
         """The scene in a JSON file that `rcgen simulator` wrote. Raises `SceneError`."""
-        return cls(Scene.of_data(read_data(path)["scene"]), options)
+        return cls(Scene.of_data(read_data(path)["scene"], path.parent), options)
 
     # -- while it is the caller's turn --------------------------------------------------------
 
@@ -137,7 +137,9 @@ class Simulation:
             spec.option.timestep = self.options.step
             parts = parts_of(scene, self.noise, kept)
             unique = dict.fromkeys(parts.values())
-            world = World(spec, unique, seed=self.seed, before=before, forget=forget)
+            world = World(
+                spec, unique, seed=self.seed, before=before, forget=forget, start=scene.model
+            )
         except ValueError as error:  # what MuJoCo says of a body that it does not take
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         return Branch(scene, world, parts)

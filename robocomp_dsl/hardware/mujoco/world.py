@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.errors import Diverged, SceneError
+from robocomp_dsl.hardware.scene import Model
 
 _BAD = (
     mujoco.mjtWarning.mjWARN_BADQPOS,
@@ -41,8 +42,9 @@ class Part(Protocol):
 class World:
     """Bodies under physics. Not thread-safe: one thread, or one lock, drives it.
 
-    A world that comes after another one (`before`) goes on with its time and with the state of all
-    joints of the same name but those in `forget`; parts of both are told by `find` where they are.
+    It begins as `start` says. A world that comes after another one (`before`) goes on with its time
+    and with the state of all joints of the same name but those in `forget`; parts of both are told
+    by `find` where they are.
     """
 
     def __init__(
@@ -53,6 +55,7 @@ class World:
         seed: int = 0,
         before: World | None = None,
         forget: Collection[str] = (),
+        start: Model | None = None,
     ) -> None:
         self._parts = tuple(parts)
         for part in self._parts:
@@ -64,6 +67,8 @@ class World:
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self.data = mujoco.MjData(self.model)
         self._owed = 0.0
+        if start is not None:
+            self._begin(start)
         kept: tuple[Any, ...] = ()
         if before is not None:
             kept = before._parts
@@ -115,6 +120,13 @@ class World:
             for part in self._parts:
                 part.after_step(dt)
 
+    def _begin(self, start: Model) -> None:
+        """Joints and motors as the first key frame of a model file has them."""
+        for joint, places in start.start.items():
+            self.data.joint(joint).qpos[:] = places
+        for motor, command in start.held.items():
+            self.data.actuator(motor).ctrl = command
+
     def _take_over(self, before: World, forget: Collection[str]) -> None:
         """Positions, speeds and forces of joints that are in both worlds."""
         self.data.time, self._owed = before.data.time, before._owed
@@ -130,6 +142,11 @@ class World:
             this_joint.qpos[:] = before_joint.qpos
             this_joint.qvel[:] = before_joint.qvel
             this_joint.qacc_warmstart[:] = before_joint.qacc_warmstart
+        for body in np.flatnonzero(old.body_mocapid >= 0):
+            at = mujoco.mj_name2id(new, mujoco.mjtObj.mjOBJ_BODY, old.body(body).name)
+            there, here = old.body_mocapid[body], new.body_mocapid[at]
+            self.data.mocap_pos[here] = before.data.mocap_pos[there]
+            self.data.mocap_quat[here] = before.data.mocap_quat[there]
 
     def _check(self) -> None:
         for kind in _BAD:

@@ -1,4 +1,7 @@
-"""`ControlBoard` over a control board: the board's own words, arrays as they are."""
+"""`ControlBoard` over a control board: the board's own words, arrays as they are.
+
+A port stands for all joints of a board, or for a group of them.
+"""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -14,7 +17,7 @@ from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.targets import targets
 from robocomp_dsl.hardware.errors import HardwareError
-from robocomp_dsl.hardware.servants.control_board_settings import BoardSettings, Names, some
+from robocomp_dsl.hardware.servants.control_board_settings import BoardSettings, Names
 
 _MODES, _INTERACTIONS = tuple(Mode), tuple(Interaction)  # in the order of the interface
 
@@ -36,7 +39,7 @@ class _Told:
 
 
 class ControlBoardServant(BoardSettings):
-    """All joints of the port are on one board; an empty list of names means all."""
+    """All joints of the port are on one board; an empty list of names means all of the port."""
 
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
         (UnknownJoint, "UnknownJoint"),
@@ -50,7 +53,7 @@ class ControlBoardServant(BoardSettings):
 
     def getJoints(self) -> list[Any]:
         """What joints there are."""
-        board = self._board
+        board, here = self._board, self._listed
         return [
             self.types.JointInfo(
                 name=joint.name,
@@ -63,33 +66,36 @@ class ControlBoardServant(BoardSettings):
                 maxCurrent=float(board.motors.max_current[i]),
                 gear=float(board.motors.gear[i]),
                 counts=float(board.motors.counts[i]),
-                coupledSet=int(board.table.whole(np.array([i]))[0]),
+                coupledSet=here.index(int(board.table.whole(np.array([i]))[0])),
             )
-            for i, joint in enumerate(board.spec.joints)
+            for i in here
+            for joint in [board.spec.joints[i]]
         ]
 
     def getState(self) -> Any:
         """Everything that was measured last."""
-        it = self._board.state()
+        it, here, listed = self._board.state(), self._joints, self._listed
         return self.types.BoardState(
             time=it.time,
-            position=it.position,
-            velocity=it.velocity,
-            acceleration=it.acceleration,
-            torque=it.torque,
-            reference=it.reference,
-            motorCounts=it.motor_counts,
-            motorSpeed=it.motor_speed,
-            current=it.current,
-            duty=it.duty,
-            temperature=it.temperature,
-            modes=self._modes.told(self.types.ControlMode, it.modes),
-            interactions=self._interactions.told(self.types.InteractionMode, it.interactions),
+            position=it.position[here],
+            velocity=it.velocity[here],
+            acceleration=it.acceleration[here],
+            torque=it.torque[here],
+            reference=it.reference[here],
+            motorCounts=it.motor_counts[here],
+            motorSpeed=it.motor_speed[here],
+            current=it.current[here],
+            duty=it.duty[here],
+            temperature=it.temperature[here],
+            modes=self._modes.told(self.types.ControlMode, [it.modes[i] for i in listed]),
+            interactions=self._interactions.told(
+                self.types.InteractionMode, [it.interactions[i] for i in listed]
+            ),
         )
 
     def getTargets(self, joints: Names) -> Any:
         """The references as they were accepted."""
-        it = targets(self._board, some(joints))
+        it = targets(self._board, self._some(joints))
         return self.types.Targets(
             position=it.position,
             velocity=it.velocity,
@@ -100,57 +106,57 @@ class ControlBoardServant(BoardSettings):
 
     def setControlModes(self, joints: Names, modes: Sequence[int]) -> None:
         """Ask for a control mode of its own for each joint."""
-        self._commands.set_mode(some(joints), [_MODES[mode] for mode in modes])
+        self._commands.set_mode(self._some(joints), [_MODES[mode] for mode in modes])
 
     def setControlMode(self, joints: Names, mode: int) -> None:
         """Ask for one control mode."""
-        self._commands.set_mode(some(joints), _MODES[mode])
+        self._commands.set_mode(self._some(joints), _MODES[mode])
 
     def setInteractionMode(self, joints: Names, mode: int) -> None:
         """Stiff or compliant."""
-        self._commands.set_interaction(some(joints), _INTERACTIONS[mode])
+        self._commands.set_interaction(self._some(joints), _INTERACTIONS[mode])
 
     # -- motion -------------------------------------------------------------------------------
 
     def positionMove(self, joints: Names, position: Floats) -> Bools:
         """Minimum jerk to these positions."""
-        return self._commands.position_move(some(joints), position)
+        return self._commands.position_move(self._some(joints), position)
 
     def relativeMove(self, joints: Names, way: Floats) -> Bools:
         """Minimum jerk by these ways."""
-        return self._commands.relative_move(some(joints), way)
+        return self._commands.relative_move(self._some(joints), way)
 
     def motionDone(self, joints: Names) -> Bools:
         """Whether the motions have ended."""
-        return self._commands.motion_done(some(joints))
+        return self._commands.motion_done(self._some(joints))
 
     def stopMotion(self, joints: Names) -> None:
         """End motions."""
-        self._commands.stop(some(joints))
+        self._commands.stop(self._some(joints))
 
     def setPosition(self, joints: Names, position: Floats) -> Bools:
         """Follow these positions at once."""
-        return self._commands.set_position(some(joints), position)
+        return self._commands.set_position(self._some(joints), position)
 
     def velocityMove(self, joints: Names, velocity: Floats, hold: float) -> Bools:
         """Turn at these speeds for `hold` s; 0: for ever."""
-        return self._commands.velocity_move(some(joints), velocity, hold or np.inf)
+        return self._commands.velocity_move(self._some(joints), velocity, hold or np.inf)
 
     def setVelocity(self, joints: Names, velocity: Floats) -> Bools:
         """Turn at these speeds at once."""
-        return self._commands.set_velocity(some(joints), velocity)
+        return self._commands.set_velocity(self._some(joints), velocity)
 
     def setTorque(self, joints: Names, torque: Floats) -> Bools:
         """Reference torques."""
-        return self._commands.set_torque(some(joints), torque)
+        return self._commands.set_torque(self._some(joints), torque)
 
     def setDuty(self, motors: Names, duty: Floats) -> Bools:
         """Duty cycles."""
-        return self._commands.set_duty(some(motors), duty)
+        return self._commands.set_duty(self._some(motors), duty)
 
     def setCurrent(self, motors: Names, current: Floats) -> Bools:
         """Currents."""
-        return self._commands.set_current(some(motors), current)
+        return self._commands.set_current(self._some(motors), current)
 
     # -- calibration and parking --------------------------------------------------------------
 
@@ -168,13 +174,13 @@ class ControlBoardServant(BoardSettings):
 
     def isBusy(self) -> bool:
         """Whether joints are being calibrated or parked."""
-        device = self.board_device()
-        return bool(device.calibrator.busy or device.parking.busy)
+        device, here = self.board_device(), self._joints
+        return bool(device.calibrator.leads(here) or device.parking.leads(here))
 
     def quit(self) -> None:
         """Stop calibrating and parking."""
-        self.board_device().calibrator.quit()
-        self.board_device().parking.quit()
+        self.board_device().calibrator.quit(self._joints)
+        self.board_device().parking.quit(self._joints)
 
     def _begin(self, lead: Callable[[Any], None], joints: Names) -> None:
-        lead(self._board.select.indices(some(joints)))
+        lead(self._some(joints))

@@ -1,4 +1,7 @@
-"""The settings of a control board as operations of `ControlBoard`: they move nothing."""
+"""The settings of a control board as operations of `ControlBoard`: they move nothing.
+
+All joints of a world are on one board, which steps them together; a port has those of its group.
+"""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -7,9 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
-from robocomp_dsl.hardware.control.joints import Floats
+from robocomp_dsl.hardware.control.errors import UnknownJoint
+from robocomp_dsl.hardware.control.joints import Floats, Ints
 from robocomp_dsl.hardware.control.pid import Gains
 from robocomp_dsl.hardware.control.settings import Settings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
@@ -21,10 +27,51 @@ Names = Sequence[str]
 class BoardSettings(Servant):
     """The part of a `ControlBoard` servant that reads and writes settings."""
 
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self._known: object = None
+        self._here = np.empty(0, dtype=np.int64)
+
     @property
     def _board(self) -> Board:
         found: Board = self.board_device().board
         return found
+
+    @property
+    def _joints(self) -> Ints:
+        """The joints of this port on the board, in order."""
+        device = self.board_device()
+        if device is not self._known:
+            mine = device.groups.get(self.ids[0], "")
+            names = device.board.spec.names
+            chosen = [i for i, name in enumerate(names) if device.groups.get(name, "") == mine]
+            self._here = np.array(chosen, dtype=np.int64)
+            self._known = device
+        return self._here
+
+    @property
+    def _listed(self) -> list[int]:
+        found: list[int] = self._joints.tolist()
+        return found
+
+    def _some(self, names: Names) -> Ints:
+        """The named joints, all of the port for none. Raises `UnknownJoint`."""
+        here = self._joints
+        if not len(names):
+            return here
+        chosen = self._board.select.indices(names)
+        beyond = np.flatnonzero(~np.isin(chosen, here))
+        if len(beyond):
+            listed = ", ".join(self._board.spec.names[i] for i in here.tolist())
+            raise UnknownJoint(f"`{names[beyond[0]]}` is not on `{self.port}`: {listed}")
+        return chosen
+
+    def _one(self, name: str) -> int:
+        return int(self._some([name])[0])
+
+    @property
+    def _variables(self) -> RemoteVariables:
+        return RemoteVariables(self._board, self._joints)
 
     @property
     def _commands(self) -> Commands:
@@ -36,29 +83,29 @@ class BoardSettings(Servant):
 
     def setReferenceSpeed(self, joints: Names, speed: Floats) -> None:
         """Mean speeds of the next position moves."""
-        self._settings.set_reference_speed(some(joints), speed)
+        self._settings.set_reference_speed(self._some(joints), speed)
 
     def setAcceleration(self, joints: Names, acceleration: Floats) -> None:
         """How fast velocities may change."""
-        self._settings.set_acceleration(some(joints), acceleration)
+        self._settings.set_acceleration(self._some(joints), acceleration)
 
     def getReferenceSpeed(self, joints: Names) -> Floats:
         """Mean speeds of position moves."""
-        return self._settings.reference_speed(some(joints))
+        return self._settings.reference_speed(self._some(joints))
 
     def getAcceleration(self, joints: Names) -> Floats:
         """How fast velocities may change."""
-        return self._settings.acceleration(some(joints))
+        return self._settings.acceleration(self._some(joints))
 
     def setImpedance(self, joint: str, impedance: Any) -> None:
         """Spring, damper and offset."""
-        self._settings.set_impedance([joint], impedance.stiffness, impedance.damping)
-        self._settings.set_impedance_offset([joint], impedance.offset)
+        self._settings.set_impedance(self._some([joint]), impedance.stiffness, impedance.damping)
+        self._settings.set_impedance_offset(self._some([joint]), impedance.offset)
 
     def getImpedance(self, joint: str) -> Any:
         """Spring, damper and offset."""
         board = self._board
-        at = board.select.index(joint)
+        at = self._one(joint)
         return self.types.Impedance(
             stiffness=float(board.impedance.stiffness[at]),
             damping=float(board.impedance.damping[at]),
@@ -68,11 +115,11 @@ class BoardSettings(Servant):
     def setPid(self, joint: str, pid: Any) -> None:
         """The position regulator."""
         gains = Gains(pid.kp, pid.ki, pid.kd, pid.offset, pid.maxOutput, pid.maxIntegral)
-        self._settings.set_pid(joint, gains)
+        self._settings.set_pid(self._one(joint), gains)
 
     def getPid(self, joint: str) -> Any:
         """The position regulator."""
-        it = self._settings.pid(joint)
+        it = self._settings.pid(self._one(joint))
         return self.types.Pid(
             kp=it.kp,
             ki=it.ki,
@@ -84,50 +131,45 @@ class BoardSettings(Servant):
 
     def enablePid(self, joints: Names, on: bool) -> None:
         """Switch position regulators on or off."""
-        self._settings.enable_pid(some(joints), on)
+        self._settings.enable_pid(self._some(joints), on)
 
     def resetPid(self, joints: Names) -> None:
         """Forget what the regulators have summed up."""
-        self._settings.reset_pid(some(joints))
+        self._settings.reset_pid(self._some(joints))
 
     def setSpeedLimits(self, joints: Names, speed: Floats) -> None:
         """Largest speeds."""
-        self._settings.set_speed_limits(some(joints), speed)
+        self._settings.set_speed_limits(self._some(joints), speed)
 
     def setMaxCurrent(self, motors: Names, current: Floats) -> None:
         """The currents at which motors fault."""
-        self._settings.set_max_current(some(motors), current)
+        self._settings.set_max_current(self._some(motors), current)
 
     def setMotorEncoder(self, motor: str, counts: float) -> None:
         """Let the motor's counter stand at this count."""
-        self._settings.set_motor_encoder([motor], counts)
+        self._settings.set_motor_encoder(self._some([motor]), counts)
 
     def setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Narrow the range of a joint."""
-        self._settings.set_position_limits([joint], low, high)
+        self._settings.set_position_limits(self._some([joint]), low, high)
 
     def setEncoder(self, joint: str, position: float) -> None:
         """Let the encoder stand at this position."""
-        self._settings.set_encoder([joint], position)
+        self._settings.set_encoder(self._some([joint]), position)
 
     def getLastFault(self, joint: str) -> Any:
         """The last fault of a joint."""
-        report = self._settings.last_fault(joint)
+        report = self._settings.last_fault(self._one(joint))
         return self.types.JointFault(code=int(report.code), what=report.message)
 
     def getVariables(self) -> list[str]:
         """The keys of the settings by name."""
-        return RemoteVariables(self._board).keys()
+        return self._variables.keys()
 
     def getVariable(self, key: str) -> Floats:
         """A setting."""
-        return RemoteVariables(self._board).get(key)
+        return self._variables.get(key)
 
     def setVariable(self, key: str, values: Floats) -> None:
         """Change a setting."""
-        RemoteVariables(self._board).set(key, values)
-
-
-def some(names: Names) -> Names | None:
-    """The names, or None for all."""
-    return names if len(names) else None
+        self._variables.set(key, values)

@@ -1,0 +1,15 @@
+"""Memory for models of many bodies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+_MANY = 1000
+_USUAL = 2**24
+
+
+def make_room(spec: Any) -> None:
+    """Give many bodies the memory they need: collision detection lists all pairs of them."""
+    count = len(spec.bodies)
+    if spec.memory < 0 and count > _MANY:
+        spec.memory = _USUAL + 3 * count * count
