@@ -1,0 +1,149 @@
+"""The robot's body and the finger, in any pose: the world file that the simulator also has.
+
+In: the world file, the skin, the arm's description. Out: where limbs are and where on them the
+finger meets skin. Nothing here moves by itself: poses are set from what was measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+from recording import Floats, Place, Skin
+
+from robocomp_dsl.hardware.mujoco.model_file import compiled, read_spec
+from robocomp_dsl.hardware.view.picture import lit
+from robocomp_dsl.tactile.description.model import Part
+
+FINGER = ("finger_x", "finger_y", "finger_z")
+CAMERA = "onlooker"
+_DOT = 0.0032
+_BODY, _FLOOR, _FINGERTIP = (0.86, 0.89, 0.93, 1), (0, 0, 0, 0), (0.0, 0.62, 0.45, 1)
+_CLEAR = 0.055
+"""m from the limb's axis: outside the limb, and nearer than anything else of the robot."""
+
+
+class Body:
+    """`data` is in the pose that was set last. Taxel i of the skin is the site `taxel<i>`."""
+
+    def __init__(self, world: Path, skin: Skin, part: Part) -> None:
+        spec, findings = read_spec(world)
+        lit(spec)
+        for i in range(len(skin.limb)):
+            where = skin.placed(skin.limbs[skin.limb[i]], skin.points[i])
+            spec.body(skin.bodies[skin.limb[i]]).add_site(
+                name=f"taxel{i}", pos=where, size=[_DOT, 0, 0], rgba=[0.5, 0.5, 0.5, 1]
+            )
+        spec.worldbody.add_camera(name=CAMERA)
+        self.skin, self.part = skin, part
+        self.model: Any = compiled(spec, findings)
+        self.data: Any = mujoco.MjData(self.model)
+        self.sites = np.array([self.model.site(f"taxel{i}").id for i in range(len(skin.limb))])
+        mapping = part.mapping
+        self._mapping, self._to_si = mapping, mapping.to_si[mapping.present]
+        self._joints = [name.rpartition("/")[2] for name in part.joints]
+        self._finger_body = int(self.model.joint(FINGER[0]).bodyid[0])
+        self._finger_bodies = {int(self.model.joint(name).bodyid[0]) for name in FINGER}
+        mujoco.mj_forward(self.model, self.data)
+        self._find_finger()
+        self._paint()
+
+    def pose(
+        self,
+        joints: Mapping[str, float] | None = None,
+        arm: Floats | None = None,
+        finger: Floats | None = None,
+    ) -> None:
+        """Set joints by name, generic angles (5,) and the finger's joints (3,)."""
+        angles = dict(joints or {})
+        if arm is not None:
+            device = (arm - self._mapping.sigma) / self._mapping.gamma
+            values = device[self._mapping.present] * self._to_si
+            angles |= dict(zip(self._joints, values.tolist(), strict=True))
+        if finger is not None:
+            angles |= dict(zip(FINGER, finger.tolist(), strict=True))
+        for name, value in angles.items():
+            self.data.joint(name).qpos[0] = value
+        mujoco.mj_forward(self.model, self.data)
+
+    def centre(self, place: Place) -> Floats:
+        """Where the centre of a field is in the world, (3,)."""
+        body = self.data.body(self.skin.bodies[self.skin.limbs.index(place.limb)])
+        on_body = self.skin.placed(place.limb, place.centre)
+        found: Floats = body.xmat.reshape(3, 3) @ on_body + body.xpos
+        return found
+
+    def outward(self, place: Place) -> Floats:
+        """The unit vector from the limb's axis through a field's centre, in the world, (3,)."""
+        i = self.skin.limbs.index(place.limb)
+        out = np.array([0.0, *place.centre[1:]])
+        turned: Floats = (
+            self.data.body(self.skin.bodies[i]).xmat.reshape(3, 3) @ self.skin.axes[i] @ out
+        )
+        return turned / np.linalg.norm(turned)
+
+    def touching(self, place: Place) -> Floats:
+        """Where the finger's centre is when it just touches the limb at the field's centre."""
+        out = self.outward(place)
+        axis = self.centre(place) - out * np.linalg.norm(place.centre[1:])
+        start, geom = axis + _CLEAR * out, np.zeros(1, np.int32)
+        finger = self._finger_body
+        way = mujoco.mj_ray(self.model, self.data, start, -out, None, 1, finger, geom)
+        touched: Floats = start - (way - self.finger_radius) * out
+        return touched
+
+    def clearance(self, point: Floats) -> float:
+        """How far the finger at `point` (3,) would be from everything else; at most 0.2 m."""
+        at = self.data.geom_xpos[self.finger_geom]
+        kept = at.copy()
+        at[:] = point
+        fromto = np.zeros(6)
+        nearest = min(
+            mujoco.mj_geomDistance(self.model, self.data, self.finger_geom, other, 0.2, fromto)
+            for other in self._solid
+        )
+        at[:] = kept
+        return float(nearest)
+
+    @property
+    def finger_point(self) -> Floats:
+        """Where the finger's centre is, (3,)."""
+        point: Floats = self.data.geom_xpos[self.finger_geom].copy()
+        return point
+
+    def finger_joints(self, point: Floats) -> Floats:
+        """The finger's joints (3,) that bring its centre to `point` (3,)."""
+        joints: Floats = np.linalg.solve(self._finger_axes, point - self._finger_zero)
+        return joints
+
+    def _paint(self) -> None:
+        """Bodies are bright, so that the skin on them is seen; a floor is none of them."""
+        planes = self.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
+        self.model.geom_matid[:] = -1
+        self.model.geom_rgba[:] = np.where(planes[:, None], _FLOOR, _BODY)
+        self.model.geom_rgba[self.finger_geom] = _FINGERTIP
+        light = self.model.vis.headlight
+        light.ambient, light.diffuse, light.specular = [0.5] * 3, [0.5] * 3, [0.05] * 3
+
+    def _find_finger(self) -> None:
+        """Its geom, and how its joints move it; they are slides, whatever their directions."""
+        geoms = [
+            geom
+            for geom in range(self.model.ngeom)
+            if int(self.model.geom_bodyid[geom]) in self._finger_bodies
+        ]
+        self.finger_geom = geoms[-1]
+        self._finger_body = int(self.model.geom_bodyid[self.finger_geom])
+        self.finger_radius = float(self.model.geom_size[self.finger_geom, 0])
+        ids = [int(self.model.joint(name).id) for name in FINGER]
+        now = np.array([self.data.joint(name).qpos[0] for name in FINGER])
+        self._finger_axes = self.data.xaxis[ids].T.copy()
+        self._finger_zero = self.data.geom_xpos[self.finger_geom] - self._finger_axes @ now
+        self._solid = [
+            geom
+            for geom in range(self.model.ngeom)
+            if self.model.geom_contype[geom] and geom not in geoms
+        ]

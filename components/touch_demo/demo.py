@@ -1,0 +1,191 @@
+"""The demo: a finger touches the left arm of NAO, then of the iCub; one reflex withdraws both.
+
+`python demo.py [--robot nao] [--touches 5] [--picture demo.png] [--live]`. Exit code 0 when every
+touched arm has withdrawn and all components ran to the end. What was recorded is kept in
+`build/touch_demo/`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from body import Body
+from deployed import deployed
+from failure import DemoFailed
+from live import Live
+from outcome import Outcome, outcomes, table, words
+from photograph import before_and_after, best_seen
+from poster import PHOTO_PIXELS, Column, draw
+from pressing import park, press
+from recording import Press, Recording, save
+from watching import Watching
+from way import NoWay
+
+from robocomp_dsl.hardware.view.screenless import NoRendering
+from robocomp_dsl.tactile.description.read import load_robot
+
+HERE = Path(__file__).parent
+KEPT = HERE.parents[1] / "build" / "touch_demo"
+PART = "left_arm"
+TITLE = "A finger touches, the arm withdraws: one reflex, two robots"
+LIVE_FRAMES = 500
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A robot that can be touched: its name, deployment, world and description of touch."""
+
+    name: str
+    ddsl: Path
+    world: Path
+    tactile: Path
+
+    @property
+    def kept(self) -> Path:
+        """What its recording and its log are called, but for the ending."""
+        return KEPT / self.ddsl.stem
+
+
+SUBJECTS = {
+    key: Subject(
+        name,
+        HERE / f"{key}.ddsl",
+        HERE.parent / f"{key}_simulator" / f"{key}.xml",
+        HERE.parent / f"{key}_simulator" / f"{key}.yaml",
+    )
+    for key, name in (("nao", "NAO"), ("icub", "iCub"))
+}
+
+
+def main() -> int:
+    """Run it."""
+    given = _arguments()
+    subjects = [SUBJECTS[given.robot]] if given.robot else list(SUBJECTS.values())
+    try:
+        if given.live:
+            watch_live(subjects[0], given.port)
+            return 0
+        began = time.monotonic()
+        recordings = [touched(one, given.touches) for one in subjects]
+        troubles = report(subjects, recordings, given.picture)
+        print(f"{time.monotonic() - began:.0f} s in all")
+    except (DemoFailed, NoWay) as error:
+        print(f"demo: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    for one in troubles:
+        print(f"demo: {one}", file=sys.stderr)
+    return 1 if troubles else 0
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        description="A finger touches an arm with a skin, and the arm withdraws: on two robots."
+    )
+    parser.add_argument("--robot", choices=SUBJECTS, help="this one alone")
+    parser.add_argument("--touches", type=int, default=5, help="places to touch on each (5)")
+    parser.add_argument("--picture", type=Path, default=Path("demo.png"), help="(demo.png)")
+    parser.add_argument(
+        "--live", action="store_true", help="one robot in the browser, touched until Ctrl-C"
+    )
+    parser.add_argument("--port", type=int, default=0, help="of the page; 0: any that is free")
+    return parser.parse_args()
+
+
+def touched(subject: Subject, touches: int) -> Recording:
+    """One robot touched at so many places, from the start of its deployment to its end."""
+    print(f"{subject.name}: starting simulator, arm and reflex ...", flush=True)
+    with (
+        deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
+        Watching(_name(subject), PART, alive, None) as stage,
+    ):
+        rest, places = stage.joints(), stage.places()
+        body = Body(subject.world, stage.skin, load_robot(subject.tactile).part(PART))
+        body.pose(rest)
+        home, presses = body.finger_point, list[Press]()
+        for place in places[:touches]:
+            print(f"{subject.name}: touching the {words(place.name)}", flush=True)
+            presses.append(press(stage, body, place))
+        park(stage, body, home)
+        made = stage.heard.recording(subject.name, presses, places=places, rest=rest)
+    save(made, subject.kept.with_suffix(".npz"))
+    return made
+
+
+def watch_live(subject: Subject, port: int) -> None:
+    """One robot in the browser, touched again and again until Ctrl-C."""
+    with (
+        deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
+        Watching(_name(subject), PART, alive, LIVE_FRAMES) as stage,
+    ):
+        rest, places = stage.joints(), stage.places()
+        part = load_robot(subject.tactile).part(PART)
+        body = Body(subject.world, stage.skin, part)
+        body.pose(rest)
+        with Live(Body(subject.world, stage.skin, part), stage.heard, rest, port) as live:
+            print(f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it")
+            while True:
+                for place in places:
+                    press(stage, body, place)
+
+
+def _name(subject: Subject) -> str:
+    return f"touch-{subject.ddsl.stem}-{os.getpid()}"
+
+
+def report(
+    subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
+) -> list[str]:
+    """Print the table, draw the picture; returns what went wrong."""
+    highest = max(float(one.force.max()) for one in recordings)
+    columns = [
+        _column(subject, recording, highest)
+        for subject, recording in zip(subjects, recordings, strict=True)
+    ]
+    rows = [row for column in columns for row in column.outcomes]
+    print()
+    for line in table(rows):
+        print(line)
+    print()
+    for why in dict.fromkeys(one.why_not for one in columns if one.why_not):
+        print(f"no photographs in the picture: {why}")
+    draw(columns, TITLE, facts(rows), highest, picture)
+    print(f"picture: {picture.resolve()}")
+    return [row.trouble for row in rows if row.trouble]
+
+
+def _column(subject: Subject, recording: Recording, highest: float) -> Column:
+    part = load_robot(subject.tactile).part(PART)
+    body = Body(subject.world, recording.skin, part)
+    found = outcomes(recording, body)
+    shown = best_seen(recording, body, found)
+    try:
+        photos = before_and_after(recording, body, shown, highest, PHOTO_PIXELS)
+    except NoRendering as error:
+        return Column(recording, found, shown, None, str(error))
+    return Column(recording, found, shown, photos)
+
+
+def facts(rows: Sequence[Outcome]) -> str:
+    """The outcomes of all touches in one line."""
+    good = [row for row in rows if not row.trouble]
+    said = [f"{len(good)} of {len(rows)} touches: the arm withdrew"]
+    for before, values, after in (
+        ("by ", [row.withdrawn for row in good], "mm"),
+        ("first motion ", [row.moved_after for row in good], "ms after the contact"),
+        ("free after ", [row.cleared_after for row in good], "ms"),
+    ):
+        if values:
+            said.append(f"{before}{min(values):.0f} to {max(values):.0f} {after}")
+    return said[0] + (" " + " · ".join(said[1:]) if good else "")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,119 @@
+"""What a robot, its arm and its reflex have published, in the order of its coming.
+
+In: published structs, on any thread. Out: the numbers in them as a recording has them.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import Any
+
+import numpy as np
+from recording import Answer, Floats, Press, Recording, Skin
+
+
+class Heard:
+    """`news` is notified of everything. All is kept, or the `most` latest of each kind."""
+
+    def __init__(self, skin: Skin, part: str, most: int | None = None) -> None:
+        limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]
+        self.news = threading.Condition()
+        self._skin, self._part = skin, part
+        self._mine = np.isin(skin.limb, limbs)
+        self._frames: deque[tuple[float, Floats]] = deque(maxlen=most)
+        self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=most)
+        self._fingers: deque[tuple[float, Floats]] = deque(maxlen=most)
+        self._answers: deque[Answer] = deque(maxlen=most)
+        self.free_since = float("inf")
+        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+
+    # Handlers: a middleware calls them.
+
+    def frame(self, frame: Any) -> None:
+        """`SkinFrame`; frames that are not as long as the skin tell nothing."""
+        force = np.array(frame.force, dtype=np.float64)
+        if len(force) != len(self._mine):
+            return
+        with self.news:
+            self._frames.append((float(frame.time), force))
+            if force[self._mine].any():
+                self.free_since = float("inf")
+            elif self.free_since == float("inf"):
+                self.free_since = float(frame.time)
+            self.news.notify_all()
+
+    def arm_state(self, state: Any) -> None:
+        """`GenericArmState`."""
+        with self.news:
+            angles = np.array(state.position, dtype=np.float64)
+            self._arm.append((float(state.time), angles, bool(state.moving)))
+            self.news.notify_all()
+
+    def answer(self, event: Any) -> None:
+        """`ReflexEvents`."""
+        with self.news:
+            told = Answer(float(event.time), event.field, float(event.gain), float(event.force))
+            self._answers.append(told)
+            self.news.notify_all()
+
+    def finger_at(self, time: float, joints: Floats) -> None:
+        """Where the finger was found."""
+        with self.news:
+            if not self._fingers or time > self._fingers[-1][0]:
+                self._fingers.append((time, joints))
+
+    # What is known.
+
+    @property
+    def complete(self) -> bool:
+        """Whether skin and arm have been heard."""
+        return bool(self._frames and self._arm)
+
+    @property
+    def now(self) -> float:
+        """The latest simulated time in s."""
+        return max(self._frames[-1][0], self._arm[-1][0])
+
+    @property
+    def force(self) -> Floats:
+        """The latest forces (n,) in N."""
+        return self._frames[-1][1]
+
+    @property
+    def angles(self) -> Floats:
+        """The latest generic angles (5,)."""
+        return self._arm[-1][1]
+
+    @property
+    def finger(self) -> Floats:
+        """Where the finger was seen last, (3,)."""
+        return self._fingers[-1][1]
+
+    def stands(self, seconds: float, way: float) -> bool:
+        """Whether the arm has moved by at most `way` rad within the last seconds."""
+        with self.news:
+            latest = [one for one in self._arm if one[0] >= self._arm[-1][0] - seconds]
+        if latest[-1][2] or latest[-1][0] - latest[0][0] < 0.5 * seconds:
+            return False
+        return bool(np.ptp([angles for _, angles, _ in latest], axis=0).max() <= way)
+
+    def recording(self, robot: str, presses: list[Press], **others: Any) -> Recording:
+        """All of it; `others` are the rest of a `Recording`."""
+        with self.news:
+            frames, arm, fingers = list(self._frames), list(self._arm), list(self._fingers)
+            answers = tuple(self._answers)
+        return Recording(
+            robot=robot,
+            part=self._part,
+            skin=self._skin,
+            presses=tuple(presses),
+            answers=answers,
+            frame_time=np.array([time for time, _ in frames]),
+            force=np.array([force for _, force in frames]),
+            arm_time=np.array([one[0] for one in arm]),
+            arm=np.array([one[1] for one in arm]),
+            finger_time=np.array([time for time, _ in fingers]),
+            finger=np.array([joints for _, joints in fingers]),
+            **others,
+        )

@@ -1,0 +1,73 @@
+"""A program's place in a running deployment: what its components serve and publish.
+
+In: the name of a domain, interfaces as the components' own generated modules have them. Out:
+their operations as functions, and calls of handlers.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.interface import Interface
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Link
+from robocomp_dsl.runtime.statistics import Statistics
+
+COMPONENTS = Path(__file__).parents[1]
+_ME = "onlooker"
+
+
+class Links:
+    """Connections into one domain; `close` them at the end."""
+
+    def __init__(self, domain: str) -> None:
+        self._execution = Execution()
+        self._middleware = open_middleware(
+            "zenoh", Host(_ME, domain, self._execution, Statistics())
+        )
+
+    def component(self, name: str) -> ComponentProxy:
+        """What the component called `name` tells of itself."""
+        return ComponentProxy(self._link(COMPONENT, name, "Component"))
+
+    def calls(self, interface: Interface, component: str, port: str) -> Any:
+        """The operations of a component's port, as functions of their names."""
+        link = self._link(interface, component, port)
+        return SimpleNamespace(**{one.name: link.bind(one) for one in interface.operations})
+
+    def hear(
+        self,
+        interface: Interface,
+        component: str,
+        port: str,
+        handlers: Mapping[str, Callable[..., Any]],
+    ) -> None:
+        """Call handlers, by the names of operations, with what the component publishes."""
+        at = Endpoint(interface, _ME, port, (component,))
+        self._middleware.subscribe(at, handlers, self._execution)
+
+    def _link(self, interface: Interface, component: str, port: str) -> Link:
+        return self._middleware.proxy(Endpoint(interface, _ME, port, (f"{component}.{port}",)))
+
+    def close(self) -> None:
+        """Leave the domain."""
+        self._middleware.close()
+
+
+def interfaces(component: str) -> ModuleType:
+    """The generated interfaces of a shipped component, under a name of their own."""
+    path, name = COMPONENTS / component / "generated" / "interfaces.py", f"{component}_interfaces"
+    if name not in sys.modules:
+        spec = spec_from_file_location(name, path)
+        if spec is None or spec.loader is None:
+            raise ImportError(f"there are no interfaces at {path}")
+        sys.modules[name] = module_from_spec(spec)
+        spec.loader.exec_module(sys.modules[name])
+    return sys.modules[name]

@@ -1,0 +1,103 @@
+"""A finger presses one place after the other and waits for the arm to withdraw and to come back.
+
+In: a `Stage`, on which there are a finger and an arm, and a `Body` that tells where places are.
+Out: when each place was pressed. All waiting is in simulated time.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Protocol
+
+import numpy as np
+from body import Body
+from recording import Floats, Place, Press
+from way import way
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How the finger presses: lengths in m, times in s, speed in m/s.
+
+    It stops `off` before the skin, goes `near`, then `deep` into where the skin was within `push`;
+    there it stays for `stay`, and when the skin feels nothing for `free` it goes away.
+    """
+
+    off: float = 0.035
+    near: float = 0.003
+    deep: float = 0.004
+    push: float = 0.1
+    stay: float = 1.5
+    free: float = 0.1
+    speed: float = 0.5
+
+
+PLAIN = Manner()
+_SHORTEST = 0.15  # s that a motion of the finger takes at least
+_SETTLE = 0.15  # s after a motion until the finger stands
+
+
+class Stage(Protocol):
+    """What the demo sees of a robot, and the finger that it moves."""
+
+    def now(self) -> float:
+        """Simulated time in s."""
+
+    def arm(self) -> Floats:
+        """Generic angles of the arm, (5,)."""
+
+    def finger(self) -> Floats:
+        """Where the finger's joints are, (3,)."""
+
+    def move_finger(self, joints: Floats, seconds: float) -> None:
+        """Send the finger there, so that it arrives after some seconds; return at once."""
+
+    def free_since(self) -> float:
+        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+
+    def wait_until_calm(self) -> None:
+        """Wait until the reflex watches and the arm stands still."""
+
+    def wait(self, seconds: float) -> None:
+        """Let simulated time pass."""
+
+
+def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Press:
+    """Press one place. Raises `NoWay`."""
+    stage.wait_until_calm()
+    body.pose(arm=stage.arm(), finger=stage.finger())
+    skin, out = body.touching(place), body.outward(place)
+    here = body.finger_point
+    _follow(stage, body, [here, *way(body.clearance, here, skin + manner.off * out)], manner.speed)
+    _go(stage, body, skin + manner.near * out, _SHORTEST)
+    stage.wait(_SHORTEST + _SETTLE)
+    began = stage.now()
+    _go(stage, body, skin - manner.deep * out, manner.push)
+    stage.wait(manner.push)
+    while stage.now() - max(stage.free_since(), began + manner.push) < manner.free:
+        if stage.now() - began > manner.stay:
+            break
+        stage.wait(0.02)
+    _go(stage, body, skin + manner.off * out, _SHORTEST)
+    stage.wait(_SHORTEST + _SETTLE)
+    return Press(place.name, began, stage.now())
+
+
+def park(stage: Stage, body: Body, home: Floats, manner: Manner = PLAIN) -> None:
+    """Bring the finger back to where it was, out of the robot's reach. Raises `NoWay`."""
+    stage.wait_until_calm()
+    body.pose(arm=stage.arm(), finger=stage.finger())
+    here = body.finger_point
+    _follow(stage, body, [here, *way(body.clearance, here, home)], manner.speed)
+
+
+def _follow(stage: Stage, body: Body, points: list[Floats], speed: float) -> None:
+    for before, after in pairwise(points):
+        seconds = max(_SHORTEST, float(np.linalg.norm(after - before)) / speed)
+        _go(stage, body, after, seconds)
+        stage.wait(seconds + _SETTLE)
+
+
+def _go(stage: Stage, body: Body, point: Floats, seconds: float) -> None:
+    stage.move_finger(body.finger_joints(point), seconds)
