@@ -13,7 +13,6 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.resources import INTERFACES
-from robocomp_dsl.tactile.reflex.engine import ReflexState
 
 ROOT = Path(robocomp_dsl.tactile.__file__).parent
 ROBOT_NAMES = re.compile(r"nao|icub|robocup", re.IGNORECASE)
@@ -48,4 +47,3 @@ def test_enumerations_of_interfaces_and_code_have_the_same_order():
     modes = [renamed.get(one, one) for one in values("ControlBoard.idsl", "ControlMode")]
     assert modes == [mode.name for mode in Mode]
     assert values("ControlBoard.idsl", "InteractionMode") == [one.name for one in Interaction]
-    assert values("Reflex.idsl", "ReflexState") == [one.name for one in ReflexState]

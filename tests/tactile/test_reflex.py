@@ -1,35 +1,41 @@
-"""The reflex over time: frames in, motions out, and what happens when something is missing."""
+"""From frames to where a touched arm goes; the component in tests/touch adds the time."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot
-from robocomp_dsl.tactile.errors import FrameFault, RejectedFrame
-from robocomp_dsl.tactile.reflex.engine import (
-    ArmFacts,
-    Move,
-    ReflexEngine,
-    ReflexSettings,
-    ReflexState,
-    Stop,
-)
+from robocomp_dsl.tactile.errors import BadGeometry, FrameFault, InvalidField, RejectedFrame
 from robocomp_dsl.tactile.reflex.frames import FrameGate
 from robocomp_dsl.tactile.reflex.law import Field, Law, Response, Stimulus
 from robocomp_dsl.tactile.reflex.receptors import Receptors
+from robocomp_dsl.tactile.reflex.sense import Sense
+from robocomp_dsl.tactile.reflex.withdrawal import (
+    ArmFacts,
+    Withdrawal,
+    furthest,
+    lasts,
+    news,
+    standing,
+    stronger,
+)
 from robocomp_dsl.tactile.skin.cone import Cone
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.layout import rings
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
+from robocomp_dsl.tactile.skin.told import told_geometry
 
 START = np.array([0.4, 0.2, 0.3, 0.6, 0.0])
-FACTS = ArmFacts(np.full(5, -0.5), np.full(5, 1.2), np.full(5, 2.0), START)
+ALL = np.ones(5, bool)
+FACTS = ArmFacts(np.full(5, -0.5), np.full(5, 1.2), np.full(5, 2.0), START, ALL)
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.0])
 OTHER = np.array([0.1, 0.0, 0.4, 0.0, 0.0])
-DT = 0.02
 
 
 def response(gain: float, name: str = "a", motion: np.ndarray = THETA) -> Response:
@@ -37,167 +43,86 @@ def response(gain: float, name: str = "a", motion: np.ndarray = THETA) -> Respon
     return Response(field, Stimulus(np.zeros(3), 1.0), 0.0, gain)
 
 
-class Rig:
-    """A reflex and an arm that goes where it is told, at the speed that it is told."""
-
-    def __init__(self, **options) -> None:
-        self.engine = ReflexEngine(FACTS, ReflexSettings(**options))
-        self.pose, self.goal, self.speed = START.copy(), START.copy(), np.zeros(5)
-        self.now, self.moves, self.stops = 0.0, [], 0
-        self.frames = self.answers = True
-
-    def run(self, seconds: float, *touch: Response) -> None:
-        for _ in range(round(seconds / DT)):
-            self.now += DT
-            step = np.clip(self.goal - self.pose, -self.speed * DT, self.speed * DT)
-            self.pose = self.pose + step
-            if self.answers:
-                self.take(self.engine.arm(self.pose, self.now))
-            if self.frames:
-                self.take(self.engine.frame(list(touch), self.now))
-            self.take(self.engine.tick(self.now))
-
-    def take(self, action) -> None:
-        if isinstance(action, Move):
-            self.moves.append(action)
-            self.goal, self.speed = action.position, action.speed
-        elif isinstance(action, Stop):
-            self.stops += 1
-            self.goal = self.pose
+def withdrawn(*frames: list[Response], facts: ArmFacts = FACTS) -> Withdrawal:
+    """What comes of the responses of one frame after the other."""
+    made = standing(START, 7.0)
+    for responses in frames:
+        made = stronger(made, responses, facts)
+    return made
 
 
-def test_a_touch_withdraws_holds_and_returns():
-    rig = Rig(hold=0.5)
-    rig.run(0.2)
-    assert rig.engine.state is ReflexState.WATCHING
-    rig.run(0.04, response(0.5))
-    assert rig.engine.state is ReflexState.WITHDRAWING
-    assert rig.moves[0].position == pytest.approx(START + 0.5 * THETA)
-    rig.run(0.3)
-    assert rig.engine.state is ReflexState.HOLDING
-    rig.run(0.55)
-    assert rig.engine.state is ReflexState.RETURNING
-    assert rig.moves[-1].position == pytest.approx(START)
-    rig.run(2.0)
-    assert rig.engine.state is ReflexState.WATCHING
-    assert rig.pose == pytest.approx(START, abs=0.03)
-    assert rig.engine.withdrawals == 1
+@pytest.mark.parametrize(
+    ("frames", "motion"),
+    [
+        ([], 0 * THETA),
+        ([[]], 0 * THETA),
+        ([[response(0.5)]], 0.5 * THETA),
+        ([[response(g)] for g in (0.01, 0.3, 0.7, 0.5)], 0.7 * THETA),  # it goes by its peak
+        ([[response(0.5), response(1.0, "b", OTHER)]], 0.5 * THETA + OTHER),
+        ([[response(0.5)], [response(1.0, "b", OTHER)]], 0.5 * THETA + OTHER),
+        ([[response(0.5)], [], [response(0.2)]], 0.5 * THETA),
+        ([[response(0.2), response(0.6)]], 0.6 * THETA),  # two touches in one field
+    ],
+)
+def test_each_field_counts_with_its_strongest_response(frames, motion):
+    made = withdrawn(*frames)
+    assert made.goal == pytest.approx(START + motion)
+    assert made.began == 7.0
+    assert made.origin is START
 
 
-def test_a_growing_touch_withdraws_as_its_peak():
-    rig = Rig()
-    rig.run(0.1)
-    for gain in (0.01, 0.1, 0.3, 0.7, 0.5):
-        rig.run(DT, response(gain))
-    assert rig.goal == pytest.approx(START + 0.7 * THETA)
-    assert rig.engine.withdrawals == 1
-    assert rig.engine.active[0].gain == 0.7
+def test_news_are_the_responses_that_count_anew():
+    weak, strong, other = response(0.2), response(0.6), response(0.5, "b", OTHER)
+    before = withdrawn([weak])
+    assert news(before, stronger(before, [strong, other], FACTS)) == [strong, other]
+    assert news(before, stronger(before, [response(0.1)], FACTS)) == []
 
 
-def test_two_touches_add_up_and_one_may_come_during_a_withdrawal():
-    rig = Rig()
-    rig.run(0.1)
-    rig.run(DT, response(0.5), response(1.0, "b", OTHER))
-    both = START + 0.5 * THETA + OTHER
-    assert rig.goal == pytest.approx(np.clip(both, FACTS.low, FACTS.high))
-    rig = Rig()
-    rig.run(0.1)
-    rig.run(DT, response(0.5))
-    rig.run(0.1)
-    rig.run(DT, response(1.0, "b", OTHER))
-    assert rig.goal == pytest.approx(np.clip(both, FACTS.low, FACTS.high))
-    assert rig.engine.withdrawals == 1
+def test_goals_stay_within_limits_and_joints_that_are_not_there_stay_put():
+    made = withdrawn([response(1.0, "b", 50 * OTHER), response(1.0, "c", -50 * THETA)])
+    assert (made.goal >= FACTS.low).all()
+    assert (made.goal <= FACTS.high).all()
+    lacking = ArmFacts(
+        FACTS.low, np.full(5, 0.1), FACTS.speed, START, np.array([True] * 4 + [False])
+    )
+    made = withdrawn([response(1.0, motion=np.ones(5))], facts=lacking)
+    assert made.goal == pytest.approx([0.1, 0.1, 0.1, 0.1, START[4]])
 
 
-def test_a_lasting_touch_triggers_again_after_the_refractory_time():
-    rig = Rig(refractory=1.0)
-    rig.run(0.1)
-    rig.run(0.9, response(0.2))
-    assert rig.engine.withdrawals == 1
-    rig.run(0.2, response(0.2))
-    assert rig.engine.withdrawals == 2
-    assert rig.goal == pytest.approx(START + 0.4 * THETA, abs=0.01)
+@given(st.lists(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=3), max_size=8))
+def test_a_withdrawal_never_takes_back_what_it_has_begun(gains):
+    made, far = standing(START, 0.0), 0.0
+    for frame in gains:
+        made = stronger(made, [response(g, n) for g, n in zip(frame, "abc", strict=False)], FACTS)
+        assert furthest(made.goal, START) >= far - 1e-12
+        far = furthest(made.goal, START)
 
 
-def test_a_touch_on_the_way_back_withdraws_from_there():
-    rig = Rig(hold=0.1, refractory=0.3)
-    rig.run(0.1)
-    rig.run(DT, response(1.0))
-    rig.run(0.75)
-    assert rig.engine.state is ReflexState.RETURNING
-    here = rig.pose.copy()
-    rig.run(DT, response(1.0, "b", OTHER))
-    assert rig.goal == pytest.approx(np.clip(here + OTHER, FACTS.low, FACTS.high), abs=0.05)
+def test_a_motion_lasts_as_long_as_its_slowest_joint():
+    speed = np.array([1.0, 0.5, 2.0, 0.0, 1.0])
+    assert lasts(np.zeros(5), np.array([1.0, -1.0, 1.0, 1.0, 0.0]), speed) == 2.0
+    assert lasts(START, START, speed) == 0.0
 
 
-def test_missing_frames_or_a_silent_arm_freeze_and_it_recovers():
-    for lost in ("frames", "answers"):
-        rig = Rig(recovery=0.5)
-        rig.run(0.1)
-        rig.run(0.1, response(1.0))
-        setattr(rig, lost, False)
-        rig.run(0.7)
-        assert rig.engine.state is ReflexState.FROZEN
-        assert rig.stops == 1
-        count = len(rig.moves)
-        rig.run(1.0)
-        assert len(rig.moves) == count
-        setattr(rig, lost, True)
-        rig.run(0.3, response(1.0))
-        assert rig.engine.state is ReflexState.FROZEN
-        rig.run(0.3)
-        assert rig.engine.state is ReflexState.RETURNING
-        rig.run(3.0)
-        assert rig.engine.state is ReflexState.WATCHING
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"low": np.zeros(4)}, "differ in length"),
+        ({"available": np.ones(4, bool)}, "every joint"),
+        ({"start": np.full(5, np.nan)}, "NaN"),
+        ({"high": np.full(5, -0.6)}, "above its upper"),
+        ({"speed": np.zeros(5)}, "no speed"),
+    ],
+)
+def test_facts_that_no_arm_can_have_are_refused(changes, said):
+    with pytest.raises(ValueError, match=said):
+        replace(FACTS, **changes)
 
 
-def test_before_the_first_data_nothing_freezes_and_nothing_moves():
-    engine = ReflexEngine(FACTS)
-    assert engine.frame([response(1.0)], 5.0) is None
-    assert engine.tick(50.0) is None
-    assert engine.state is ReflexState.WATCHING
-
-
-def test_a_refused_command_freezes():
-    rig = Rig()
-    rig.run(0.1, response(1.0))
-    rig.engine.refused(rig.now)
-    assert rig.engine.state is ReflexState.FROZEN
-    rig.run(0.2)
-    assert rig.engine.state is ReflexState.FROZEN
-    rig.run(0.5)
-    assert rig.engine.state is ReflexState.RETURNING
-
-
-def test_a_blocked_arm_does_not_hold_the_reflex_for_ever():
-    rig = Rig(patience=0.5, hold=0.1)
-    rig.run(0.1)
-    rig.run(DT, response(1.0))
-    rig.goal = rig.pose
-    rig.run(0.6)
-    assert rig.engine.state is ReflexState.WATCHING  # it held, went back and was there already
-
-
-@settings(max_examples=60, deadline=None)
-@given(st.lists(st.tuples(st.floats(0.0, 1.0), st.booleans(), st.integers(0, 12)), max_size=25))
-def test_no_motion_ever_leaves_limits_or_speeds(touches):
-    rig = Rig(refractory=0.1, hold=0.05)
-    rig.run(0.1)
-    for gain, second, pause in touches:
-        answer = [response(gain)] if gain else []
-        rig.run(DT, *answer, *([response(1.0, "b", 5 * OTHER)] if second else []))
-        rig.run(pause * DT)
-    for move in rig.moves:
-        assert (move.position >= FACTS.low).all()
-        assert (move.position <= FACTS.high).all()
-        assert (move.speed <= FACTS.speed).all()
-
-
-@pytest.mark.parametrize("wrong", [{"withdraw_speed": 0}, {"return_speed": 2}, {"hold": -1},
-                                   {"frame_timeout": 0}])  # fmt: skip
-def test_impossible_settings_are_refused(wrong):
-    with pytest.raises(ValueError, match=r"shares|times"):
-        ReflexSettings(**wrong)
+def test_facts_of_joints_that_are_not_there_may_be_anything():
+    nothing = np.array([False] * 5)
+    wild = np.full(5, np.nan)
+    assert ArmFacts(wild, wild, wild, wild, nothing).within(THETA, START) == pytest.approx(START)
 
 
 GOOD = np.ones(4)
@@ -220,7 +145,8 @@ GOOD = np.ones(4)
     ],
 )
 def test_bad_frames_are_rejected_and_counted(frame, fault):
-    gate = FrameGate(3, 4)
+    gate = FrameGate()
+    gate.expect(3, 4)
     gate.check(10, 1.0, 3, GOOD)
     if fault is None:
         assert (gate.check(*frame) == GOOD).all()
@@ -231,13 +157,26 @@ def test_bad_frames_are_rejected_and_counted(frame, fault):
     assert caught.value.fault is fault
     assert gate.rejected[fault] == 1
     assert gate.accepted == 1
-    assert gate.newer_geometry == (frame[2] == 4)
+    assert gate.behind == (frame[2] == 4)
     gate.forget()
     gate.check(1, 0.0, 3, GOOD)
+    assert not gate.behind
+
+
+def test_without_a_geometry_every_frame_is_of_another_one():
+    gate = FrameGate()
+    with pytest.raises(RejectedFrame, match="not known yet"):
+        gate.check(1, 0.0, 3, GOOD)
+    assert gate.behind
+    gate.expect(3, 4)
+    assert not gate.behind
+    assert gate.rejected.total() == 1
 
 
 def test_negative_forces_count_as_none():
-    assert FrameGate(1, 2).check(1, 1.0, 1, np.array([-1.0, 2.0])).tolist() == [0.0, 2.0]
+    gate = FrameGate()
+    gate.expect(1, 2)
+    assert gate.check(1, 1.0, 1, np.array([-1.0, 2.0])).tolist() == [0.0, 2.0]
 
 
 CONE = Cone(0.02, 0.10, 0.03, 0.03)
@@ -282,5 +221,82 @@ def test_receptors_answer_for_their_own_arm_only():
     dead = forces.copy()
     dead[geometry.patch == geometry.patches.index("left_arm_lower")] = 0.0
     assert receptors.answer(dead) == []
-    with pytest.raises(KeyError, match="no limb `left_arm/hand`"):
+    with pytest.raises(InvalidField, match=r"no limb `left_arm/hand`.*it has left_arm/upper"):
         Receptors(geometry, "left_arm", (Field("x", "hand", centre, 0.03, THETA),), Law())
+
+
+def test_a_sense_takes_other_fields_laws_and_geometries_or_stays_as_it_was():
+    geometry = SkinGeometry.of(robot())
+    here, there = (Field(n, "lower", CONE.points(0.06, at), 0.03, THETA) for n, at in
+                   (("here", 0.0), ("there", np.pi)))  # fmt: skip
+    left = geometry.limb == geometry.limbs.index("left_arm/lower")
+    forces = np.where(left & (np.linalg.norm(geometry.points - here.centre, axis=1) < 0.01), 0.5, 0)
+    sense = Sense("left_arm", (here,), Law(0.05, 1.0))
+    with pytest.raises(RejectedFrame):
+        sense.feel(1, 0.1, 1, forces)
+    with pytest.raises(InvalidField, match="not told yet"):
+        sense.use_fields((there,))
+    sense.adopt(geometry)
+    (weak,) = sense.feel(2, 0.2, 1, forces)
+    sense.use_law(Law(0.05, 0.5), 0.015)
+    (strong,) = sense.feel(3, 0.3, 1, forces)
+    assert strong.gain > 1.5 * weak.gain
+    with pytest.raises(InvalidField):
+        sense.use_fields((replace(here, limb="tail"),))
+    assert sense.feel(4, 0.4, 1, forces)
+    sense.use_fields((there,))
+    assert sense.feel(5, 0.5, 1, forces) == []
+    with pytest.raises(InvalidField):
+        sense.adopt(replace(geometry, version=2, limbs=("a/upper", "a/lower", "b", "c")))
+    assert sense.feel(6, 0.6, 1, forces) == []
+    sense.adopt(replace(geometry, version=2))
+    assert sense.feel(7, 0.7, 2, forces) == []
+    assert sense.gate.accepted == 6
+
+
+def as_told(geometry: SkinGeometry, **changes: object) -> SimpleNamespace:
+    """A geometry by the names of the interface."""
+    axes = [f"r{i}{j}" for i in range(3) for j in range(3)]
+    told = {"version": geometry.version, "id": geometry.ids, "patch": geometry.patch}
+    told |= {"limb": geometry.limb}
+    told |= dict(zip("xyz", geometry.points.T, strict=True))
+    told |= dict(zip(("nx", "ny", "nz"), geometry.normals.T, strict=True))
+    told["patches"] = [
+        SimpleNamespace(name=n, gain=s.gain, floor=s.floor, saturation=s.saturation)
+        for n, s in zip(geometry.patches, geometry.sensitivities, strict=True)
+    ]
+    told["limbs"] = [
+        SimpleNamespace(name=n, body=f.body, x=1.0, y=2.0, z=3.0,
+                        **dict(zip(axes, np.eye(3).ravel(), strict=True)))
+        for n, f in zip(geometry.limbs, geometry.frames, strict=True)
+    ]  # fmt: skip
+    return SimpleNamespace(**(told | changes))
+
+
+def test_a_geometry_comes_back_from_what_is_told_of_it():
+    geometry = SkinGeometry.of(robot(), version=4)
+    back = told_geometry(as_told(geometry))
+    assert (back.version, back.size, back.limbs) == (4, geometry.size, geometry.limbs)
+    for name in ("ids", "patch", "limb", "points", "normals"):
+        assert (getattr(back, name) == getattr(geometry, name)).all(), name
+    assert back.frames[1].name == "lower"
+    assert back.frames[1].origin.tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"patch": np.zeros(3, int)}, "`patch` has 3 entries for 480"),
+        ({"x": np.zeros(3)}, "differ in length"),
+        ({name: np.zeros(3) for name in "xyz"}, "`x` has 3"),
+        ({name: np.zeros(3) for name in ("nx", "ny", "nz")}, "`nx` has 3"),
+        ({"y": np.full(480, np.nan)}, "NaN"),
+        ({"limb": np.full(480, 4)}, "entry 4 of a list of 4"),
+        ({"limb": np.full(480, -1)}, "list of 4"),
+        ({"patches": []}, "list of 0"),
+        ({"patches": [SimpleNamespace(name="p", gain=0, floor=0, saturation=1)] * 2}, "gain > 0"),
+    ],
+)
+def test_a_geometry_that_contradicts_itself_is_refused(changes, said):
+    with pytest.raises(BadGeometry, match=said):
+        told_geometry(as_told(SkinGeometry.of(robot()), **changes))

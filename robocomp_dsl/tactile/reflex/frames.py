@@ -18,18 +18,26 @@ from robocomp_dsl.tactile.errors import FrameFault, RejectedFrame
 
 @dataclass(slots=True)
 class FrameGate:
-    """For frames of `size` taxels of one geometry `version`. `rejected` counts by reason."""
+    """For frames of `size` taxels of one geometry `version`, None: it is not known yet.
 
-    version: int
-    size: int
+    `rejected` counts by reason. `other` is the version of the latest frame, where that is another.
+    """
+
+    version: int | None = None
+    size: int = 0
     accepted: int = 0
     rejected: Counter[FrameFault] = field(default_factory=Counter)
-    newer_geometry: bool = False
+    other: int | None = None
     _sequence: int = -1
     _time: float = -np.inf
 
+    def expect(self, version: int, size: int) -> None:
+        """From now on frames of this geometry; what was counted stays."""
+        self.version, self.size, self.other = version, size, None
+
     def check(self, sequence: int, time: float, version: int, values: Floats) -> Floats:
         """The forces of a good frame, none of them negative. Raises `RejectedFrame`."""
+        self.other = version if version != self.version else None
         fault, detail = self._fault(sequence, time, version, values)
         if fault is not None:
             self.rejected[fault] += 1
@@ -37,6 +45,11 @@ class FrameGate:
         self.accepted += 1
         self._sequence, self._time = sequence, time
         return np.maximum(values, 0.0)
+
+    @property
+    def behind(self) -> bool:
+        """Whether the latest frame belongs to a newer geometry than this gate knows."""
+        return self.other is not None and (self.version is None or self.other > self.version)
 
     def forget(self) -> None:
         """Take the next frame whatever its number: its publisher may have started anew."""
@@ -46,8 +59,8 @@ class FrameGate:
         self, sequence: int, time: float, version: int, values: Floats
     ) -> tuple[FrameFault | None, str]:
         if version != self.version:
-            self.newer_geometry = self.newer_geometry or version > self.version
-            return FrameFault.OTHER_GEOMETRY, f"{version}, not {self.version}"
+            known = "the geometry is not known yet" if self.version is None else self.version
+            return FrameFault.OTHER_GEOMETRY, f"{version}, not {known}"
         if values.shape != (self.size,):
             return FrameFault.WRONG_LENGTH, f"{values.size} values, not {self.size}"
         if not (np.isfinite(time) and np.isfinite(values).all()):

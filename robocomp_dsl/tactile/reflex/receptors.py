@@ -9,13 +9,17 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.errors import InvalidField
 from robocomp_dsl.tactile.reflex.law import Field, Law, Response, respond
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.touches import REACH, Neighbours
 
 
 class Receptors:
-    """The fields of the part `part` on a skin; taxels of other parts are not looked at."""
+    """The fields of the part `part` on a skin; taxels of other parts are not looked at.
+
+    Raises `InvalidField` for a field on a limb that the skin does not have.
+    """
 
     def __init__(
         self,
@@ -34,7 +38,10 @@ class Receptors:
         for field in fields:
             name = f"{part}/{field.limb}"
             if name not in geometry.limbs:
-                raise KeyError(f"the skin has no limb `{name}` for the field `{field.name}`")
+                known = ", ".join(geometry.limbs) or "no limbs"
+                raise InvalidField(
+                    f"the skin has no limb `{name}` for the field `{field.name}`; it has {known}"
+                )
             self._fields[geometry.limbs.index(name)].append(field)
 
     def answer(self, forces: Floats) -> list[Response]:

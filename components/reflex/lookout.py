@@ -1,0 +1,125 @@
+"""Whether skin and arm are there, and usable: without them the reflex is frozen, an emergency.
+
+In: when they were heard of, their answers, the time. Out: the events `lost`, and when all has been
+there again for a while, `found`, or `resumed` where the arm had been sent away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+
+from presence import Presence
+from served import Served
+from wire import arm_facts
+
+from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
+from robocomp_dsl.tactile.errors import TactileError
+from robocomp_dsl.tactile.reflex.withdrawal import ArmFacts
+from robocomp_dsl.tactile.skin.told import told_geometry
+
+SKIN_ANSWERS_S = 2.0
+"""How long the skin may take for its geometry, which can be long."""
+ASK_AGAIN_S = 1.0
+"""While the reflex is blind it asks so often what is there: it may be another skin, another arm."""
+
+
+class Lookout(Served):
+    """`arm` is None while nothing is known of it; `stopped` whether it took the latest `stop`.
+
+    `away`: the reflex has sent the arm away from its start pose.
+    """
+
+    arm: ArmFacts | None = None
+    stopped = True
+    away = False
+    reason = "skin and arm have not been heard of yet"
+
+    def initialize(self) -> None:
+        """Skin and arm need not be there yet."""
+        self.presence, self.epoch, self.asked = Presence(), self.clock.epoch, -inf
+        self.skin_proxy.set_timeout(SKIN_ANSWERS_S)
+        self.genericarm_proxy.set_timeout(self.params.arm_timeout)
+
+    def compute(self) -> None:
+        """See whether all is there; what is to be done then is up to the states."""
+        now = self._now()
+        if not self.machine.is_in("Frozen"):
+            reason = self._missing(now)
+            if not reason and self.sense.gate.behind:
+                reason = self.tried(self._learn_geometry)
+            if reason:
+                self.freeze(reason)
+        if self.machine.is_in("Frozen"):
+            self.declare_emergency(self.reason)
+
+    def emergency(self) -> None:
+        """Look for what is missing, until all has been there for a while."""
+        now = self._now()
+        reason = self.tried(lambda: self._prepare(now)) or self._missing(now)
+        if not reason:
+            if self.presence.well_for(now) >= self.params.recovery:
+                self.end_emergency()
+            return
+        self.presence.well_since = inf
+        if self._is_blind(now):
+            self.sense.gate.forget()  # those who send may have begun to count anew
+        if reason != self.reason:
+            self.reason = reason
+            self.declare_emergency(reason)
+
+    def restore(self) -> None:
+        """All is there again: an arm that was on its way comes back."""
+        if self.machine.is_in("Frozen"):
+            self.log.info("skin and arm are there")
+            self.machine.go("resumed" if self.away else "found")
+
+    def freeze(self, reason: str) -> None:
+        """Go to `Frozen`, and say why."""
+        self.reason = reason
+        self.log.warning("frozen: %s", reason)
+        self.machine.go("lost")
+
+    def let_go(self) -> None:
+        """Stop the arm, and believe nothing any more that was known of it and of the skin."""
+        if self.arm is not None:
+            self.stopped = not self.tried(self.genericarm_proxy.stop)
+        self.arm, self.presence.well_since = None, inf
+
+    def tried(self, call: Callable[[], object]) -> str:
+        """Why the call failed, in words; empty: it did not."""
+        try:
+            call()
+        except (MiddlewareError, DeclaredError, TactileError, ValueError) as error:
+            return str(getattr(error, "what", error))
+        return ""
+
+    def begin_anew(self) -> None:
+        """Time has begun anew: no moment that was kept means anything."""
+        self.presence, self.asked = Presence(), -inf
+
+    def _now(self) -> float:
+        before, self.epoch = self.epoch, self.clock.epoch
+        if before not in (-1, self.epoch):  # -1: it had not begun at all
+            self.begin_anew()
+            self.freeze("time has begun anew")
+        return self.clock.now()
+
+    def _missing(self, now: float) -> str:
+        return self.presence.missing(now, self.params.frame_timeout, self.params.arm_timeout)
+
+    def _is_blind(self, now: float) -> bool:
+        return self.presence.is_blind(now, self.params.frame_timeout)
+
+    def _prepare(self, now: float) -> None:
+        """Stop an arm that has not been stopped; ask what there is. Raises what `tried` takes."""
+        if not self.stopped:
+            self.genericarm_proxy.stop()
+            self.stopped = True
+        if self.arm is None or (self._is_blind(now) and now - self.asked >= ASK_AGAIN_S):
+            self.asked = now
+            self._learn_geometry()
+            self.arm = arm_facts(self.genericarm_proxy.getLimits(), self.size)
+
+    def _learn_geometry(self) -> None:
+        self.sense.adopt(told_geometry(self.skin_proxy.getGeometry()))

@@ -1,0 +1,235 @@
+"""A puppet of a robot: the generic arm and the skin of a description, as a test wants them.
+
+The arm goes where it is told, at the speed that it is told, and the skin feels what the test
+presses. It serves and publishes the real interfaces with the geometry of the real description.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shipped_component
+from stepped import TICK, Stage, Stepped
+
+from robocomp_dsl.hardware.robots import catalog
+from robocomp_dsl.hardware.robots.catalog import description
+from robocomp_dsl.runtime import CalledPort, ComponentSpec, ServedPort
+from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.clock_interface import ClockProxy
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.tactile.arm.generic_arm import GenericArm
+from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.reflex import law
+from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+
+REFLEX = shipped_component.load("reflex")
+words = REFLEX.interfaces
+DESCRIPTIONS = Path(catalog.__file__).parent / "descriptions"
+
+
+def told(geometry: SkinGeometry) -> Any:
+    """A geometry in the words of Skin.idsl."""
+    columns = dict(zip(("x", "y", "z"), geometry.points.T.astype(np.float32), strict=True))
+    columns |= dict(zip(("nx", "ny", "nz"), geometry.normals.T.astype(np.float32), strict=True))
+    rows = [f"r{i}{j}" for i in range(3) for j in range(3)]
+    return words.Geometry(
+        version=geometry.version,
+        id=geometry.ids.astype(np.int32),
+        patch=geometry.patch.astype(np.int32),
+        limb=geometry.limb.astype(np.int32),
+        patches=[
+            words.Patch(name, one.gain, one.floor, one.saturation)
+            for name, one in zip(geometry.patches, geometry.sensitivities, strict=True)
+        ],
+        limbs=[
+            words.Limb(
+                name=name,
+                body=limb.body,
+                **dict(zip(("x", "y", "z"), limb.origin.tolist(), strict=True)),
+                **dict(zip(rows, limb.axes.ravel().tolist(), strict=True)),
+            )
+            for name, limb in zip(geometry.limbs, geometry.frames, strict=True)
+        ],
+        **columns,
+    )
+
+
+def proxy_of(interface: rt.Interface) -> type[rt.Proxy]:
+    """What generated code would have for a port of this interface."""
+
+    def bind_all(self: Any, bind: Any) -> None:
+        for one in interface.operations:
+            setattr(self, one.name, bind(one))
+
+    return type(f"{interface.name}Proxy", (rt.Proxy,), {"INTERFACE": interface, "_bind": bind_all})
+
+
+class Robot(Stepped):
+    """Serves an arm and a skin. What moves the arm and what the skin feels is up to subclasses.
+
+    `name_of_robot` and `side` are set in a subclass, see `of`.
+    """
+
+    name_of_robot, side = "nao_h25", "left_arm"
+    SPEC = ComponentSpec(
+        name="robot",
+        period=round(TICK * 1000),
+        middleware="inproc",
+        implements=(
+            ServedPort(
+                "GenericArm",
+                words.GENERICARM,
+                {"getLimits": "limits", "move": "move", "stop": "stop"},
+            ),
+            ServedPort("Skin", words.SKIN, {"getGeometry": "get_geometry"}),
+        ),
+        publishes=(
+            CalledPort("SkinFrame", proxy_of(words.SKINFRAME), "frames_proxy"),
+            CalledPort("GenericArmState", proxy_of(words.GENERICARMSTATE), "states_proxy"),
+            CalledPort("Clock", ClockProxy, "clock_proxy"),
+        ),
+    )
+    frames_proxy: Any
+    states_proxy: Any
+
+    @classmethod
+    def of(cls, robot: str, side: str) -> type[Robot]:
+        return type("ThisRobot", (cls,), {"name_of_robot": robot, "side": side})
+
+    def initialize(self) -> None:
+        super().initialize()
+        robot = description(self.name_of_robot)
+        self.part = robot.part(self.side)
+        self.arm, self.geometry = GenericArm(self.part), SkinGeometry.of(robot)
+        self.sequence = self.asked = self.stops = 0
+        self.feels = self.tells = self.answers = True
+        self.spoil: Callable[[Any], Any] = lambda frame: frame
+        self.moves: list[tuple[float, Floats, Floats]] = []
+        self.poses: list[Floats] = []
+
+    def lives(self) -> Floats:
+        """Let `TICK` pass; where the arm is then (5,)."""
+        raise NotImplementedError
+
+    def felt(self) -> Floats:
+        """The forces of the taxels."""
+        raise NotImplementedError
+
+    def tick(self) -> None:
+        """Move on, tell where the arm is, tell what the skin feels."""
+        pose, now = self.lives(), self.clock.now()
+        self.poses.append(pose)
+        if self.tells:
+            none = np.zeros(5)
+            self.states_proxy.armState(words.ArmState(now, pose, none, none, moving=False))
+        self.sequence += 1
+        forces = self.felt().astype(np.float32)
+        frame = words.Frame(self.sequence, now, self.geometry.version, forces)
+        frame = self.spoil(frame) if self.feels else None
+        if frame is not None:
+            self.frames_proxy.frame(frame)
+
+    # What it serves.
+
+    def get_geometry(self) -> Any:
+        self.asked += 1
+        return told(self.geometry)
+
+    def limits(self) -> Any:
+        self.answer()
+        arm = self.arm
+        return words.ArmLimits(
+            arm.low, arm.high, arm.speed_limits, self.part.start, arm.mapping.available
+        )
+
+    def move(self, position: Floats, speed: Floats) -> Any:
+        self.answer()
+        self.moves.append((self.clock.now(), position, speed))
+        return words.Outcome()
+
+    def stop(self) -> None:
+        self.answer()
+        self.stops += 1
+
+    def answer(self) -> None:
+        if not self.answers:
+            raise RuntimeError("the cable is out")
+
+
+class Puppet(Robot):
+    """See the module."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        self.pose = self.goal = self.part.start
+        self.speed = np.zeros(5)
+        self.forces = np.zeros(self.geometry.size)
+
+    def lives(self) -> Floats:
+        step = np.clip(self.goal - self.pose, -self.speed * TICK, self.speed * TICK)
+        self.pose = self.pose + step
+        return self.pose
+
+    def felt(self) -> Floats:
+        return self.forces
+
+    def move(self, position: Floats, speed: Floats) -> Any:
+        outcome = super().move(position, speed)
+        self.goal, self.speed = position, speed
+        return outcome
+
+    def stop(self) -> None:
+        super().stop()
+        self.goal = self.pose
+
+
+class Touched(Stage):
+    """A reflex and a robot. `said` are parameters of the reflex, as on its command line."""
+
+    def __init__(
+        self,
+        robot: str = "nao_h25",
+        side: str = "left_arm",
+        kind: type[Robot] = Puppet,
+        **said: object,
+    ) -> None:
+        given = {"description": DESCRIPTIONS / f"{robot}.yaml", "part": side, **said}
+        overrides = tuple(f"{key}={value}" for key, value in given.items())
+        super().__init__(kind.of(robot, side), [(REFLEX.worker, RunSettings(), overrides)])
+        self.reflex = self.proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
+
+    @property
+    def robot(self) -> Any:
+        return self.world
+
+    @property
+    def state(self) -> str:
+        """The one active state of the machine."""
+        (state,) = self.worker().machine.states
+        return state
+
+    def awake(self) -> Touched:
+        """Let it find skin and arm."""
+        self.run(0.7)
+        assert self.state == "Watching", self.worker().reason
+        return self
+
+    def field(self, name: str) -> law.Field:
+        return next(one for one in self.robot.part.fields if one.name == name)
+
+    def near(self, field: law.Field, distance: float) -> Bools:
+        """The taxels on the field's limb that are nearer than this to its centre."""
+        geometry = self.robot.geometry
+        limb = geometry.limbs.index(f"{self.robot.side}/{field.limb}")
+        away = np.linalg.norm(geometry.points - field.centre, axis=1)
+        return (geometry.limb == limb) & (away < distance)
+
+    def press(self, name: str, newtons: float, distance: float = 0.01) -> None:
+        """All taxels near the centre of a field feel so much, until something else is pressed."""
+        self.robot.forces = np.where(self.near(self.field(name), distance), newtons, 0.0)
+
+    def release(self) -> None:
+        self.robot.forces = np.zeros(self.robot.geometry.size)

@@ -1,0 +1,41 @@
+"""The reflex component over simulated time: what it does when, and where the arm goes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from puppet import Touched
+
+
+@pytest.fixture
+def touched() -> Iterator[Touched]:
+    made = Touched()
+    yield made
+    made.close()
+
+
+def test_a_touch_withdraws_holds_and_returns(touched: Touched) -> None:
+    touched.awake()
+    start, field = touched.robot.pose, touched.field("lower_arm_under")
+    assert touched.robot.moves == []
+    touched.press("lower_arm_under", 5.0)
+    touched.run(0.02)
+    assert touched.state == "Withdrawing"
+    _, goal, _ = touched.robot.moves[0]
+    gain = (goal - start)[0] / field.motion[0]
+    assert 0.5 < gain <= 1.0
+    assert goal == pytest.approx(start + gain * field.motion)
+    touched.release()
+    touched.run(0.3)
+    assert touched.state == "Holding"
+    touched.run(0.4)
+    assert touched.state == "Returning"
+    assert touched.robot.moves[-1][1] == pytest.approx(touched.robot.part.start)
+    touched.run(2.0)
+    assert touched.state == "Watching"
+    assert touched.robot.pose == pytest.approx(start, abs=0.03)
+    assert touched.reflex.getStatistics().withdrawals == 1
+    assert len(touched.robot.moves) == 2
+    assert np.isfinite(touched.robot.poses).all()
