@@ -1,4 +1,4 @@
-"""The Python side of the runtime's own interfaces is what rcgen makes of their IDSL files."""
+"""The Python side of the interfaces that the library itself calls is what rcgen makes of their IDSL files."""
 
 from __future__ import annotations
 
@@ -23,17 +23,26 @@ Component x
     language Python;
 };
 """
+SIMULATION = """\
+import "Simulation.idsl";
+Component x { Communications { requires Simulation; }; language Python; };
+"""
 
 
 @pytest.mark.parametrize(
-    ("cdsl", "name"), [(COMPONENT, "component_interface"), (CLOCK, "clock_interface")]
+    ("cdsl", "name"),
+    [
+        (COMPONENT, "runtime/component_interface"),
+        (CLOCK, "runtime/clock_interface"),
+        (SIMULATION, "hardware/simulation_interface"),
+    ],
 )
 def test_the_generated_module_is_fresh(tmp_path: Path, cdsl: str, name: str) -> None:
     (tmp_path / "x.cdsl").write_text(cdsl)
     made = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
     assert made.exit_code == 0, made.output
     fresh = (tmp_path / "generated/interfaces.py").read_text()
-    module = ROOT / f"robocomp_dsl/runtime/{name}.py"
+    module = ROOT / f"robocomp_dsl/{name}.py"
     assert module.read_text() == fresh, (
         "an IDSL file in interfaces/ or the generator has changed:"
         f" put the new generated/interfaces.py into {module.relative_to(ROOT)}"

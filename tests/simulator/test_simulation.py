@@ -6,10 +6,12 @@ import math
 from pathlib import Path
 from typing import Any
 
+import mujoco
 import numpy as np
 import pytest
 from worlds import ROOM, Served, served
 
+from robocomp_dsl.hardware.mujoco import sight
 from robocomp_dsl.hardware.mujoco.simulation import Options
 
 NOISY = ROOM.replace('<differentialrobot id="robot"', '<differentialrobot id="robot" noise="20"')
@@ -176,3 +178,48 @@ def test_divergence_is_told_and_answered_as_configured(tmp_path: Path, choice: A
     assert hand.getState().time == 0.0
     it.advance(0.5)
     assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(3100, abs=1)
+
+
+def test_who_looks_sees_the_world_as_it_is(world: Served) -> None:
+    hand = world.ports["Simulation"]
+    told = hand.getModel()
+    assert told.version == mujoco.mj_versionString()
+    model, data = sight.read(told.data), world.simulation.world.data
+    names = [model.body(i).name for i in range(model.nbody)]
+    assert names == [world.simulation.world.model.body(i).name for i in range(model.nbody)]
+    driven(world)
+    seen = hand.getSight()
+    assert (seen.time, seen.revision) == (world.simulation.time, told.revision)
+    assert seen.positions.tolist() == data.qpos.tolist()
+    assert seen.poses.reshape(-1, 7)[:, :3] == pytest.approx(data.xpos, abs=1e-6)
+    robot = seen.poses.reshape(-1, 7)[names.index("robot")]
+    pose = hand.getPoses(0, ["robot"])[0]
+    assert robot[:2] * 1000 == pytest.approx([pose.x, pose.z], abs=0.01)
+    hand.reset()
+    assert hand.getSight().revision == told.revision, "the same nodes"
+
+
+def test_another_world_has_another_revision(world: Served) -> None:
+    hand, types = world.ports["Simulation"], world.types
+    first, kept = hand.getSight(), hand.snapshot()
+    pose = types.Pose3D(1, 2, 3, 0, 0, 0)
+    world.ports["InnerModelManager"].addTransform("mark", "", "floor", pose)
+    second = hand.getSight()
+    assert second.revision != first.revision
+    assert len(second.poses) == len(first.poses) + 7
+    hand.restore(kept)
+    third = hand.getSight()
+    assert third.revision not in {first.revision, second.revision}
+    assert len(third.poses) == len(first.poses)
+
+
+def test_what_touches_is_seen(tmp_path: Path) -> None:
+    text = """<innerModel><plane id="ground" ny="1" size="900,900,50" py="-25" collide="1"/>
+    <transform id="crate" engine="bullet" mass="1" ty="60">
+      <plane id="side" ny="1" size="100,100,100" collide="1"/></transform></innerModel>"""
+    world = served(tmp_path, text)
+    assert len(world.ports["Simulation"].getSight().contacts) == 0
+    world.until(lambda: len(world.ports["Simulation"].getSight().contacts))
+    contacts = world.ports["Simulation"].getSight().contacts.reshape(-1, 6)
+    assert contacts[:, 2] == pytest.approx(0, abs=0.01)
+    assert np.abs(contacts[:, 3:]) == pytest.approx(np.tile([0, 0, 1], (len(contacts), 1)), abs=0.1)

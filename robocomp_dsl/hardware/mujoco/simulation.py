@@ -61,6 +61,7 @@ class Simulation:
         self.noise = NoiseLevel(options.noise)
         self.seed = options.seed
         self.failure = ""
+        self.revision = 0
         self.physics = True
         self.devices: dict[str, Any] = {}
         self.pace: Pace = pace_for(self, None, 1.0)
@@ -85,6 +86,7 @@ class Simulation:
 
     def restore(self, branch: Branch) -> None:
         """Go on from here, at its time."""
+        self.revision += 1
         self.become(branch)
         self.pace.anew(self.world.reached)
 
@@ -119,6 +121,7 @@ class Simulation:
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
         """Another scene, in which all that is still there goes on. Raises `SceneError`."""
         made = self._built(scene, self.branch.devices, self.world, forget)
+        self.revision += 1
         failure = self.failure
         self.become(made)
         self.failure = failure

@@ -188,7 +188,38 @@ class SimulationServant(Servant):
         self._found(self._forks, "fork", fork)
         del self._forks[fork]
 
+    # -- to be looked at ----------------------------------------------------------------------
+
+    def getModel(self) -> Any:
+        """All that is simulated."""
+        it = self.device()
+        with it.turns:
+            data, revision = self._sight.written(it.world.model), it.revision
+        return self.types.Model(self._sight.VERSION, revision, data)
+
+    def getSight(self) -> Any:
+        """Where everything is."""
+        it = self.device()
+        with it.turns:
+            seen, revision, time = self._sight.seen(it.world), it.revision, it.time
+        return self.types.Sight(
+            time=time,
+            realTimeFactor=it.pace.factor,
+            paused=it.pace.paused,
+            revision=revision,
+            positions=seen.positions,
+            poses=seen.poses.ravel(),
+            contacts=seen.contacts.ravel(),
+        )
+
     # -- inside -------------------------------------------------------------------------------
+
+    @property
+    def _sight(self) -> Any:
+        # Needs MuJoCo, which servants of real devices in the same table do not.
+        from robocomp_dsl.hardware.mujoco import sight  # noqa: PLC0415
+
+        return sight
 
     def _copy(self) -> Any:
         it = self.device()
