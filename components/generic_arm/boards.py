@@ -6,13 +6,15 @@ readings (m,) of the arm's joints in generic order, and commands to the boards. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from board import Board, Joints, Overtaken
 from generated.interfaces import ControlBoardProxy
 
+from robocomp_dsl.runtime.parameters import ConfigError, Finding, Place
+from robocomp_dsl.runtime.parameters.findings import Text
 from robocomp_dsl.tactile.arm.generic_arm import Control, Orders
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.description.model import Part
@@ -115,15 +117,22 @@ class Boards:
         return proceed
 
 
-def joined(part: Part, proxies: Sequence[tuple[str, ControlBoardProxy]]) -> Boards:
-    """The boards of `part`; its physical parts are at `proxies` in the order of the description."""
+def joined(part: Part, file: str, proxies: Mapping[str, ControlBoardProxy]) -> Boards:
+    """The boards of `part` of `file`: its physical parts, at the ports in their order.
+
+    Raises `ConfigError` where there is no port for one of them, or no joint at all.
+    """
     servos = [one for one in part.servos if one.joint]
-    parts = dict.fromkeys(one.part for one in servos)
+    physical = list(dict.fromkeys(one.part for one in servos))
+    if not 0 < len(physical) <= len(proxies):
+        said = f"`{part.name}` is on {len(physical)} physical parts: {', '.join(physical)}"
+        place = Place(Text(file, ()), part.place.line, part.place.column)
+        raise ConfigError([Finding(place, said, help=f"there are ports for {len(proxies)}")])
     boards = []
-    for physical, (port, proxy) in zip(parts, proxies, strict=False):
-        at = np.flatnonzero([one.part == physical for one in servos])
+    for name, (port, proxy) in zip(physical, proxies.items(), strict=False):
+        at = np.flatnonzero([one.part == name for one in servos])
         names = tuple(servos[i].joint for i in at)
-        boards.append(Board(port, proxy, Joints(physical, names, at)))
+        boards.append(Board(port, proxy, Joints(name, names, at)))
     return Boards(boards, len(servos))
 
 

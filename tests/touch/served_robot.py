@@ -13,7 +13,7 @@ from typing import Any
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
 from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.boards import board_names, robot_board
+from robocomp_dsl.hardware.robots.boards import board_names, robot_board, whole_robot
 from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
 from robocomp_dsl.hardware.robots.catalog import ROBOTS
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
@@ -32,16 +32,15 @@ class ServedRobot:
 
     def __init__(self, name: str, interfaces: ModuleType, domain: str) -> None:
         self.robot = ROBOTS[name]()
-        self.parts = {
-            b: SimulatedBoard(robot_board(self.robot, b)) for b in board_names(self.robot)
-        }
+        self.part = SimulatedBoard(whole_robot(self.robot))
+        self.joints = {b: robot_board(self.robot, b).spec.names for b in board_names(self.robot)}
+        self.part.groups = {j: b for b, joints in self.joints.items() for j in joints}
         spec = new_world()
         add_robot(spec, self.robot)
-        self.world = World(spec, list(self.parts.values()))
+        self.world = World(spec, [self.part])
         set_pose(self.world.model, self.world.data, self.robot)
         self.world.advance(0.001)
-        for part in self.parts.values():
-            part.commands.set_mode(None, Mode.POSITION)
+        self.part.commands.set_mode(None, Mode.POSITION)
         self.ticking = True
         self.calls: list[tuple[str, str]] = []
         self._interfaces, self._domain = interfaces, domain
@@ -55,8 +54,9 @@ class ServedRobot:
             "inproc", Host("robot", self._domain, self._execution, Statistics())
         )
         interface = self._interfaces.CONTROLBOARD
-        for name, part in self.parts.items():
-            servant = ControlBoardServant(interface, name, (name,), {name: part})
+        for name, joints in self.joints.items():
+            devices = dict.fromkeys(joints, self.part)
+            servant = ControlBoardServant(interface, name, joints, devices)
             handlers = {
                 one.name: self._watched(
                     name, one.name, getattr(Port(servant, self._turn), one.name)

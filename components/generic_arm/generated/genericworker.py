@@ -21,7 +21,7 @@ from generated.params import GenericArmParams
 
 
 class GenericWorker(Component):
-    """An arm of five joints that is the same on every robot, on top of the control board of a real arm."""
+    """An arm of five joints that is the same on every robot, on top of the control boards of a real arm."""
 
     SPEC = ComponentSpec(
         name="generic_arm",
@@ -50,7 +50,11 @@ class GenericWorker(Component):
                 },
             ),
         ),
-        requires=(CalledPort("board", ControlBoardProxy, "board_proxy"),),
+        requires=(
+            CalledPort("board", ControlBoardProxy, "board_proxy"),
+            CalledPort("board2", ControlBoardProxy, "board2_proxy"),
+            CalledPort("board3", ControlBoardProxy, "board3_proxy"),
+        ),
         publishes=(
             CalledPort(
                 "GenericArmState",
@@ -63,6 +67,8 @@ class GenericWorker(Component):
     )
     params: GenericArmParams
     board_proxy: ControlBoardProxy
+    board2_proxy: ControlBoardProxy
+    board3_proxy: ControlBoardProxy
     genericarmstate_proxy: GenericArmStateProxy
 
     def GenericArm_getState(self) -> ArmState:

@@ -1,0 +1,137 @@
+"""The arm under control: where it is, what it was told, and what of that still lasts.
+
+In: orders of the library, the boards, the time. Out: states and outcomes in generic units. A board
+that fails makes the whole arm fail, until `update` has gone well again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from board import Refusal, WrongBoard
+from boards import Boards
+
+from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm, Orders
+from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.errors import TactileError
+
+STILL = 0.02
+"""A joint that turns slower than this has come to rest [rad/s]."""
+
+AWAY = (MiddlewareError, Refusal, WrongBoard, TactileError)
+"""What may go wrong with the boards; it is tried again until it goes well."""
+
+LASTING = (Control.VELOCITY, Control.TORQUE)
+
+
+@dataclass(frozen=True, slots=True)
+class Beginning:
+    """What happens when the boards are reached: `speed` is a share of the speed limits."""
+
+    what: Literal["nothing", "hold", "start"]
+    speed: float
+    compliant: bool
+
+
+class ArmControl:
+    """`trouble` says why the arm does not answer, empty while it does; `moving` whether it moves.
+
+    What lasts (speeds, torques, glides) ends `hold` s after the last command; 0: never.
+    """
+
+    def __init__(self, arm: GenericArm, boards: Boards, clock: Clock, begin: Beginning) -> None:
+        self.arm, self.hold, self.moving = arm, 0.0, False
+        self.trouble = "its boards have not been reached yet"
+        self._boards, self._clock, self._begin = boards, clock, begin
+        self._reached = self._known = False
+        self._aiming, self._sent = False, 0
+        self._glide: Floats | None = None
+        self._ends = np.inf
+
+    def update(self) -> str:
+        """Reach the boards if need be, read them, go on with what lasts.
+
+        The warning that there is to give, or nothing. Raises one of `AWAY`.
+        """
+        try:
+            warning = "" if self._reached else self._reach()
+            self._read()
+            self._go_on()
+        except AWAY as error:
+            self.trouble, self._reached, self._glide, self._ends = str(error), False, None, np.inf
+            raise
+        self.trouble = ""
+        return warning
+
+    def carry_out(self, orders: Orders, glide: Floats | None = None) -> Bools:
+        """Send orders, from now on renewed as `glide` (3,) wants; which angles (n,) were clipped.
+
+        Raises one of `AWAY`, `Overtaken`.
+        """
+        lasts = orders.control in LASTING and self.hold > 0
+        self._glide = glide
+        self._ends = self._clock.now() + self.hold if lasts else np.inf
+        cut = self._boards.send(orders, self.hold)
+        self._sent += 1
+        self._aiming = orders.control is Control.POSITION
+        self.moving |= self._aiming
+        clipped = orders.clipped.copy()
+        clipped[self.arm.mapping.present] |= cut
+        return clipped
+
+    def soften(self, stiffness: Floats, damping: Floats) -> None:
+        """Generic springs and dampers (n,); empty ones make the joints stiff."""
+        if len(stiffness) or len(damping):
+            self._boards.soften(*self.arm.stiffness(stiffness, damping))
+        else:
+            self._boards.stiffen()
+
+    def stop(self) -> None:
+        """End every motion."""
+        self._glide, self._ends, self._aiming = None, np.inf, False
+        self._boards.stop()
+
+    def _reach(self) -> str:
+        self._boards.reach()
+        self._read()
+        if self._known:
+            self.stop()  # nobody knows what became of the last command
+        self._reached = self._known = True
+        if self._begin.what == "nothing":
+            return ""
+        try:
+            self._take_hold()
+        except Refusal as error:
+            return f"the arm cannot be held: {error}"
+        return ""
+
+    def _take_hold(self) -> None:
+        """Hold the arm, as a spring if that is asked for, or send it to its start pose."""
+        if self._begin.compliant:
+            servos = [one for one in self.arm.part.servos if one.joint]
+            springs = np.array([(one.stiffness, one.damping) for one in servos])
+            self._boards.soften(springs[:, 0], springs[:, 1])
+        self._boards.hold()
+        if self._begin.what == "start":
+            part = self.arm.part
+            self.carry_out(self.arm.move(part.start, part.speed_limits * self._begin.speed))
+
+    def _read(self) -> None:
+        sent = self._sent
+        it = self._boards.read()
+        state = self.arm.sense(it.time, it.position, it.velocity, it.torque)
+        under_way = self._aiming and self._boards.moving()
+        if self._sent == sent:  # else a goal came while this was asked
+            self._aiming = under_way
+        self.moving = self._aiming or bool((np.abs(state.velocity) > STILL).any())
+
+    def _go_on(self) -> None:
+        """Turn a glide into new joint speeds; end what has lasted long enough."""
+        if self._clock.now() >= self._ends:
+            self.stop()
+        elif self._glide is not None:
+            self._boards.send(self.arm.glide(self._glide), self.hold)
