@@ -29,7 +29,8 @@ BODY_ATTRIBUTE = Code(
     Severity.ERROR,
     "the tag has no such attribute",
     """\
-Attributes are case-sensitive, and each tag has its own. RoboComp stops at an unknown one.
+Attributes are case-sensitive, and each tag has its own. RoboComp stops at an unknown one. In a
+simulation it is taken as the one that must be meant: `x` of a `translation` as `tx`, `TX` as `tx`.
 
 Wrong:
 

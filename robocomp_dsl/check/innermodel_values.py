@@ -31,6 +31,9 @@ from robocomp_dsl.syntax.ast_innermodel import Attribute, Element
 
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?|[+-]?inf", re.IGNORECASE)
 _OF_XML = re.compile(r"xmlns$|xmlns:|xml:|xsi:")
+_PREFIXES = ("t", "r", "n", "p")
+"""What older files leave out before the name of an axis."""
+
 _UNIT = re.compile(r"(.*?[\d.])\s*([A-Za-z]+)")
 _LARGEST_WHOLE = 2**31 - 1
 _ENDLESS = (LIMIT, ANGLE_LIMIT, LENGTH_LIMIT)
@@ -44,17 +47,28 @@ def read_values(element: Element, tag: Tag, report: Report) -> dict[str, object]
     """The values that `element` gives."""
     values: dict[str, object] = {}
     for one in element.attributes:
-        kind = tag.attributes.get(one.name.text)
-        if kind is None and _OF_XML.match(one.name.text):
+        name = one.name.text
+        if name not in tag.attributes and _OF_XML.match(name):
             continue
-        if kind is None:
-            _unknown(one, element, tag.attributes, report)
+        if name not in tag.attributes:
+            name = _meant(one, element, tag.attributes)
+            _unknown(one, element, tag.attributes, name, report)
+        if not name:
             continue
+        kind = tag.attributes[name]
         try:
-            values[one.name.text] = _value(one.value.value.strip(), kind)
+            values[name] = _value(one.value.value.strip(), kind)
         except _Unfit:
             _misfit(one, kind, report)
     return values
+
+
+def _meant(one: Attribute, element: Element, known: Mapping[str, Kind]) -> str:
+    """The attribute that an unknown one stands for, if that is beyond doubt: `x` for `tx`."""
+    written = one.name.text
+    fits = [name for name in known if name.lower() == written.lower()]
+    fits = fits or [name for p in _PREFIXES if (name := p + written) in known]
+    return fits[0] if len(fits) == 1 and not element.get(fits[0]) else ""
 
 
 def _value(text: str, kind: Kind) -> object:
@@ -104,20 +118,23 @@ def _triple(given: list[float], kind: Kind) -> tuple[float, float, float]:
     raise _Unfit
 
 
-def _unknown(one: Attribute, element: Element, known: Mapping[str, Kind], report: Report) -> None:
+def _unknown(
+    one: Attribute, element: Element, known: Mapping[str, Kind], taken: str, report: Report
+) -> None:
     name, tag = one.name.text, element.tag.text
-    meant = next((p + name for p in ("t", "r", "n", "p") if p + name in known), "")
+    meant = next((p + name for p in _PREFIXES if p + name in known), "")
     label = f"did you mean `{meant}`?" if meant else did_you_mean(name, known)
     case = nearest(name, known)
     spelt = (
         f"attributes are case-sensitive: `{case}`" if case and case.lower() == name.lower() else ""
     )
+    done = f"until then it is taken as `{taken}`" if taken else ""
     report.add(
         codes.BODY_ATTRIBUTE,
         one.name.span,
         f"`{tag}` has no attribute `{name:.60}`",
         label=label or "it is not used",
-        help=spelt or ("" if label else f"it has {', '.join(f'`{n}`' for n in known)}"),
+        help=spelt or done or ("" if label else f"it has {', '.join(f'`{n}`' for n in known)}"),
         fix=replace(one.name.span, meant) if meant and not element.get(meant) else None,
     )
 

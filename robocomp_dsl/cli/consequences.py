@@ -14,7 +14,7 @@ from robocomp_dsl.diagnostics import Diagnostic, Severity
 _DONE = {
     codes.BODY_DUPLICATE: ("node", "renamed"),
     codes.BODY_VALUE: ("value", "replaced by the default"),
-    codes.BODY_ATTRIBUTE: ("attribute", "left out"),
+    codes.BODY_ATTRIBUTE: ("attribute", "left out or taken as another"),
     codes.BODY_TAG: ("tag", "left out"),
     codes.BODY_NESTING: ("tag", "left out"),
     codes.BODY_TOO_LARGE: ("body", "cut off"),

@@ -21,6 +21,7 @@ from robocomp_dsl.generate.scene import lower
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
 from robocomp_dsl.hardware.mujoco.model_file import compiled, outermost, read_spec
+from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.robots.build import add_robot, new_world
 from robocomp_dsl.hardware.robots.catalog import ROBOTS
@@ -96,13 +97,14 @@ def _world(path: Path, report: Report) -> Subject | None:
     spans = {node.id: node.span for node, _ in body.nodes()}
     findings: list[Finding] = []
     try:
-        spec, notes = build_spec(Scene.of_data(lower(body)))
+        scene, told = fitting(Scene.of_data(lower(body)))
+        spec, notes = build_spec(scene)
         lit(spec)
         model = compiled(spec, findings)
     except SceneError as error:
         report.add(codes.MODEL_FILE, _named(str(error), spans, body.root.span), str(error))
         return None
-    for note in notes:
+    for note in told + notes:
         report.add(codes.MODEL_SIMPLIFIED, _named(note, spans, body.root.span), note)
     for one in findings:
         _add(one, _named(str(one), spans, body.root.span), report)

@@ -114,6 +114,27 @@ def test_findings(tmp_path: Path, text: str, findings: list[str]) -> None:
     assert [f"{d.code.id} `{d.span.text}` {d.label}" for d in report] == findings
 
 
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ('<translation id="a" x="1" y="-2"/>', {"tx": 1, "ty": -2, "tz": 0}),
+        ('<rotation id="a" x="0.5"/>', {"rx": 0.5, "ry": 0}),
+        ('<translation id="a" x="1" tx="2"/>', {"tx": 2}),
+        ('<transform id="a" x="1"/>', {"tx": 0, "rx": 0}),  # either may be meant
+        ('<plane id="a" x="1"/>', {"nx": 0, "px": 0}),
+        ('<transform id="a" TX="7" Mass="3"/>', {"tx": 7, "mass": 3}),
+        ('<translation id="a" x="wide"/>', {"tx": 0}),
+    ],
+)
+def test_an_unknown_attribute_is_taken_as_the_one_that_is_meant(
+    tmp_path: Path, text: str, values: dict[str, object]
+) -> None:
+    found, report = checked(tmp_path, text)
+    assert "RC802" in {d.code.id for d in report}
+    (node,) = found.root.children
+    assert {name: getattr(node, name) for name in values} == values
+
+
 def test_what_is_wrong_is_left_out_and_the_rest_stands(tmp_path: Path) -> None:
     found, report = checked(
         tmp_path,

@@ -64,7 +64,7 @@ WRONG = {
     ),
     '<innerModel><translation id="a" x="5"/><include path="b.xml"/></innerModel>': (
         "world.xml:1:33: error[RC802]",
-        "1 attribute left out, 1 file not included",
+        "1 attribute left out or taken as another, 1 file not included",
     ),
     '<innerModel><joint id="a" min="2" max="1"/></innerModel>': (
         "world.xml:1:13: error[RC808]",

@@ -55,8 +55,12 @@ class Simulator:
 def simulator(body: Body) -> Simulator:
     """The simulator of a world. Files that the scene names get absolute paths."""
     scene = lower(body)
-    for mesh in scene["meshes"]:
-        mesh["file"] = str(Path(mesh["file"]).absolute()) if mesh["file"] else ""
+    for one, key in (
+        *((m, "file") for m in scene["meshes"]),
+        *((b, "texture") for b in scene["boxes"]),
+    ):
+        if one.get(key):
+            one[key] = str(Path(one[key]).absolute())
     ports = served(scene)
     return Simulator(
         f"{identifier(body.path.stem)}_simulator",
