@@ -11,6 +11,7 @@ import math
 from dataclasses import fields
 from typing import Any
 
+from robocomp_dsl.generate.skin import lower_skin
 from robocomp_dsl.model import body
 
 Data = dict[str, Any]
@@ -22,7 +23,7 @@ _STICKS = (("x", "#ff0000"), ("y", "#00ff00"), ("z", "#0000ff"))
 def lower(source: body.Body) -> Data:
     """The data of `source`."""
     made: Data = {"frames": [{"id": source.root.id, "parent": ""}]}
-    made |= {"boxes": [], "meshes": [], "devices": []}
+    made |= {"boxes": [], "meshes": [], "devices": [], "skins": []}
     taken = {node.id for node, _ in source.nodes()}
     for node, parent in source.nodes():
         if parent is not None:
@@ -42,6 +43,10 @@ def _lower(node: body.Node, parent: body.Node, made: Data, taken: set[str]) -> N
             made["meshes"].append(_mesh(node, parent))
         case body.Axes():
             made["boxes"] += _sticks(node, parent, taken)
+        case body.Skin() if any(one["limbs"][0]["body"] == parent.id for one in made["skins"]):
+            return  # a frame has one skin; the checks have told so
+        case body.Skin():
+            made["skins"].append(lower_skin(node, parent.id))
     if isinstance(node, _SERVED) or node.tag == "display":
         made["devices"].append(_device(node, parent))
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
+from robocomp_dsl.hardware.scene_skin import Skin
+
 Axis: TypeAlias = Literal["x", "y", "z"]
 Triple: TypeAlias = tuple[float, float, float]
 Given: TypeAlias = Literal["", "body", "joint", "mark"]
@@ -126,6 +128,7 @@ class Scene:
     meshes: tuple[Mesh, ...] = ()
     devices: tuple[Device, ...] = ()
     model: Model | None = None
+    skins: tuple[Skin, ...] = ()
 
     @classmethod
     def of_data(cls, data: Mapping[str, Any], folder: Path = Path()) -> Scene:
@@ -137,6 +140,7 @@ class Scene:
             tuple(Mesh(**_tuples(one)) for one in data["meshes"]),
             tuple(Device(**one) for one in data["devices"]),
             Model(**model | {"file": folder / model["file"]}) if model else None,
+            tuple(Skin.of_data(one) for one in data.get("skins", ())),
         )
 
 

@@ -48,6 +48,8 @@ def parents(scene: Scene) -> dict[str, str]:
     for device in scene.devices:
         if device.id not in frames:
             below.setdefault(device.frame, []).append(device.id)
+    for skin in scene.skins:
+        below.setdefault(skin.id, []).extend(patch.name for patch in skin.patches)
     found: dict[str, str] = {}
     todo = [(ROOT, "")]
     while todo:
@@ -174,6 +176,7 @@ def without(scene: Scene, id: str) -> Scene:
         boxes=tuple(one for one in scene.boxes if one.id not in gone),
         meshes=tuple(one for one in scene.meshes if one.id not in gone),
         devices=tuple(one for one in scene.devices if one.id not in gone),
+        skins=tuple(one.without(gone) for one in scene.skins if one.id not in gone),
     )
 
 
@@ -181,6 +184,8 @@ def moved(scene: Scene, id: str, into: str) -> Scene:
     """A node, with all below it, in another frame; its pose is told there as before."""
     _is_changeable(scene, id, "moved into another")
     below = subtree(scene, id)
+    if any(id == patch.name for skin in scene.skins for patch in skin.patches):
+        raise NodeError(Mistake.WRONG_NODE, f"`{id}` stays in its skin")
     _is_holder(scene, into)
     if into in below:
         raise NodeError(Mistake.WRONG_NODE, f"`{into}` is part of `{id}` and cannot hold it")
@@ -194,6 +199,7 @@ def moved(scene: Scene, id: str, into: str) -> Scene:
             replace(one, frame=into) if one.id == id and one.frame != id else one
             for one in scene.devices
         ),
+        skins=tuple(one.moved_to(into) if one.id == id else one for one in scene.skins),
     )
 
 

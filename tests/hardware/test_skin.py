@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.errors import SceneError
-from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin, SkinSettings
+from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.robots.build import add_robot, new_world, quaternion
 from robocomp_dsl.hardware.robots.catalog import ROBOTS, description
 from robocomp_dsl.hardware.robots.links import Link
+from robocomp_dsl.hardware.skin import SkinSettings
 from robocomp_dsl.tactile.description.model import Limb, Part, Robot
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.manager import Compensation
@@ -199,7 +200,7 @@ def test_raw_values_and_compensation_follow_the_electronics():
     frame = forearm.skin.frame
     assert frame.raw.dtype == np.uint8
     assert np.median(frame.raw) == pytest.approx(240, abs=1)
-    assert forearm.skin.manager is not None
+    assert forearm.skin.electronics.manager is not None
     assert not frame.force.any()
     forearm.world.data.qpos[-1] = 0.0
     forearm.world.data.qvel[:] = 0.0

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from worlds import CLIENT, ROOM, rcgen, run
-
-MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+from worlds import ROOM, assert_clean, rcgen, run, with_simulator
 
 
 @pytest.fixture(scope="module")
@@ -24,14 +19,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_it_is_clean_and_typed(folder: Path, tmp_path: Path) -> None:
-    ruff = str(shutil.which("ruff"))
-    for command in (
-        [ruff, "check", "--isolated", "--no-cache", "."],
-        [ruff, "format", "--diff", "--isolated", "--no-cache", "."],
-        [*MYPY, f"--cache-dir={tmp_path}", "."],
-    ):
-        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stdout
+    assert_clean(folder, tmp_path)
 
 
 def test_again_nothing_is_to_do(folder: Path) -> None:
@@ -92,36 +80,6 @@ hand.resume()
 until(lambda: hand.getState().time > now + 0.1)
 print("driven")
 """
-INPROC = """
-import threading
-from specificworker import SpecificWorker
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-runner = Runner(
-    SpecificWorker,
-    SpecificWorker.SPEC.parameters.load("etc/config.yaml"),
-    RunSettings(domain=sys.argv[2], middleware="inproc"),
-)
-runner.start()
-"""
-ZENOH = """
-import subprocess
-process = subprocess.Popen([sys.executable, "main.py", "--domain", sys.argv[2]])
-"""
-ENDS = {
-    "inproc": "\nrunner.stop()\nassert runner.wait()\n",
-    "zenoh": "\nprocess.terminate()\nassert process.wait(30) == 0\n",
-}
-STARTS = {"inproc": INPROC, "zenoh": ZENOH}
-
-
-def with_simulator(middleware: str, body: str) -> str:
-    """A program that starts the simulator, uses it, and ends it whatever happens."""
-    inner = "".join(f"    {line}\n" for line in body.splitlines())
-    failed = "except BaseException:\n    traceback.print_exc()\n    KILL\n    os._exit(1)\n"
-    kill = {"inproc": "pass", "zenoh": "process.kill()"}[middleware]
-    told = failed.replace("KILL", kill)
-    return f"{CLIENT}{STARTS[middleware]}try:\n{inner}{told}{ENDS[middleware]}middleware.close()\n"
 
 
 @pytest.mark.parametrize("middleware", ["inproc", "zenoh"])

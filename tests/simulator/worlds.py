@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import types
@@ -22,6 +23,8 @@ from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port
 from robocomp_dsl.runtime import ServedPort
 
+MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+RUFF = str(shutil.which("ruff"))
 RCGEN = Path(sys.executable).with_name("rcgen")
 
 WALL_Z = 3000.0
@@ -113,6 +116,49 @@ def run(folder: Path, code: str, *arguments: str) -> str:
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
+
+
+INPROC = """
+import threading
+from specificworker import SpecificWorker
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+runner = Runner(
+    SpecificWorker,
+    SpecificWorker.SPEC.parameters.load("etc/config.yaml"),
+    RunSettings(domain=sys.argv[2], middleware="inproc"),
+)
+runner.start()
+"""
+ZENOH = """
+import subprocess
+process = subprocess.Popen([sys.executable, "main.py", "--domain", sys.argv[2]])
+"""
+ENDS = {
+    "inproc": "\nrunner.stop()\nassert runner.wait()\n",
+    "zenoh": "\nprocess.terminate()\nassert process.wait(30) == 0\n",
+}
+STARTS = {"inproc": INPROC, "zenoh": ZENOH}
+
+
+def with_simulator(middleware: str, body: str) -> str:
+    """A program that starts the simulator, uses it, and ends it whatever happens."""
+    inner = "".join(f"    {line}\n" for line in body.splitlines())
+    failed = "except BaseException:\n    traceback.print_exc()\n    KILL\n    os._exit(1)\n"
+    kill = {"inproc": "pass", "zenoh": "process.kill()"}[middleware]
+    told = failed.replace("KILL", kill)
+    return f"{CLIENT}{STARTS[middleware]}try:\n{inner}{told}{ENDS[middleware]}middleware.close()\n"
+
+
+def assert_clean(folder: Path, cache: Path) -> None:
+    """A generated component as the linter, the formatter and the type checker see it."""
+    for command in (
+        [RUFF, "check", "--isolated", "--no-cache", "."],
+        [RUFF, "format", "--diff", "--isolated", "--no-cache", "."],
+        [*MYPY, f"--cache-dir={cache}", "."],
+    ):
+        done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ In: a resolved `Body`, later the `Component` that the descriptions resolve to. O
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,10 +27,14 @@ from robocomp_dsl.generate.simulator.offers import (
     not_served,
     published,
     served,
+    skin_rate,
 )
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.body import Body
 from robocomp_dsl.model.component import Component
+
+_NUMBERS = re.compile(r"\[\n\s*(-?[\d.][^\[\]{}\"]*?)\n\s*\]")
+"""A list of nothing but numbers, each on a line of its own."""
 
 FOLDER = "python/simulator/"
 WORKER = "specificworker.py"
@@ -45,6 +50,7 @@ class Simulator:
     ports: tuple[ServedAs, ...]
     topics: tuple[Published, ...]
     unserved: tuple[tuple[str, str], ...]
+    skin_rate: float = 0.0
 
     @property
     def title(self) -> str:
@@ -69,6 +75,7 @@ def simulator(body: Body) -> Simulator:
         ports,
         published(ports),
         tuple(not_served(scene)),
+        skin_rate(scene),
     )
 
 
@@ -93,7 +100,13 @@ def files(made: Simulator, component: Component) -> list[OutputFile]:
     planned = [one for one in plan(component) if one.path != WORKER]
     return [
         *planned,
-        OutputFile("generated/scene.json", f"{json.dumps(data, indent=1, ensure_ascii=False)}\n"),
+        OutputFile("generated/scene.json", _text(data)),
         OutputFile("generated/simulator.py", render(f"{FOLDER}simulator.py.jinja", code=code)),
         OutputFile(WORKER, render(f"{FOLDER}{WORKER}.jinja", code=code), keep=True),
     ]
+
+
+def _text(data: dict[str, Any]) -> str:
+    """JSON for people: lists of numbers are rows."""
+    spread = json.dumps(data, indent=1, ensure_ascii=False)
+    return _NUMBERS.sub(lambda found: f"[{' '.join(found[1].split())}]", spread) + "\n"

@@ -5,7 +5,7 @@ In: a component and its names. Out: plain data for the template.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.generate import docs, layout, literals, names
@@ -15,6 +15,12 @@ from robocomp_dsl.generate.simulator.offers import Published
 from robocomp_dsl.generate.worker_imports import specific_imports
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.interface import Operation
+from robocomp_dsl.model.parameter import Kind
+
+SKIN = "skin"
+"""The group of parameters that a world with skin has."""
+
+_TYPES = {Kind.STRING: "str", Kind.FLOAT: "float", Kind.BOOL: "bool"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +34,11 @@ class Delegation:
 
 @dataclass(frozen=True, slots=True)
 class SimulatorCode:
-    """The module. `source` is the file that the world was described in."""
+    """The module. `source` is the file that the world was described in.
+
+    `topics` are published in every period, `streams` by the devices themselves; `skin` are the
+    names and types of the parameters of a skin, if there is one.
+    """
 
     title: str
     source: str
@@ -36,6 +46,8 @@ class SimulatorCode:
     imports: tuple[str, ...]
     methods: tuple[Delegation, ...]
     topics: tuple[str, ...]
+    streams: tuple[str, ...]
+    skin: tuple[tuple[str, str], ...]
 
 
 def simulator_code(
@@ -50,8 +62,29 @@ def simulator_code(
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(called)),
         methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
-        topics=tuple(_publication(one, proxies[one.port]) for one in topics),
+        topics=tuple(_publication(o, proxies[o.port]) for o in topics if not o.topic.at_once),
+        streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
+        skin=_skin_parameters(component),
     )
+
+
+def _streams(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
+    """For each port the statement that lets it publish by itself."""
+    for source in dict.fromkeys(one.source for one in topics):
+        told = [
+            f"self.{proxies[one.port]}.{one.topic.operation}"
+            for one in topics
+            if one.source == source
+        ]
+        port = f"self.ports[{literals.quoted(source)}]"
+        yield layout.statement("", layout.call(f"{port}.publish", *told), BODY)
+
+
+def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
+    """The live parameters of the group `skin` with their types; none without skin."""
+    given = component.parameters.parameters if component.parameters else ()
+    found = next((one for one in given if one.name == SKIN and one.members), None)
+    return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
 
 
 def _publication(one: Published, proxy: str) -> str:

@@ -41,6 +41,7 @@ OFFERS = (
     Offer("ultrasound", "Ultrasound", shared=True),
     Offer("battery", "BatteryStatus"),
     Offer("touchsensor", "TouchSensor", shared=True),
+    Offer("skin", "Skin", shared=True),
 )
 
 
@@ -59,13 +60,17 @@ _SHARED = tuple(dict.fromkeys(one.interface for one in OFFERS if one.shared))
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """What the answer of `asked` of a port that serves `interface` is published as."""
+    """What the answer of `asked` of a port that serves `interface` is published as.
+
+    In every period; or `at_once`, when there is something new, whatever the period.
+    """
 
     interface: str
     asked: str
     published: str
     operation: str
     file: str
+    at_once: bool = False
 
 
 TOPICS = (
@@ -73,6 +78,8 @@ TOPICS = (
     Topic("JointMotor", "getAllMotorState", "JointMotorPub", "motorStates", "JointMotorPub"),
     Topic("ControlBoard", "getState", "ControlBoardState", "boardState", "ControlBoard"),
     Topic("IMU", "getDataImu", "IMUPub", "publish", "IMUPub"),
+    Topic("Skin", "getFrame", "SkinFrame", "frame", "Skin", at_once=True),
+    Topic("Skin", "getContacts", "SkinContacts", "contacts", "Skin", at_once=True),
 )
 
 
@@ -150,6 +157,12 @@ def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
     """Devices (id, kind) that no interface is there for."""
     kinds = {one.kind for one in OFFERS}
     return [(d["id"], d["kind"]) for d in scene["devices"] if d["kind"] not in kinds]
+
+
+def skin_rate(scene: dict[str, Any]) -> float:
+    """The rate of the fastest skin [Hz]; 0 without one: they tell their frames together."""
+    rates = [d["settings"].get("rate", 50.0) for d in scene["devices"] if d["kind"] == "skin"]
+    return float(max(rates, default=0.0))
 
 
 def _base(scene: dict[str, Any], device: dict[str, Any]) -> Iterator[str]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
@@ -21,11 +21,14 @@ from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.overlaps import overlaps_of
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
 from robocomp_dsl.hardware.mujoco.scene_limits import fitting
+from robocomp_dsl.hardware.mujoco.scene_skins import skin_parts
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
+from robocomp_dsl.hardware.mujoco.skin_stream import SkinStream
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.pace import Pace, pace_for
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port, serve
+from robocomp_dsl.hardware.skin import SkinSettings
 from robocomp_dsl.hardware.turns import Turns
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.runtime.clock import Clock
@@ -41,7 +44,7 @@ class Options:
     """How a world runs.
 
     `step` of the physics in s; `speed` in simulated seconds per second, 0: as fast as it can;
-    `noise` is a factor on what the devices declare.
+    `noise` is a factor on what the devices declare; `skin` is how all skin in it is set up.
     """
 
     seed: int = 1
@@ -49,6 +52,7 @@ class Options:
     speed: float = 1.0
     noise: float = 1.0
     diverged: Literal["reset", "stop"] = "reset"
+    skin: SkinSettings = field(default_factory=SkinSettings)
 
 
 class Simulation:
@@ -59,6 +63,9 @@ class Simulation:
         self.options = options
         self.turns = Turns()
         self.noise = NoiseLevel(options.noise)
+        self.skin = SkinStream()
+        self._skin_settings = options.skin
+        self._skins: set[str] = set()
         self.seed = options.seed
         self.failure = ""
         self.revision = 0
@@ -113,10 +120,24 @@ class Simulation:
         self.devices.clear()
         self.devices.update(branch.devices)
         self.devices[WORLD] = self
+        self._follow_skin(branch)
         for one in branch.devices.values():
             if hasattr(one, "turns"):  # it looks at the world when it likes
                 one.turns = self.turns
         self.failure = ""
+
+    def _follow_skin(self, branch: Branch) -> None:
+        """The skin of this world goes on where that of the last one was."""
+        ids = [one.id for one in branch.scene.skins]
+        self.skin.follow(branch.devices[ids[0]] if ids else None)
+        self.skin.adjust(self._skin_settings)
+        self._skins.update(ids)
+        self.devices.update(dict.fromkeys(self._skins, self.skin))
+
+    def set_skin(self, settings: SkinSettings) -> None:
+        """Set up all skin anew."""
+        self._skin_settings = settings
+        self.skin.adjust(settings)
 
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
         """Another scene, in which all that is still there goes on. Raises `SceneError`."""
@@ -139,6 +160,7 @@ class Simulation:
             self.notes = told + notes
             spec.option.timestep = self.options.step
             parts = parts_of(scene, self.noise, kept)
+            parts |= skin_parts(scene, self.noise, self._skin_settings, kept)
             unique = dict.fromkeys(parts.values())
             world = World(
                 spec, unique, seed=self.seed, before=before, forget=forget, start=scene.model
@@ -198,6 +220,10 @@ class Simulation:
     def stop(self) -> None:
         """Let it rest for good."""
         self.pace.stop()
+
+    def tell(self) -> None:
+        """Let others hear of what has happened, from one thread and outside of the turn."""
+        self.skin.tell()
 
 
 def read_data(path: Path) -> dict[str, Any]:

@@ -7,93 +7,78 @@ that it passes, or not at all.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, Self
 
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.errors import CommandRefused, SceneError, finite
 from robocomp_dsl.hardware.mujoco.contact_forces import ContactRecorder, merge
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.skin import SkinFrame, SkinSettings
 from robocomp_dsl.tactile.skin.contacts import SkinContact, contacts
-from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from robocomp_dsl.tactile.skin.kernel import SIGMA, Kernel
-from robocomp_dsl.tactile.skin.manager import Compensation, SkinManager
-from robocomp_dsl.tactile.skin.sensor import COUNTS_PER_NEWTON, PERFECT, Imperfections, Sensor
+from robocomp_dsl.tactile.skin.electronics import Electronics
+from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
+from robocomp_dsl.tactile.skin.kernel import Kernel
 from robocomp_dsl.tactile.skin.touches import Neighbours
 from robocomp_dsl.tactile.skin.triangle import Raw
 
 Floats = NDArray[np.float64]
 
-
-@dataclass(frozen=True, slots=True)
-class SkinSettings:
-    """How the skin is simulated: `rate` [Hz] of its frames, `sigma` [m] of its kernel.
-
-    With `raw`, frames also hold what the electronics would send; with `compensation`, forces are
-    worked out from that, as on the robot, once `calibrate` was called; `shear` adds the forces
-    along the skin.
-    """
-
-    rate: float = 50.0
-    sigma: float = SIGMA
-    shear: bool = True
-    raw: bool = False
-    imperfections: Imperfections = PERFECT
-    compensation: Compensation | None = None
+LONGEST_CALIBRATION = 600.0
+"""Seconds."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class SkinFrame:
-    """One frame; arrays (n,) in the order of the geometry, `shear` (n, 3) in the limbs' frames.
+class Ears(list[Callable[[SkinFrame], None]]):
+    """Who hears of frames. What a copy of a world does is nobody's business: it has none."""
 
-    `time` [s] is that of the last physics step in it; `off_skin` [N] is the contact force on the
-    covered bodies that no taxel was near to. `raw` and `shear` are None unless asked for.
-    """
-
-    sequence: int
-    time: float
-    geometry: int
-    force: Floats
-    shear: Floats | None
-    raw: Raw | None
-    off_skin: float
+    def __deepcopy__(self, memo: object) -> Self:
+        return type(self)()
 
 
 class SimulatedSkin:
-    """A part of a `World`. `frame` is the last one; `subscribe` hears of every new one."""
+    """A part of a `World`. `frame` is the last one; `subscribe` hears of every new one.
+
+    `geometry` is what frames are told in; `mounts` are its limbs as MuJoCo counts, where that is
+    not the same.
+    """
 
     def __init__(
-        self, geometry: SkinGeometry, settings: SkinSettings | None = None, *, prefix: str = ""
+        self,
+        geometry: SkinGeometry,
+        settings: SkinSettings | None = None,
+        *,
+        prefix: str = "",
+        mounts: Sequence[LimbFrame] | None = None,
+        level: NoiseLevel | None = None,
     ) -> None:
         self.geometry, self.settings = geometry, settings or SkinSettings()
-        self.kernel = Kernel(
-            geometry.points, geometry.limb, len(geometry.limbs), self.settings.sigma
-        )
+        self.mounts = geometry.frames if mounts is None else tuple(mounts)
+        self.kernel = self._kernel()
         self.neighbours = Neighbours.of(geometry.points, geometry.limb)
         self.frame: SkinFrame | None = None
-        self.manager: SkinManager | None = None
+        self.sequence = 0
+        self._level = level or NoiseLevel()
         self._prefix = prefix
-        self._heard: list[Callable[[SkinFrame], None]] = []
-        self._samples: list[Raw] = []
-        self._calibrating = 0
-        self._steps, self._elapsed, self._sequence = 0, 0.0, 0
+        self._heard = Ears()
+        self._steps, self._elapsed = 0, 0.0
 
     def build(self, spec: Any) -> None:
         """Nothing to add: the skin has no body of its own."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find the limbs' bodies; raises `SceneError` for one that is not there."""
+        self.electronics = Electronics(self.geometry, self.settings.imperfections, random)
+        self.find(model, data)
+
+    def find(self, model: Any, data: Any) -> None:
+        """The same limbs in another model."""
         self._model, self._data = model, data
-        self._sensor = Sensor(self.geometry.size, self.settings.imperfections, random)
-        frames = self.geometry.frames
-        bodies = [self._find(limb.body) for limb in frames]
-        origins = np.array([limb.origin for limb in frames]).reshape(-1, 3)
-        axes = np.array([limb.axes for limb in frames]).reshape(-1, 3, 3)
+        bodies = [self._find(limb.body) for limb in self.mounts]
         limb_of_body = np.full(model.nbody, -1)
-        for i, limb in enumerate(frames):
+        for i, limb in enumerate(self.mounts):
             for name in (limb.body, *limb.covers):
                 body = self._find(name)
                 if limb_of_body[body] >= 0:
@@ -101,23 +86,43 @@ class SimulatedSkin:
                 limb_of_body[body] = i
         self._limb_of_geom = limb_of_body[model.geom_bodyid]
         self._recorder = ContactRecorder(
-            model, self._limb_of_geom, np.array(bodies, dtype=np.int64), origins, axes
+            model,
+            self._limb_of_geom,
+            np.array(bodies, dtype=np.int64),
+            np.array([limb.origin for limb in self.mounts]).reshape(-1, 3),
+            np.array([limb.axes for limb in self.mounts]).reshape(-1, 3, 3),
         )
+
+    def adjust(self, settings: SkinSettings) -> None:
+        """Be like this from now on."""
+        sigma, self.settings = self.settings.sigma, settings
+        if settings.sigma != sigma:
+            self.kernel = self._kernel()
+        self.electronics.adjust(settings.imperfections)
 
     def subscribe(self, hear: Callable[[SkinFrame], None]) -> None:
         """Call `hear` with every new frame."""
         self._heard.append(hear)
 
     def calibrate(self, seconds: float = 5.0) -> None:
-        """Take the baseline from the frames of the next `seconds`; nothing may touch the skin."""
-        self._calibrating = max(1, round(seconds * self.settings.rate))
-        self._samples = []
+        """Take the baseline from the frames of the next `seconds`; nothing may touch the skin.
 
-    def contacts(self) -> list[SkinContact]:
-        """The touches of the last frame."""
-        if self.frame is None:
+        Raises `CommandRefused` where nothing is compensated.
+        """
+        finite(seconds=seconds)
+        if not 0.0 < seconds <= LONGEST_CALIBRATION:
+            most = f"{LONGEST_CALIBRATION:g}"
+            raise CommandRefused(f"`seconds` is {seconds:g}, it must be above 0 and at most {most}")
+        if self.settings.compensation is None:
+            raise CommandRefused("the skin is not compensated, so there is nothing to calibrate")
+        self.electronics.calibrate(seconds)
+
+    def contacts(self, frame: SkinFrame | None = None) -> list[SkinContact]:
+        """The touches of a frame, or of the last one."""
+        frame = frame or self.frame
+        if frame is None:
             return []
-        return contacts(self.geometry, self.neighbours, self.frame.force, self.frame.shear)
+        return contacts(self.geometry, self.neighbours, frame.force, frame.shear)
 
     def before_step(self, dt: float) -> None:
         """Nothing to drive."""
@@ -144,10 +149,10 @@ class SimulatedSkin:
             force, missed = share.felt[:, 0], float(share.missed[0])
             shear = share.felt[:, 1:] if self.settings.shear else shear
         self._steps, self._elapsed = 0, 0.0
-        self._sequence += 1
+        self.sequence += 1
         told, raw = self._measured(force, dt)
         return SkinFrame(
-            sequence=self._sequence,
+            sequence=self.sequence,
             time=float(self._data.time),
             geometry=self.geometry.version,
             force=told,
@@ -158,28 +163,18 @@ class SimulatedSkin:
 
     def _measured(self, force: Floats, dt: float) -> tuple[Floats, Raw | None]:
         """What the sensors tell of the true forces: newtons, and raw values if asked for."""
-        if not (self.settings.raw or self.settings.compensation):
-            return self._sensor.read(force), None
-        raw = self._sensor.raw(force, dt)
-        told = self._sensor.read(force)
-        if self.settings.compensation is not None:
-            told = self._compensated(raw, self.settings.compensation)
-        return told, raw if self.settings.raw else None
+        settings, noise, made = self.settings, self._level.factor, self.electronics
+        if settings.compensation is None:
+            raw = made.raw(force, dt, noise) if settings.raw else None
+            return made.read(force, noise), raw
+        raw = made.raw(force, dt, noise)
+        told = made.compensated(raw, dt, settings.compensation)
+        return told, raw if settings.raw else None
 
-    def _compensated(self, raw: Raw, settings: Compensation) -> Floats:
-        """Newtons from raw values; nothing is felt before the first calibration."""
-        if self._calibrating:
-            self._samples.append(raw)
-            self._calibrating -= 1
-            if not self._calibrating:
-                samples = np.array(self._samples, dtype=float)
-                self.manager = SkinManager.calibrated(samples, settings)
-                self._samples = []
-            return np.zeros(len(raw))
-        if self.manager is None:
-            return np.zeros(len(raw))
-        counts = self.manager.compensate(raw.astype(float))
-        return np.where(self.manager.touched(counts), counts / COUNTS_PER_NEWTON, 0.0)
+    def _kernel(self) -> Kernel:
+        geometry = self.geometry
+        limbs = len(geometry.limbs)
+        return Kernel(geometry.points, geometry.limb, limbs, self.settings.sigma)
 
     def _find(self, name: str) -> int:
         body = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, self._prefix + name)

@@ -62,6 +62,7 @@ class FollowsTime:
             passed, self._at = now - self._at, now
             if not (self.paused or self._world.failure):
                 self._world.advance(passed)
+        self._world.tell()
 
     def start(self) -> None:
         """The clock runs without it."""

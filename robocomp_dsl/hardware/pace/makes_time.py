@@ -78,7 +78,8 @@ class MakesTime:
             self._clock.resume()
 
     def keep_up(self) -> None:
-        """It is ahead of all others."""
+        """It is ahead of all others, and now tells them of what has happened."""
+        self._world.tell()
 
     def start(self) -> None:
         """See `Pace`."""

@@ -73,6 +73,7 @@ class OwnPace:
             due = max(due, begun - MOST_BEHIND) + SLICE
             with self._world.turns:
                 passed = self._slice()
+            self._world.tell()
             now = time.perf_counter()
             if self.speed and due > now:
                 self._stopping.wait(due - now)

@@ -32,6 +32,9 @@ class Paced(Protocol):
     def renew(self) -> None:
         """Everything as it was at the start, but for the clock."""
 
+    def tell(self) -> None:
+        """Let others hear of what has happened; not under `turns`."""
+
 
 class Pace(Protocol):
     """`speed` in simulated seconds per second, 0: as fast as it can; `factor` is what it comes to.

@@ -19,6 +19,7 @@ from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.hardware.servants.simulation import SimulationServant
+from robocomp_dsl.hardware.servants.skin import SkinServant
 from robocomp_dsl.hardware.servants.touch_sensor import TouchSensorServant
 from robocomp_dsl.hardware.servants.ultrasound import UltrasoundServant
 
@@ -32,6 +33,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
+    "RoboCompSkin::Skin": SkinServant,
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompCameraSimple::CameraSimple": CameraServant,
     "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,

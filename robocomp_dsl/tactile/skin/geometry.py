@@ -7,12 +7,37 @@ or taken away, and every frame names the version that it belongs to.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol, Self
 
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats, Ints
-from robocomp_dsl.tactile.description.model import Limb, Robot
+from robocomp_dsl.tactile.description.model import Robot
 from robocomp_dsl.tactile.skin.normalise import Normaliser, Sensitivity
+
+
+class LimbFrame(Protocol):
+    """Where the frame of a limb is on the robot; see `description.model.Limb`."""
+
+    @property
+    def name(self) -> str:
+        """What the robot calls the limb."""
+
+    @property
+    def body(self) -> str:
+        """The body that it is on."""
+
+    @property
+    def covers(self) -> tuple[str, ...]:
+        """Further bodies below the same skin."""
+
+    @property
+    def origin(self) -> Floats:
+        """Its place in the body, (3,)."""
+
+    @property
+    def axes(self) -> Floats:
+        """Its axes as columns, (3, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +57,7 @@ class SkinGeometry:
     patches: tuple[str, ...]
     limbs: tuple[str, ...]
     sensitivities: tuple[Sensitivity, ...] = ()
-    frames: tuple[Limb, ...] = ()
+    frames: tuple[LimbFrame, ...] = ()
 
     @classmethod
     def of(cls, robot: Robot, version: int = 1) -> SkinGeometry:
@@ -54,6 +79,26 @@ class SkinGeometry:
             limbs=tuple(name for name, _ in limbs),
             sensitivities=tuple(patch.sensitivity for _, patch in patches),
             frames=tuple(limb for _, limb in limbs),
+        )
+
+    def __deepcopy__(self, memo: object) -> Self:
+        """It never changes: copies of a world share it."""
+        return self
+
+    def same_taxels(self, other: SkinGeometry) -> bool:
+        """Whether both, versions aside, have the same taxels in the same places."""
+        mine, theirs = (
+            [
+                *(one.ids, one.patch, one.limb, one.points, one.normals),
+                *(array for limb in one.frames for array in (limb.origin, limb.axes)),
+            ]
+            for one in (self, other)
+        )
+        return (
+            (self.patches, self.limbs, self.sensitivities)
+            == (other.patches, other.limbs, other.sensitivities)
+            and [limb.body for limb in self.frames] == [limb.body for limb in other.frames]
+            and all(np.array_equal(a, b) for a, b in zip(mine, theirs, strict=True))
         )
 
     @property

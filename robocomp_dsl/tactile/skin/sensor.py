@@ -25,7 +25,7 @@ class Imperfections:
 
     Forces below `threshold` [N] read 0, above `saturation` [N] as that; `noise` [N] is the standard
     deviation of each reading, `drift` [counts per root second] of the wandering baseline, `dead`
-    the share of taxels that never feel anything.
+    the share of taxels that never feel anything; those with the ids in `broken` do not, either.
     """
 
     threshold: float = 0.0
@@ -33,6 +33,7 @@ class Imperfections:
     noise: float = 0.0
     drift: float = 0.0
     dead: float = 0.0
+    broken: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         if not (0.0 <= self.threshold < self.saturation and 0.0 <= self.dead <= 1.0):
@@ -45,33 +46,55 @@ PERFECT = Imperfections()
 
 
 class Sensor:
-    """The taxels' state: which are dead, and where their baselines have drifted to."""
+    """The taxels' state: which are dead, and where their baselines have drifted to.
 
-    def __init__(self, size: int, settings: Imperfections, random: np.random.Generator) -> None:
-        self._settings, self._random = settings, random
-        self.dead: Bools = random.random(size) < settings.dead
+    `counts` per newton are those of all taxels or of each (n,); `broken` (n,) are dead for sure.
+    """
+
+    def __init__(
+        self,
+        size: int,
+        settings: Imperfections,
+        random: np.random.Generator,
+        counts: Floats | float = COUNTS_PER_NEWTON,
+        broken: Bools | None = None,
+    ) -> None:
+        self._random, self._counts = random, counts
+        self._lot = random.random(size)
         self.drift = np.zeros(size)
-        self.changes = any((settings.threshold, settings.noise, settings.dead))
+        self.adjust(settings, broken)
 
-    def read(self, force: Floats) -> Floats:
-        """Readings [N] (n,), never negative and never above the saturation."""
+    def adjust(self, settings: Imperfections, broken: Bools | None = None) -> None:
+        """Be like this from now on; a larger share of dead taxels has the smaller one in it."""
+        self._settings = settings
+        self.dead: Bools = self._lot < settings.dead
+        if broken is not None:
+            self.dead |= broken
+        self.changes = bool(settings.threshold or settings.noise or self.dead.any())
+
+    def read(self, force: Floats, noise: float = 1.0) -> Floats:
+        """Readings [N] (n,), never negative and never above the saturation.
+
+        `noise` is a factor on that of the settings.
+        """
         reading = np.minimum(force, self._settings.saturation)
         if not self.changes:
             return reading
         if self._settings.noise:
-            reading = reading + self._random.normal(0.0, self._settings.noise, len(force))
+            reading = reading + self._random.normal(0.0, self._settings.noise * noise, len(force))
         reading = np.where(reading > self._settings.threshold, reading, 0.0)
         reading[self.dead] = 0.0
         return np.minimum(reading, self._settings.saturation)
 
-    def raw(self, force: Floats, dt: float) -> Raw:
+    def raw(self, force: Floats, dt: float, noise: float = 1.0) -> Raw:
         """Raw values (n,), lower under pressure; `dt` seconds have passed since the last ones."""
         settings, size = self._settings, len(force)
         if settings.drift:
-            self.drift += self._random.normal(0.0, settings.drift * np.sqrt(dt), size)
-        counts = np.minimum(force, settings.saturation) * COUNTS_PER_NEWTON
+            self.drift += self._random.normal(0.0, settings.drift * noise * np.sqrt(dt), size)
+        newtons = np.minimum(force, settings.saturation)
         if settings.noise:
-            counts = counts + self._random.normal(0.0, settings.noise * COUNTS_PER_NEWTON, size)
+            newtons = newtons + self._random.normal(0.0, settings.noise * noise, size)
+        counts = newtons * self._counts
         counts[self.dead] = 0.0
         value = IDLE - np.minimum(np.round(counts + self.drift), IDLE)
         return np.clip(value, 0.0, 255.0).astype(np.uint8)

@@ -1,0 +1,140 @@
+"""`Skin` over a skin, and its frames and touches to those who subscribed."""
+
+# ruff: noqa: N802  called as in the interface
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.skin import SkinDevice, SkinFrame
+from robocomp_dsl.tactile.skin.contacts import SkinContact
+from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
+
+_NONE = np.zeros(0, np.float32)
+_NO_RAW = np.zeros(0, np.uint8)
+
+
+class SkinServant(Servant):
+    """All skins of the port are one device."""
+
+    @property
+    def _skin(self) -> SkinDevice:
+        found: SkinDevice = self.device()
+        return found
+
+    def getGeometry(self) -> Any:
+        """Where the taxels are."""
+        it = self._skin.geometry
+        x, y, z = _columns(it.points)
+        nx, ny, nz = _columns(it.normals)
+        return self.types.Geometry(
+            version=it.version,
+            id=it.ids.astype(np.int32),
+            patch=it.patch.astype(np.int32),
+            limb=it.limb.astype(np.int32),
+            x=x,
+            y=y,
+            z=z,
+            nx=nx,
+            ny=ny,
+            nz=nz,
+            patches=self._patches(it),
+            limbs=[self._limb(name, one) for name, one in zip(it.limbs, it.frames, strict=True)],
+        )
+
+    def getFrame(self) -> Any:
+        """The latest frame."""
+        return self._told(self._skin.frame)
+
+    def getContacts(self) -> Any:
+        """The touches of the latest frame."""
+        frame = self._skin.frame
+        return self._list(frame, self._skin.contacts(frame))
+
+    def calibrate(self, seconds: float) -> None:
+        """Take the baseline."""
+        self._skin.calibrate(seconds)
+
+    def publish(self, frame: Callable[[Any], None], contacts: Callable[[Any], None]) -> None:
+        """Give every new frame to `frame` and its touches to `contacts`.
+
+        No touches are told once, not again with every frame.
+        """
+        touched = True
+
+        def hear(new: SkinFrame) -> None:
+            nonlocal touched
+            frame(self._told(new))
+            found = self._skin.contacts(new)
+            if found or touched:
+                contacts(self._list(new, found))
+            touched = bool(found)
+
+        self._skin.subscribe(hear)
+
+    # -- inside -------------------------------------------------------------------------------
+
+    def _told(self, frame: SkinFrame) -> Any:
+        shear = (_NONE,) * 3 if frame.shear is None else _columns(frame.shear)
+        return self.types.Frame(
+            sequence=frame.sequence,
+            time=frame.time,
+            geometry=frame.geometry,
+            force=frame.force.astype(np.float32),
+            shearX=shear[0],
+            shearY=shear[1],
+            shearZ=shear[2],
+            raw=_NO_RAW if frame.raw is None else frame.raw,
+            offSkin=frame.off_skin,
+        )
+
+    def _list(self, frame: SkinFrame, found: list[SkinContact]) -> Any:
+        limbs = self._skin.geometry.limbs
+        return self.types.ContactList(
+            sequence=frame.sequence,
+            time=frame.time,
+            geometry=frame.geometry,
+            contacts=self.types.Contacts([self._contact(one, limbs) for one in found]),
+        )
+
+    def _contact(self, one: SkinContact, limbs: tuple[str, ...]) -> Any:
+        (x, y, z), (nx, ny, nz) = one.centre.tolist(), one.normal.tolist()
+        sx, sy, sz = one.shear.tolist()
+        return self.types.Contact(
+            limb=limbs.index(one.limb),
+            taxels=len(one.taxels),
+            x=x,
+            y=y,
+            z=z,
+            nx=nx,
+            ny=ny,
+            nz=nz,
+            force=one.force,
+            shearX=sx,
+            shearY=sy,
+            shearZ=sz,
+            pressure=one.pressure,
+            area=one.area,
+        )
+
+    def _patches(self, it: SkinGeometry) -> list[Any]:
+        return [
+            self.types.Patch(name=name, gain=one.gain, floor=one.floor, saturation=one.saturation)
+            for name, one in zip(it.patches, it.sensitivities, strict=True)
+        ]
+
+    def _limb(self, name: str, one: LimbFrame) -> Any:
+        r = one.axes.tolist()
+        turn = {f"r{i}{j}": r[i][j] for i in range(3) for j in range(3)}
+        x, y, z = one.origin.tolist()
+        return self.types.Limb(name=name, body=one.body, x=x, y=y, z=z, **turn)
+
+
+def _columns(rows: Any) -> tuple[Any, Any, Any]:
+    """The columns of an array (n, 3) as three arrays for the wire."""
+    x, y, z = np.ascontiguousarray(rows.T, dtype=np.float32)
+    return x, y, z
