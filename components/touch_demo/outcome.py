@@ -16,6 +16,8 @@ MOVED = 0.01
 """rad by which a joint must have turned for the arm to have begun to move."""
 LEAST = 10.0
 """mm that a touched place must go for the arm to have withdrawn."""
+_THERE = 0.98
+"""Of its whole way, at which a place is as good as there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,7 @@ class Outcome:
     """`force` [N] is the largest that the whole arm felt, `withdrawn` [mm] the way of the place.
 
     `field` is what answered most strongly, with `gain`; times [ms] count from `contact` [s], the
-    first frame that feels anything; `farthest` [s] is when the place was farthest away. What did
+    first frame that feels anything; `farthest` [s] is when the place was as good as there. What did
     not happen is NaN.
     """
 
@@ -111,16 +113,18 @@ def _first_motion(it: Recording, press: Press, contact: float) -> float:
 
 
 def _withdrawn(it: Recording, body: Body, press: Press, contact: float) -> tuple[float, float]:
-    """How far the place went [mm], and when it was farthest."""
+    """How far the place went [mm], and when it was as good as there."""
     place = it.place(press.place)
     body.pose(it.rest, arm_at(it, contact))
-    before, best = body.centre(place), (0.0, contact)
+    before = body.centre(place)
+    times, ways = [contact], [0.0]
     for i in _within(it.arm_time, press):
         if it.arm_time[i] >= contact:
             body.pose(arm=it.arm[i])
-            way = 1000 * float(np.linalg.norm(body.centre(place) - before))
-            best = max(best, (way, float(it.arm_time[i])))
-    return best
+            times.append(float(it.arm_time[i]))
+            ways.append(1000 * float(np.linalg.norm(body.centre(place) - before)))
+    there = int(np.argmax(np.array(ways) >= _THERE * max(ways)))
+    return max(ways), times[there]
 
 
 def words(name: str) -> str:

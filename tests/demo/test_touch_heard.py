@@ -1,0 +1,98 @@
+"""What is heard of a robot, and what of it is known at once."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from touched import ARM, demo, places, skin
+
+
+@pytest.fixture
+def heard():
+    return demo().heard.Heard(skin(), ARM)
+
+
+def frame(time: float, *felt: int, size: int = 0) -> SimpleNamespace:
+    force = np.zeros(size or len(skin().limb), dtype=np.float32)
+    force[list(felt)] = 0.5
+    return SimpleNamespace(time=time, force=force)
+
+
+def state(time: float, *angles: float, moving: bool = False) -> SimpleNamespace:
+    return SimpleNamespace(time=time, position=np.array([*angles, 0, 0, 0, 0.0]), moving=moving)
+
+
+def mine() -> int:
+    where = skin()
+    return int(where.of(f"{ARM}/lower_arm")[0])
+
+
+def others() -> int:
+    where = skin()
+    return int(where.of("right_arm/lower_arm")[0])
+
+
+def test_the_skin_is_free_since_the_first_frame_without_touch(heard) -> None:
+    said = []
+    for i, felt in enumerate([(), (mine(),), (mine(),), (), (others(),)]):
+        heard.frame(frame(0.02 * i, *felt))
+        said.append(heard.free_since)
+    inf = float("inf")
+    assert said == pytest.approx([0.0, inf, inf, 0.06, 0.06])
+
+
+def test_frames_of_another_length_are_not_taken(heard) -> None:
+    heard.frame(frame(0.0, mine()))
+    heard.frame(frame(0.02, size=3))
+    assert heard.free_since == float("inf")
+    assert len(heard.force) == len(skin().limb)
+
+
+@pytest.mark.parametrize(
+    ("angles", "moving", "stands"),
+    [
+        ([0, 0, 0, 0, 0], False, True),
+        ([0, 0, 0, 0, 0], True, False),  # it says that it moves
+        ([0, 0.001, 0.002, 0.001, 0], False, True),
+        ([0, 0.01, 0.02, 0.03, 0.04], False, False),
+        ([0.5, 0, 0, 0, 0], False, False),
+    ],
+)
+def test_an_arm_stands_when_it_has_not_moved(heard, angles, moving, stands) -> None:
+    for i, angle in enumerate(angles):
+        heard.arm_state(state(0.01 * i, angle, moving=moving))
+    assert heard.stands(0.04, 0.004) is stands
+
+
+def test_a_moment_is_too_short_to_tell_that_it_stands(heard) -> None:
+    heard.arm_state(state(0.0, 0.1))
+    assert not heard.stands(0.04, 0.004)
+
+
+def test_all_of_it_becomes_a_recording(heard) -> None:
+    heard.frame(frame(0.02, mine()))
+    heard.arm_state(state(0.03, 0.1))
+    heard.arm_state(state(0.04, 0.2))
+    heard.finger_at(0.03, np.ones(3))
+    heard.finger_at(0.03, np.zeros(3))  # the same moment again
+    heard.answer(SimpleNamespace(time=0.02, field="f", gain=0.5, force=0.4, distance=0))
+    assert heard.complete
+    assert heard.now == 0.04
+    press = demo().recording.Press("lower_arm_outer", 0.0, 0.05)
+    it = heard.recording("NAO", [press], places=places(), rest={"HeadYaw": 0.0})
+    assert it.frame_time.tolist() == [0.02]
+    assert it.force.shape == (1, len(skin().limb))
+    assert it.arm[:, 0].tolist() == [0.1, 0.2]
+    assert it.finger.tolist() == [[1, 1, 1]]
+    assert it.answers == (demo().recording.Answer(0.02, "f", 0.5, 0.4),)
+    assert it.part == ARM
+
+
+def test_only_the_latest_are_kept_when_there_is_no_end() -> None:
+    heard = demo().heard.Heard(skin(), ARM, 3)
+    for i in range(10):
+        heard.arm_state(state(0.01 * i, float(i)))
+        heard.frame(frame(0.01 * i))
+    it = heard.recording("NAO", [], places=(), rest={})
+    assert it.arm[:, 0].tolist() == [7, 8, 9]
+    assert len(it.force) == 3

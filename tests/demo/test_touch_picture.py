@@ -1,0 +1,92 @@
+"""The picture of the touch demo, from recordings; with photographs, and where none can be made."""
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from touched import demo, part, recording, skin, world
+
+from robocomp_dsl.hardware.view.screenless import NoRendering, egl_trouble, osmesa_trouble
+
+WIDE = 1600
+
+
+@pytest.fixture(scope="module")
+def body(tmp_path_factory: pytest.TempPathFactory) -> object:
+    return demo().body.Body(world(tmp_path_factory.mktemp("body")), skin(), part())
+
+
+def column(body, photos, why_not="", **changes):
+    it = recording(**changes)
+    found = demo().outcome.outcomes(it, body)
+    return demo().poster.Column(it, found, found[0], photos, why_not)
+
+
+def like(picture: np.ndarray, colour) -> np.ndarray:
+    return (np.abs(picture[:, :, :3] - np.array(colour)[:3]) < 0.02).all(axis=2)
+
+
+def test_taxels_have_the_colour_of_what_they_felt(body, tmp_path) -> None:
+    photos = tuple(np.full((608, 694, 3), value, dtype=np.uint8) for value in (90, 160))
+    demo().poster.draw(
+        [column(body, photos), column(body, photos, name="iCub")], "A title", "facts", 1.0,
+        tmp_path / "a.png",
+    )  # fmt: skip
+    picture = imread(tmp_path / "a.png")
+    assert picture.shape[1] == WIDE
+    assert 1200 < picture.shape[0] < 2400
+    felt, untouched = demo().colours.pressure(np.array([0.5, 0.0]), 1.0)
+    # 4 taxels of 2 touches on 2 robots, all of 0.5 N
+    assert 8000 > like(picture, felt).sum() > 16 * 40
+    assert like(picture, untouched).sum() > 20 * like(picture, felt).sum()
+    for value in (90, 160):
+        assert like(picture, np.full(3, value / 255)).sum() > 0.8 * 2 * 340 * 300
+    lines = [like(picture, rgb(one)).sum() for one in demo().colours.JOINTS[:4]]
+    assert min(lines) > 300
+
+
+def rgb(code: str) -> tuple[float, ...]:
+    return tuple(int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
+
+
+def test_without_photographs_the_picture_says_why(body, tmp_path) -> None:
+    columns = [column(body, None, "this machine has no OpenGL")]
+    demo().poster.draw(columns, "A title", "facts", 1.0, tmp_path / "a.png")
+    photos = tuple(np.full((608, 694, 3), 90, dtype=np.uint8) for _ in range(2))
+    demo().poster.draw([column(body, photos)], "A title", "facts", 1.0, tmp_path / "b.png")
+    bare, with_photos = (imread(tmp_path / name) for name in ("a.png", "b.png"))
+    assert bare.shape == with_photos.shape
+    assert like(bare, [90 / 255] * 3).sum() < 2000 < like(with_photos, [90 / 255] * 3).sum()
+
+
+@pytest.mark.skipif(bool(egl_trouble() and osmesa_trouble()), reason="needs libegl1 or libosmesa6")
+def test_photographs_show_the_touched_skin_and_the_arm_gone(body) -> None:
+    it = recording(force=1.0)
+    first, _ = demo().outcome.outcomes(it, body)
+    before, after = demo().photograph.before_and_after(it, body, first, 1.0, (320, 280))
+    assert before.shape == after.shape == (280, 320, 3)
+
+    def reddish(pixels: np.ndarray) -> int:
+        red, green, blue = (pixels[:, :, i].astype(int) for i in range(3))
+        return int(((red + green - 2 * blue > 60) | (red - blue > 60)).sum())
+
+    assert reddish(after) == 0
+    assert 20 < reddish(before) < 2000
+    assert (np.abs(before.astype(int) - after).max(axis=2) > 40).mean() > 0.02
+
+
+def test_the_best_seen_touch_is_one_that_went_well(body) -> None:
+    it = recording(answers=recording().answers[2:])  # nothing answered the first
+    found = demo().outcome.outcomes(it, body)
+    assert found[0].trouble
+    assert demo().photograph.best_seen(it, body, found) is found[1]
+
+
+def test_what_cannot_draw_is_told(body, monkeypatch) -> None:
+    def nothing(*_: object) -> None:
+        raise NoRendering("pictures cannot be made without a screen: none")
+
+    monkeypatch.setattr(demo().photograph, "Painter", nothing)
+    it = recording()
+    first, _ = demo().outcome.outcomes(it, body)
+    with pytest.raises(NoRendering, match="without a screen"):
+        demo().photograph.before_and_after(it, body, first, 1.0, (320, 280))
