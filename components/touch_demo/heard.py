@@ -14,12 +14,12 @@ from recording import Answer, Floats, Press, Recording, Skin
 
 
 class Heard:
-    """`news` is notified of everything. All is kept, or the `most` latest of each kind."""
+    """`news` is notified of all about `part`. All of it is kept, or the `most` latest of a kind."""
 
     def __init__(self, skin: Skin, part: str, most: int | None = None) -> None:
         limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]
         self.news = threading.Condition()
-        self._skin, self._part = skin, part
+        self._skin, self.part = skin, part
         self._mine = np.isin(skin.limb, limbs)
         self._frames: deque[tuple[float, Floats]] = deque(maxlen=most)
         self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=most)
@@ -105,7 +105,7 @@ class Heard:
             answers = tuple(self._answers)
         return Recording(
             robot=robot,
-            part=self._part,
+            part=self.part,
             skin=self._skin,
             presses=tuple(presses),
             answers=answers,

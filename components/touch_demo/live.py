@@ -16,12 +16,14 @@ from body import Body
 from colours import on_robot
 from failure import DemoFailed
 from heard import Heard
+from photograph import towards_camera
 from recording import Floats
 
 HIGHEST = 2.0
 """N at the end of the colours."""
 _PICTURES = 20.0  # per second
 _DOT = 0.006
+_DISTANCE = 0.45
 
 
 class Live:
@@ -39,9 +41,18 @@ class Live:
         except OSError as error:
             raise DemoFailed(f"no page at port {port}: {error.strerror}") from None
         self.url = self._page.url
+        self._look()
         self._clouds = [self._cloud(i) for i in range(len(body.skin.limbs))]
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="page", daemon=True)
+
+    def _look(self) -> None:
+        """From ahead and from the touched side, so near that taxels are seen."""
+        limb = self._body.skin.limbs.index(f"{self._heard.part}/lower_arm")
+        middle = self._body.data.body(self._body.skin.bodies[limb]).xpos
+        camera = self._page.stage.server.initial_camera
+        camera.look_at = tuple(middle.tolist())
+        camera.position = tuple((middle + _DISTANCE * towards_camera(middle)).tolist())
 
     def _cloud(self, limb: int) -> tuple[Any, Any]:
         """The taxels of a limb as points that move with its body."""

@@ -32,7 +32,9 @@ def best_seen(it: Recording, body: Body, touches: Sequence[Outcome]) -> Outcome:
             return -1.0
         body.pose(it.rest, arm_at(it, touch.contact))
         place = it.place(touch.place)
-        return touch.withdrawn * max(float(body.outward(place) @ _eye(body.centre(place))), 0.01)
+        return touch.withdrawn * max(
+            float(body.outward(place) @ towards_camera(body.centre(place))), 0.01
+        )
 
     return max(touches, key=worth)
 
@@ -73,7 +75,7 @@ def _aim(body: Body, it: Recording, moments: tuple[float, float], aspect: float)
     points = np.concatenate([_arm(body, it, moment) for moment in moments])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
-    eye = _eye(middle)
+    eye = towards_camera(middle)
     across = np.cross([0, 0, 1], eye)
     across /= np.linalg.norm(across)
     turn = np.column_stack((across, np.cross(eye, across), eye))
@@ -84,7 +86,7 @@ def _aim(body: Body, it: Recording, moments: tuple[float, float], aspect: float)
     body.model.cam_fovy[camera] = _OPENING
 
 
-def _eye(place: Floats) -> Floats:
+def towards_camera(place: Floats) -> Floats:
     """The unit vector to the camera: robots look along x, and y is to their left."""
     eye = np.array([0.8, 0.75 if place[1] >= 0 else -0.75, 0.35])
     towards: Floats = eye / np.linalg.norm(eye)
