@@ -327,3 +327,23 @@ def test_a_description_of_another_robot_does_not_fit():
         compare(description("nao_h21"), facts(ROBOTS["icub_v2"]()))
     with pytest.raises(KeyError):
         description("none")
+
+
+@pytest.mark.parametrize("name", sorted(ROBOTS))
+def test_an_arm_that_is_held_away_from_the_body_meets_nothing(name):
+    """All over the range of its shoulder: shapes that overlap would stop it short of its limits."""
+    robot, part = ROBOTS[name](), description(name).part("left_arm")
+    spec = new_world()
+    add_robot(spec, robot)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    low, high = part.mapping.limits
+    chance = np.random.default_rng(1)
+    for _ in range(300):
+        angles = low + (high - low) * chance.random(5)
+        angles[1] = max(angles[1], 0.25)
+        angles[2:4] = np.clip(angles[2], -0.3, 0.3), min(angles[3], 0.6)
+        device = part.mapping.command(angles).values * part.mapping.to_si[part.mapping.present]
+        names = [joint.rpartition("/")[2] for joint in part.joints]
+        set_pose(model, data, robot, **dict(zip(names, device, strict=True)))
+        assert not data.ncon, [model.geom(int(g)).name for g in data.contact.geom[0]]

@@ -116,7 +116,7 @@ def _upper_arm(shoulder: Mass) -> tuple[Link, ...]:
     yaw = Joint("LElbowYaw", X, -2.08567, 2.08567, 8.26797, 1.547)
     bicep = Mass(0.15777, (0.02455, 0.00563, 0.0033), (8.7181e-5, 2.74712e-4, 2.41812e-4))
     elbow = Mass(0.06483, (-0.02744, 0.0, -0.00014), (5.59588e-6, 2.66179e-5, 2.76294e-5))
-    shape = capsule(LIMB, (-0.017, 0, 0), (0.067, 0, 0))
+    shape = capsule(LIMB, (0, 0, 0), (0.067, 0, 0))
     return (
         Link("LShoulder", "torso", shift(0, 0.098, 0.1), shoulder, pitch),
         Link("LBicep", "LShoulder", shift(0, 0, 0), bicep, roll, (shape,)),
