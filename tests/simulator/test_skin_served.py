@@ -18,7 +18,7 @@ TABLE = """\
       </patch>
     </skin>
   </transform>
-  <transform id="weight" tx="{x}" ty="29.9" tz="{z}" engine="bullet" mass="0.1">
+  <transform id="weight" tx="{x}" ty="29.9" tz="{z}" engine="bullet" mass="{mass}">
     <plane id="cube" size="60,60,60" ny="1" collide="1"/>
   </transform>
 </innerModel>
@@ -26,11 +26,11 @@ TABLE = """\
 PITCH = 8.0
 
 
-def table(x: float = 0.0, z: float = 0.0, side: int = 12) -> str:
-    """A square of taxels on a table, and a cube of 100 g on it at (x, z) mm."""
+def table(x: float = 0.0, z: float = 0.0, mass: float = 0.1, side: int = 12) -> str:
+    """A square of taxels on a table, and a cube of `mass` kg on it at (x, z) mm."""
     at = [(i - (side - 1) / 2) * PITCH for i in range(side)]
     rows = [f'        <taxel x="{a:g}" z="{b:g}" ny="1"/>' for a in at for b in at]
-    return TABLE.format(taxels="\n".join(rows), x=x, z=z)
+    return TABLE.format(taxels="\n".join(rows), x=x, z=z, mass=mass)
 
 
 def test_the_cube_weighs_what_it_weighs(tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ class SimulatedSkin:
         self._level = level or NoiseLevel()
         self._prefix = prefix
         self._heard = Ears()
-        self._steps, self._elapsed = 0, 0.0
+        self._steps, self._elapsed, self._phase = 0, 0.0, 0.0
 
     def build(self, spec: Any) -> None:
         """Nothing to add: the skin has no body of its own."""
@@ -132,7 +132,9 @@ class SimulatedSkin:
         self._recorder.record(self._data)
         self._steps += 1
         self._elapsed += dt
-        if self._elapsed * self.settings.rate >= 1.0 - 1e-9:
+        self._phase += dt * self.settings.rate
+        if self._phase >= 1.0 - 1e-9:
+            self._phase = max(self._phase - 1.0, 0.0) % 1.0
             self.frame = self._make_frame()
             for hear in self._heard:
                 hear(self.frame)

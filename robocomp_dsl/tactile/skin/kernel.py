@@ -9,6 +9,7 @@ come from a grid of small cubes prepared beforehand.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -47,6 +48,10 @@ class Kernel:
                 self._shape[one] = np.ceil(extent / CELL).astype(np.int64) + 1
         self._first = np.concatenate(([0], np.cumsum(self._shape.prod(axis=1))))
         self._fill(limb)
+
+    def __deepcopy__(self, memo: object) -> Self:
+        """It never changes: copies share it."""
+        return self
 
     def share(self, points: Floats, limb: Ints, forces: Floats) -> Share:
         """Spread `forces` (k,) or (k, c) that act at `points` (k, 3) of limbs `limb` (k,)."""

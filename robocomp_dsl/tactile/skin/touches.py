@@ -8,6 +8,7 @@ that iCub's skin manager looks for.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
@@ -24,6 +25,10 @@ class Neighbours:
     size: int
     first: Ints
     second: Ints
+
+    def __deepcopy__(self, memo: object) -> Self:
+        """It never changes: copies share it."""
+        return self
 
     @classmethod
     def of(cls, points: Floats, limb: Ints | None = None, reach: float = REACH) -> Neighbours:

@@ -1,0 +1,247 @@
+"""Skin goes on through all that happens to a world, and is set up while it runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from test_skin_served import table
+from worlds import Served, served
+
+from robocomp_dsl.hardware.skin import SkinSettings
+from robocomp_dsl.hardware.skin_parameters import known_taxels, taxel_ids
+from robocomp_dsl.runtime.parameters import Refused
+from robocomp_dsl.tactile.skin.manager import Compensation
+from robocomp_dsl.tactile.skin.sensor import Imperfections
+
+TWO_PATCHES = """\
+        <taxel x="300" z="0" ny="1"/>
+      </patch>
+      <patch id="coarse" firstid="500" gain="0.1" ty="0 mm" tx="10" rz="180 deg">
+        <taxel x="-300" ny="-1"/>
+      </patch>"""
+
+
+class Touched(Served):
+    """A table with skin and a cube on it, and what is heard of it."""
+
+    def __init__(self, it: Served) -> None:
+        super().__init__(it.simulation, it.ports, it.types)
+        object.__setattr__(self, "frames", [])
+        object.__setattr__(self, "touches", [])
+        it.ports["Skin"].publish(self.frames.append, self.touches.append)
+
+    frames: list[Any]
+    touches: list[Any]
+
+    def go(self, seconds: float) -> Any:
+        """Let time pass; the last frame that was heard."""
+        self.simulation.advance(seconds)
+        self.simulation.tell()
+        return self.frames[-1]
+
+    def set_up(self, **given: Any) -> None:
+        with self.simulation.turns:
+            self.simulation.set_skin(SkinSettings(**given))
+
+
+@pytest.fixture
+def it(tmp_path: Path) -> Touched:
+    return Touched(served(tmp_path, table().replace("      </patch>", TWO_PATCHES, 1)))
+
+
+def numbers(it: Touched) -> list[int]:
+    return [one.sequence for one in it.frames]
+
+
+def test_patches_of_one_skin_share_the_frame_of_the_first(it: Touched) -> None:
+    geometry = it.ports["Skin"].getGeometry()
+    assert geometry.id.tolist() == [*range(100, 245), 500]
+    assert [one.gain for one in geometry.patches] == pytest.approx([0.05, 0.1])
+    last = [getattr(geometry, axis)[-1] for axis in ("x", "y", "z", "nx", "ny", "nz")]
+    assert last == pytest.approx([0.31, 0, 0, 0, 1, 0], abs=1e-6)
+
+
+def test_before_the_first_frame_there_is_none(it: Touched) -> None:
+    failed = it.types.HardwareFailedException
+    with pytest.raises(failed, match="first frame is still to come"):
+        it.ports["Skin"].getFrame()
+    with pytest.raises(failed, match="not compensated"):
+        it.ports["Skin"].calibrate(1.0)
+
+
+def test_numbers_go_on_behind_a_reset(it: Touched) -> None:
+    it.go(0.1)
+    it.ports["Simulation"].reset()
+    assert it.go(0.1).time == pytest.approx(0.1)
+    assert numbers(it) == list(range(1, 11))
+    assert {one.geometry for one in it.frames} == {1}
+
+
+def test_a_snapshot_brings_back_the_skin_and_a_fork_keeps_quiet(it: Touched) -> None:
+    hand = it.ports["Simulation"]
+    it.go(0.51)  # half a frame is under way
+    kept = hand.snapshot()
+    first = [one.force.tobytes() for one in (it.go(0.3), it.go(0.02))]
+    fork = hand.fork()
+    hand.advance(fork, 0.5)
+    count = len(it.frames)
+    hand.restore(kept)
+    again = [one.force.tobytes() for one in (it.go(0.3), it.go(0.02))]
+    assert again == first
+    assert len(it.frames) == count + 16
+    assert numbers(it) == list(range(1, len(it.frames) + 1))
+
+
+def test_the_version_goes_up_when_taxels_change_and_only_then(it: Touched) -> None:
+    nodes, skin = it.ports["InnerModelManager"], it.ports["Skin"]
+    it.go(0.1)
+    nodes.addTransform("shelf", "static", "root", it.types.Pose3D())
+    assert (it.go(0.1).geometry, skin.getGeometry().version) == (1, 1)
+    nodes.removeNode("coarse")
+    assert skin.getGeometry().version == 2
+    frame = it.go(0.1)
+    assert (frame.geometry, len(frame.force)) == (2, 145)
+    assert frame.force.sum() == pytest.approx(0.981, rel=0.02)
+    nodes.moveNode("touch", "shelf")
+    assert [one.body for one in skin.getGeometry().limbs] == ["shelf"]
+    assert it.go(0.1).geometry == 3
+    assert it.frames[-1].force.sum() == 0
+    it.ports["Simulation"].reset()
+    assert it.go(0.1).geometry == 3
+    nodes.removeNode("touch")
+    assert (skin.getGeometry().version, len(skin.getGeometry().id)) == (4, 0)
+    count = len(it.frames)
+    it.go(0.1)
+    assert len(it.frames) == count
+    with pytest.raises(it.types.HardwareFailedException, match="removed"):
+        skin.getFrame()
+    assert numbers(it) == list(range(1, count + 1))
+
+
+def test_an_older_geometry_that_comes_back_is_a_new_version(it: Touched) -> None:
+    hand = it.ports["Simulation"]
+    it.go(0.1)
+    kept = hand.snapshot()
+    it.ports["InnerModelManager"].removeNode("coarse")
+    it.go(0.1)
+    hand.restore(kept)
+    frame = it.go(0.1)
+    assert (frame.geometry, len(frame.force)) == (3, 146)
+
+
+def test_a_patch_stays_in_its_skin(it: Touched) -> None:
+    with pytest.raises(it.types.InnerModelManagerError, match="stays in its skin"):
+        it.ports["InnerModelManager"].moveNode("coarse", "weight")
+
+
+# -- set up while it runs ---------------------------------------------------------------------
+
+
+def test_frames_come_at_their_rate(it: Touched) -> None:
+    it.go(0.1)
+    it.set_up(rate=200.0)
+    it.frames.clear()
+    it.go(0.1)
+    assert len(it.frames) == 20
+    apart = np.diff([one.time for one in it.frames])  # whole steps of 2 ms
+    assert set(apart.round(4).tolist()) == {0.004, 0.006}
+
+
+def test_shear_and_raw_come_when_they_are_asked_for(it: Touched) -> None:
+    frame = it.go(0.5)
+    assert (len(frame.shearX), len(frame.raw)) == (146, 0)
+    it.set_up(shear=False, raw=True)
+    frame = it.go(0.02)
+    assert [len(one) for one in (frame.shearX, frame.shearY, frame.shearZ)] == [0, 0, 0]
+    assert frame.raw.dtype == np.uint8
+    counts = np.round(frame.force / 0.05)
+    assert frame.raw.tolist() == (240 - counts).astype(int).tolist()
+    assert counts.max() > 0
+
+
+def test_a_wider_kernel_spreads_the_same_force(it: Touched) -> None:
+    narrow = it.go(0.5)
+    it.set_up(sigma=0.010)
+    wide = it.go(0.5)
+    assert np.count_nonzero(wide.force) > 2 * np.count_nonzero(narrow.force)
+    assert wide.force.sum() == pytest.approx(0.981, rel=0.02)
+
+
+def test_sensors_as_bad_as_they_are_said_to_be(it: Touched) -> None:
+    full = it.go(0.5).force
+    loaded = int(np.argmax(full))
+    it.set_up(imperfections=Imperfections(broken=(100 + loaded,)))
+    assert it.go(0.02).force[loaded] == 0
+    it.set_up(imperfections=Imperfections(threshold=0.05))
+    felt = it.go(0.02).force
+    assert (felt[full < 0.05] == 0).all()
+    assert felt[loaded] == pytest.approx(full[loaded], rel=0.01)
+    it.set_up(imperfections=Imperfections(saturation=0.03))
+    assert it.go(0.02).force.max() == pytest.approx(0.03)
+    it.set_up(imperfections=Imperfections(noise=0.01))
+    noisy = np.array([it.go(0.02).force for _ in range(20)])
+    assert 0.005 < noisy[:, loaded].std() < 0.02
+    with it.simulation.turns:
+        it.simulation.noise.set(0.0)
+    quiet = np.array([it.go(0.02).force for _ in range(20)])
+    assert quiet[:, loaded].std() < 1e-4
+
+
+def test_compensation_takes_away_the_drift_and_what_lay_there_when_it_began(
+    tmp_path: Path,
+) -> None:
+    it = Touched(served(tmp_path, table(mass=3.0)))
+    drifting = Imperfections(drift=0.5)
+    it.go(0.5)
+    it.set_up(compensation=Compensation(), raw=True, imperfections=drifting)
+    assert it.go(4.9).force.sum() == 0  # it calibrates itself for 5 s
+    assert it.go(0.5).force.sum() == 0  # the cube was there: it is the baseline
+    lift = it.types.Pose3D(0.0, 300.0, 0.0, 0.0, 0.0, 0.0)
+    it.ports["InnerModelManager"].setPoseFromParent("weight", lift)
+    it.simulation.set_physics(False)
+    it.ports["Skin"].calibrate(1.0)
+    it.go(1.1)
+    it.simulation.set_physics(True)
+    assert it.go(0.02).force.sum() == 0
+    frame = it.go(1.0)
+    assert frame.force.sum() == pytest.approx(29.43, rel=0.3)  # small forces are below its floor
+    assert np.count_nonzero(frame.force) >= 16
+    with pytest.raises(it.types.HardwareFailedException, match="above 0"):
+        it.ports["Skin"].calibrate(-1.0)
+    with pytest.raises(it.types.HardwareFailedException, match="finite"):
+        it.ports["Skin"].calibrate(float("nan"))
+
+
+def test_touches_are_told_while_there_are_any_and_once_when_they_end(it: Touched) -> None:
+    it.go(1.0)
+    lift = it.types.Pose3D(0.0, 100.0, 0.0, 0.0, 0.0, 0.0)
+    it.ports["InnerModelManager"].setPoseFromParent("weight", lift)
+    it.simulation.set_physics(False)
+    it.touches.clear()
+    it.go(0.5)
+    assert [len(one.contacts) for one in it.touches][-1] == 0
+    assert [bool(one.contacts) for one in it.touches].count(False) == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "ids"),
+    [("", ()), (" ", ()), ("3", (3,)), ("10-12, 3,3", (3, 10, 11, 12)), ("7 - 7", (7,))],
+)
+def test_lists_of_taxels(words: str, ids: tuple[int, ...]) -> None:
+    assert taxel_ids(words) == ids
+
+
+@pytest.mark.parametrize("words", ["x", "3,", "-3", "5-3", "1-2-3", "0-999999999", "1.5", "3;4"])
+def test_no_lists_of_taxels(words: str) -> None:
+    with pytest.raises(Refused, match="is no"):
+        taxel_ids(words)
+
+
+def test_taxels_that_are_not_there_cannot_be_dead(it: Touched) -> None:
+    geometry = it.simulation.skin.geometry
+    known_taxels("100-110, 500", geometry)
+    with pytest.raises(Refused, match="no taxel 7, 99$"):
+        known_taxels("7, 99-101", geometry)
