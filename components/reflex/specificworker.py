@@ -103,6 +103,8 @@ class SpecificWorker(Lookout):
 
     def SkinFrame_frame(self, frame: Frame) -> None:
         """A new frame: withdraw where fields answer."""
+        if self.sense.geometry is None:
+            return  # it has just begun, and cannot judge frames
         now, forces = self.clock.now(), np.asarray(frame.force, dtype=np.float64)
         try:
             found = self.sense.feel(frame.sequence, frame.time, frame.geometry, forces)

@@ -165,7 +165,7 @@ def test_bad_frames_are_rejected_and_counted(frame, fault):
 
 def test_without_a_geometry_every_frame_is_of_another_one():
     gate = FrameGate()
-    with pytest.raises(RejectedFrame, match="not known yet"):
+    with pytest.raises(RejectedFrame, match="none is known yet"):
         gate.check(1, 0.0, 3, GOOD)
     assert gate.behind
     gate.expect(3, 4)

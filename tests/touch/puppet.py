@@ -104,6 +104,7 @@ class Robot(Stepped):
         robot = description(self.name_of_robot)
         self.part = robot.part(self.side)
         self.arm, self.geometry = GenericArm(self.part), SkinGeometry.of(robot)
+        self.rest = self.part.start
         self.sequence = self.asked = self.stops = 0
         self.feels = self.tells = self.answers = True
         self.spoil: Callable[[Any], Any] = lambda frame: frame
@@ -142,7 +143,7 @@ class Robot(Stepped):
         self.answer()
         arm = self.arm
         return words.ArmLimits(
-            arm.low, arm.high, arm.speed_limits, self.part.start, arm.mapping.available
+            arm.low, arm.high, arm.speed_limits, self.rest, arm.mapping.available
         )
 
     def move(self, position: Floats, speed: Floats) -> Any:
@@ -164,7 +165,7 @@ class Puppet(Robot):
 
     def initialize(self) -> None:
         super().initialize()
-        self.pose = self.goal = self.part.start
+        self.pose = self.goal = self.rest
         self.speed = np.zeros(5)
         self.forces = np.zeros(self.geometry.size)
 
@@ -184,6 +185,14 @@ class Puppet(Robot):
     def stop(self) -> None:
         super().stop()
         self.goal = self.pose
+
+
+class Central(Puppet):
+    """A puppet whose start pose is in the middle of its joints, where no limit is near."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        self.rest = self.pose = self.goal = (self.arm.low + self.arm.high) / 2
 
 
 class Touched(Stage):
@@ -210,6 +219,13 @@ class Touched(Stage):
         """The one active state of the machine."""
         (state,) = self.worker().machine.states
         return state
+
+    def until(self, state: str, seconds: float = 10.0) -> None:
+        """Let time pass until it is in this state."""
+        end = self.world.clock.now() + seconds
+        while self.state != state:
+            assert self.world.clock.now() < end, f"still {self.state}: {self.worker().reason}"
+            self.run(TICK)
 
     def awake(self) -> Touched:
         """Let it find skin and arm."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 import threading
 import uuid
 from collections.abc import Iterable
-from contextlib import suppress
 from typing import Any
 
 from robocomp_dsl.runtime import Component
@@ -105,11 +104,12 @@ class Stage:
         assert self.world.idle.wait(DEADLINE), "a component does not come to rest"
 
     def close(self) -> None:
+        """The followers first: each tells the source that it leaves."""
+        for one in self.runners:
+            one.stop()
+            one.wait()
         self.world.over = True
         self.world.wanted.set()
-        for one in (self.source, *self.runners):
-            one.stop()
-        for one in (self.source, *self.runners):
-            with suppress(Exception):
-                one.wait()
+        self.source.stop()
+        self.source.wait()
         self._middleware.close()

@@ -81,11 +81,11 @@ class ReflexParams(Parameters):
         Parameter(
             "withdraw_speed",
             "float",
-            default=1.0,
+            default=0.9,
             low=0.01,
             high=1.0,
             live=True,
-            doc="Speed of the withdrawal, as a share of what each joint can do.",
+            doc="Speed of the withdrawal, as a share of what each joint can do; motors overshoot a little.",
         ),
         Parameter(
             "return_speed",
@@ -173,7 +173,7 @@ class ReflexParams(Parameters):
     refractory: float
     # The arm goes back when it has not been touched for so long.
     hold: float
-    # Speed of the withdrawal, as a share of what each joint can do.
+    # Speed of the withdrawal, as a share of what each joint can do; motors overshoot a little.
     withdraw_speed: float
     # Speed of the way back, as a share of what each joint can do.
     return_speed: float

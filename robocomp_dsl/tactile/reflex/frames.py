@@ -59,8 +59,8 @@ class FrameGate:
         self, sequence: int, time: float, version: int, values: Floats
     ) -> tuple[FrameFault | None, str]:
         if version != self.version:
-            known = "the geometry is not known yet" if self.version is None else self.version
-            return FrameFault.OTHER_GEOMETRY, f"{version}, not {known}"
+            known = "none is known yet" if self.version is None else f"not {self.version}"
+            return FrameFault.OTHER_GEOMETRY, f"{version}, {known}"
         if values.shape != (self.size,):
             return FrameFault.WRONG_LENGTH, f"{values.size} values, not {self.size}"
         if not (np.isfinite(time) and np.isfinite(values).all()):

@@ -1,0 +1,219 @@
+"""The acceptance table of the reflex at the component's ports: frames in, commands to the arm out.
+
+First with the table's own numbers on a skin of single taxels, then with the taxels of the real
+descriptions. What is expected is worked out here from equations 5 to 7, apart from the library.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from puppet import Central, Touched, words
+
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+
+ROBOTS = ("nao_h25", "icub_v2")
+ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
+THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
+CENTRE = np.array([0.05, 0.0, 0.03])
+RADIUS = 0.03
+FORCES = {"threshold": 1.0, "full": 10.0, "least_change": 0.0005}
+TOLERANCE = 1e-6
+
+Rows = list[tuple[float, float, float]]
+TABLE: list[tuple[str, Rows, Floats]] = [
+    ("1 centre, full force", [(0.05, 0, 10)], THETA),
+    ("2 half the force", [(0.05, 0, 5.5)], np.array([-0.1, 0.15, 0, 0.25, 0.05])),
+    ("3a half the way", [(0.065, 0, 10)], 0.5 * THETA),
+    ("3b half of both", [(0.065, 0, 5.5)], 0.25 * THETA),
+    ("3c around the limb", [(0.05, np.pi / 6, 10)], 0.482362 * THETA),
+    ("4a on the edge", [(0.08, 0, 10)], 0 * THETA),
+    ("4b inside the edge", [(0.0797, 0, 10)], 0.01 * THETA),
+    ("5a at the threshold", [(0.05, 0, 1.0)], 0 * THETA),
+    ("5b above the threshold", [(0.05, 0, 1.09)], 0.01 * THETA),
+    ("6 more than full", [(0.05, 0, 20)], THETA),
+    ("7 two taxels", [(0.045, 0, 2), (0.055, 0, 6)],
+     np.array([-0.062963, 0.094444, 0, 0.157407, 0.031481])),
+    ("8 two touches, opposite", [(0.05, 0, 10), (0.05, np.pi, 10)], THETA),
+    ("9 a weak taxel far off", [(0.05, 0, 10), (0.20, 0, 1.5)], THETA),
+]  # fmt: skip
+
+
+def place(x: float, theta: float) -> tuple[float, float, float]:
+    """On the cone of the table."""
+    return x, RADIUS * np.sin(theta), RADIUS * np.cos(theta)
+
+
+class TableSkin(Central):
+    """A skin of the table's taxels alone, on the lower arm of the real description."""
+
+    def initialize(self) -> None:
+        super().initialize()
+        places = list(dict.fromkeys(row[:2] for _, rows, _ in TABLE for row in rows))
+        points = np.array([place(*one) for one in places])
+        limb = self.geometry.limbs.index(f"{self.side}/lower_arm")
+        n = len(points)
+        self.geometry = replace(
+            self.geometry,
+            ids=np.arange(n),
+            patch=np.zeros(n, int),
+            limb=np.full(n, limb),
+            points=points,
+            normals=np.tile([0.0, 0.0, 1.0], (n, 1)),
+        )
+        self.forces = np.zeros(n)
+        self.places = places
+
+    def touch(self, rows: Rows) -> None:
+        for x, theta, force in rows:
+            self.forces[self.places.index((x, theta))] = force
+
+
+@pytest.fixture
+def stage() -> Iterator[Callable[..., Touched]]:
+    made: list[Touched] = []
+
+    def make(*given: object, **said: object) -> Touched:
+        made.append(Touched(*given, **{**FORCES, **said}))
+        return made[-1].awake()
+
+    yield make
+    for one in made:
+        one.close()
+
+
+@pytest.mark.parametrize(("rows", "motion"), [r[1:] for r in TABLE], ids=[r[0] for r in TABLE])
+@pytest.mark.parametrize(("robot", "side"), ARMS)
+def test_the_table(stage, robot, side, rows, motion) -> None:
+    touched = stage(robot, side, TableSkin)
+    limb = f"{side}/lower_arm"
+    touched.reflex.setFields([words.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
+    start = touched.robot.pose
+    touched.robot.touch(rows)
+    touched.run(0.02)
+    touched.robot.forces[:] = 0.0
+    touched.run(0.3)
+    if not motion.any():
+        assert touched.robot.moves == []
+        assert (touched.robot.pose == start).all()
+        return
+    assert touched.robot.moves[0][1] - start == pytest.approx(motion, abs=TOLERANCE)
+    assert touched.robot.pose - start == pytest.approx(motion, abs=TOLERANCE)  # it went there
+    assert touched.reflex.getStatistics().withdrawals == 1
+
+
+# The same on the real skins: every field of the description, at its own taxels.
+
+
+def law(points: Floats, forces: Floats, centre: Floats, radius: float) -> tuple[float, float]:
+    """Mean force and distance (equation 7) of one touch, all its taxels within the diameter."""
+    middle = (forces[:, None] * points).sum(0) / forces.sum()
+    weights = 2 * radius - np.sqrt(((points - middle) ** 2).sum(1))
+    assert (weights > 0).all()
+    mean = (forces * weights).sum() / weights.sum()
+    return float(mean), float(np.sqrt(((middle - centre) ** 2).sum()))
+
+
+def gain(force: float, distance: float, radius: float) -> float:
+    """Equations 5 and 6, as the text of the paper means them."""
+    return float(np.clip((force - 1.0) / 9.0, 0, 1) * max(1 - distance / radius, 0.0))
+
+
+class OwnSkin:
+    """The taxels of one field's limb, from its centre outwards."""
+
+    def __init__(self, touched: Touched, name: str) -> None:
+        self.touched, self.field = touched, touched.field(name)
+        geometry: SkinGeometry = touched.robot.geometry
+        limb = geometry.limbs.index(f"{touched.robot.side}/{self.field.limb}")
+        mine = np.flatnonzero(geometry.limb == limb)
+        away = np.linalg.norm(geometry.points[mine] - self.field.centre, axis=1)
+        self.taxels = mine[np.argsort(away)]
+        self.points = geometry.points.astype(np.float32).astype(float)  # as they are told
+
+    def at(self, distance: float) -> int:
+        """The taxel whose distance from the centre is nearest to this."""
+        away = np.linalg.norm(self.points[self.taxels] - self.field.centre, axis=1)
+        return int(self.taxels[np.argmin(np.abs(away - distance))])
+
+    def beside(self, taxel: int) -> int:
+        """Its nearest neighbour."""
+        away = np.linalg.norm(self.points[self.taxels] - self.points[taxel], axis=1)
+        return int(self.taxels[np.argsort(away)[1]])
+
+    def opposite(self) -> int:
+        """The taxel on the other side of the limb."""
+        x, y, z = self.field.centre
+        away = np.linalg.norm(self.points[self.taxels] - [x, -y, -z], axis=1)
+        return int(self.taxels[np.argmin(away)])
+
+    def expected(self, *taxels: tuple[int, float]) -> float:
+        index, forces = np.array([t for t, _ in taxels]), np.array([f for _, f in taxels])
+        felt, far = law(self.points[index], forces, self.field.centre, self.field.radius)
+        return gain(felt, far, self.field.radius)
+
+    def answer(self, *taxels: tuple[int, float]) -> float:
+        """The gain of this field when these taxels feel so much: what the arm was told to do."""
+        robot = self.touched.robot
+        start, count = robot.pose, len(robot.moves)
+        for taxel, force in taxels:
+            robot.forces[taxel] = force
+        self.touched.run(0.02)
+        robot.forces[:] = 0.0
+        if len(robot.moves) == count:
+            return 0.0
+        self.touched.until("Watching")
+        self.touched.run(0.3)  # the last hundredths of a rad
+        moved = robot.moves[count][1] - start
+        largest = int(np.argmax(np.abs(self.field.motion)))
+        share = moved[largest] / self.field.motion[largest]
+        assert moved == pytest.approx(share * self.field.motion, abs=TOLERANCE)
+        return float(share)
+
+
+PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_upper",
+          "upper_arm_front")  # fmt: skip
+
+
+def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], float]:
+    """What is touched in each row of the table, and the gain that belongs to it."""
+    centre, half, edge = skin.at(0.0), skin.at(0.0175), skin.at(0.034)
+    beside, beyond = skin.beside(centre), skin.at(0.05)
+    one: tuple[tuple[int, float], ...] = {
+        "1": ((centre, 10.0),),
+        "2": ((centre, 5.5),),
+        "3a": ((half, 10.0),),
+        "3b": ((half, 5.5),),
+        "4a": ((beyond, 10.0),),
+        "4b": ((edge, 10.0),),
+        "5a": ((centre, 1.0),),
+        "5b": ((centre, 1.09),),
+        "6": ((centre, 20.0),),
+        "7": ((centre, 2.0), (beside, 6.0)),
+        "8": ((centre, 10.0), (skin.opposite(), 10.0)),
+        "9": ((centre, 10.0), (beyond, 1.5)),
+    }[number]
+    first = one[:1] if number in ("8", "9") else one  # the others are touches of their own
+    return one, skin.expected(*first)
+
+
+@pytest.mark.parametrize("name", PLACES)
+@pytest.mark.parametrize(("robot", "side"), ARMS)
+def test_the_table_on_the_taxels_of_the_real_skin(stage, robot, side, name) -> None:
+    touched = stage(robot, side, Central, refractory=0.0, hold=0.02, return_speed=1.0)
+    skin = OwnSkin(touched, name)
+    touched.reflex.setFields([f for f in touched.reflex.getFields() if f.name == name])
+    for number in ("1", "2", "3a", "3b", "4a", "4b", "5a", "5b", "6", "7", "8", "9"):
+        taxels, expected = case(skin, number)
+        found = skin.answer(*taxels)
+        assert found == pytest.approx(expected, abs=1e-5), number
+        if number in ("4a", "5a"):
+            assert found == 0.0
+        elif number in ("4b", "5b"):
+            assert 0.0 < found < 0.3
+        else:
+            assert found > 0.05, number
