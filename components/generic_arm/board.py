@@ -6,7 +6,7 @@ they need. Failures of the board keep their type; `Refusal` says what it refuses
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -114,17 +114,20 @@ class Board:
             if ControlMode.Torque in self._modes or not self._modes:
                 self._change(ControlMode.Position)
 
-    def soften(self, stiffness: Floats, damping: Floats) -> None:
-        """Springs and dampers (k,)."""
-        with self._words():
-            for name, k, d in zip(self._names, stiffness, damping, strict=True):
-                self._proxy.setImpedance(name, Impedance(float(k), float(d), 0.0))
-            self._proxy.setInteractionMode(self._names, InteractionMode.Compliant)
+    def springs(self) -> list[Impedance]:
+        """Springs and dampers as they are set, (k,)."""
+        return [self._proxy.getImpedance(name) for name in self._names]
 
-    def stiffen(self) -> None:
-        """Stiff joints."""
+    def set_springs(self, springs: Sequence[Impedance]) -> None:
+        """Springs and dampers (k,)."""
+        for name, one in zip(self._names, springs, strict=True):
+            with self._words(f", {name}"):
+                self._proxy.setImpedance(name, one)
+
+    def interact(self, mode: InteractionMode) -> None:
+        """Stiff, or giving way like the springs."""
         with self._words():
-            self._proxy.setInteractionMode(self._names, InteractionMode.Stiff)
+            self._proxy.setInteractionMode(self._names, mode)
 
     def _change(self, mode: ControlMode) -> None:
         if any(one is not mode for one in self._modes) or not self._modes:
@@ -133,10 +136,10 @@ class Board:
             self._modes = [mode] * len(self._names)
 
     @contextmanager
-    def _words(self) -> Iterator[None]:
+    def _words(self, about: str = "") -> Iterator[None]:
         """What the board refuses, with the port before it."""
         try:
             yield
         except (Refused, UnknownJoint, WrongMode) as error:
             self._modes = []  # whatever they are, they are not what was thought
-            raise Refusal(f"`{self.port}`: {error.what}") from None
+            raise Refusal(f"`{self.port}`{about}: {error.what}") from None

@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from board import Board, Joints, Overtaken
-from generated.interfaces import ControlBoardProxy
+from board import Board, Joints, Overtaken, Refusal
+from generated.interfaces import ControlBoardProxy, Impedance, InteractionMode
 
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, Place
 from robocomp_dsl.runtime.parameters.findings import Text
@@ -93,14 +93,26 @@ class Boards:
             one.prepare(Control.POSITION, None)
 
     def soften(self, stiffness: Floats, damping: Floats) -> None:
-        """Springs [N m/rad] and dampers [N m s/rad] (m,) instead of stiff joints."""
+        """Springs [N m/rad] and dampers [N m s/rad] (m,) instead of stiff joints.
+
+        When a board refuses them, all springs are again what they were.
+        """
+        wanted = [Impedance(k, d, 0.0) for k, d in zip(stiffness, damping, strict=True)]
+        before = [one.springs() for one in self.boards]
+        try:
+            for one in self.boards:
+                one.set_springs([wanted[i] for i in one.joints.at])
+        except Refusal:
+            for one, springs in zip(self.boards, before, strict=True):
+                one.set_springs(springs)
+            raise
         for one in self.boards:
-            one.soften(stiffness[one.joints.at], damping[one.joints.at])
+            one.interact(InteractionMode.Compliant)
 
     def stiffen(self) -> None:
         """Stiff joints."""
         for one in self.boards:
-            one.stiffen()
+            one.interact(InteractionMode.Stiff)
 
     def __str__(self) -> str:
         return ", ".join(f"{one.joints.part or 'the robot'} at {one.port}" for one in self.boards)

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm
+from robocomp_dsl.tactile.arm.generic_arm import PEAK, Control, GenericArm
 from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.description.read import read_robot
 from robocomp_dsl.tactile.errors import InvalidCommand, NoChain, NoState, Unreachable
@@ -53,7 +53,7 @@ def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
     assert orders.control is Control.POSITION
     assert orders.joints == ("a", "b", "other/c", "d")
     assert orders.values == pytest.approx(READING)
-    assert orders.speeds == pytest.approx([4, np.deg2rad(100), 4, 4])
+    assert orders.speeds == pytest.approx(np.array([4, np.deg2rad(100), 4, 4]) / PEAK)
     assert not orders.clipped.any()
     assert not orders.dropped.any()
 
@@ -65,7 +65,7 @@ def test_moves_are_clipped_slowed_and_dropped_with_notice(arm):
     assert orders.dropped.tolist() == [False] * 4 + [True]
     assert orders.speeds == pytest.approx(np.full(4, 0.5))
     fast = arm.move(arm.state.position, np.full(5, 99.0))
-    assert fast.speeds == pytest.approx([4, np.deg2rad(100), 4, 4])
+    assert fast.speeds == pytest.approx(np.array([4, np.deg2rad(100), 4, 4]) / PEAK)
 
 
 def test_displacements_start_from_where_the_arm_is(arm):

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,7 @@ from robocomp_dsl.runtime.statistics import Statistics
 ARM = shipped_component.load("generic_arm")
 DESCRIPTIONS = Path(__file__).parents[2] / "robocomp_dsl" / "hardware" / "robots" / "descriptions"
 FIRST_BOARD = {"nao_h25": "LArm", "nao_h21": "LArm", "icub_v2": "left_arm"}
+_domains = (f"generic-arm-{number}" for number in count())
 
 
 def until(what: Callable[[], Any], seconds: float = 30.0) -> None:
@@ -30,46 +33,68 @@ def until(what: Callable[[], Any], seconds: float = 30.0) -> None:
         time.sleep(0.002)
 
 
+def refused(call: Callable[..., Any], *given: Any) -> str:
+    """What the arm says when it does not do it."""
+    try:
+        call(*given)
+    except ARM.interfaces.NotPossible as error:
+        return str(error.what)
+    raise AssertionError(f"{given} were taken")
+
+
 class RunningArm:
-    """A `generic_arm` in front of a robot of the same domain. `states` are what it published."""
+    """A `generic_arm` of the domain; its operations are methods. `states` are what it published."""
 
     def __init__(self, domain: str, wires: dict[str, str], *settings: str) -> None:
-        params = ARM.worker.SPEC.parameters.load(None, settings)
-        self.runner = Runner(
-            ARM.worker,
-            params,
-            RunSettings(
-                domain=domain,
-                middleware="inproc",
-                wires={port: (peer,) for port, peer in wires.items()},
-            ),
-        )
-        self.runner.start()
+        params = ARM.worker.SPEC.parameters.load(None, ("period=2", *settings))
+        wired = {port: (peer,) for port, peer in wires.items()}
+        said = RunSettings(domain=domain, middleware="inproc", wires=wired)
+        self.runner = Runner(ARM.worker, params, said)
         self._client = open_middleware("inproc", Host("client", domain, Execution(), Statistics()))
         self.states: list[Any] = []
         topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
-        self._client.subscribe(
-            Endpoint(topic, "client", "GenericArmState"),
-            {"armState": self.states.append},
-            Execution(),
-        )
-        proxy = ARM.interfaces.GENERICARM
-        link = self._client.proxy(Endpoint(proxy, "client", "arm"))
+        at = Endpoint(topic, "client", "GenericArmState")
+        self._client.subscribe(at, {"armState": self.states.append}, Execution())
+        self.runner.start()
+        interface = ARM.interfaces.GENERICARM
+        link = self._client.proxy(Endpoint(interface, "client", "arm"))
         assert link.wait(10)
-        self._bound = {one.name: link.bind(one) for one in proxy.operations}
+        self._bound = {one.name: link.bind(one) for one in interface.operations}
 
     def __getattr__(self, operation: str) -> Any:
         return self._bound[operation]
 
     def end(self) -> bool:
+        """Whether it came to its end in order."""
         self.runner.stop()
         well = self.runner.wait()
         self._client.close()
         return well
 
-    def came_to_rest(self) -> None:
+    def rest(self) -> Any:
+        """The state once nothing moves any more."""
         until(lambda: not self.getState().moving)
+        return self.getState()
 
 
-def wires_of(robot: ServedRobot, name: str) -> dict[str, str]:
-    return {"board": f"robot.{FIRST_BOARD[name]}"}
+@contextmanager
+def arm_on(
+    robot: str, *settings: str, description: Path | None = None, **wires: str
+) -> Iterator[tuple[RunningArm, ServedRobot]]:
+    """A robot and its left arm, that has been reached. `wires` are boards of the robot by port."""
+    domain = next(_domains)
+    served = ServedRobot(robot, ARM.interfaces, domain)
+    wired = {port: f"robot.{board}" for port, board in wires.items()}
+    arm = RunningArm(
+        domain,
+        wired or {"board": f"robot.{FIRST_BOARD[robot]}"},
+        f"description={description or DESCRIPTIONS / f'{robot}.yaml'}",
+        *settings,
+    )
+    try:
+        until(lambda: arm.states or "answers" in arm.runner.lifecycle.reason)
+        yield arm, served
+    finally:
+        well = arm.end()
+        served.away()
+    assert well

@@ -2,48 +2,188 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
-from arm_client import ARM, DESCRIPTIONS, RunningArm, until, wires_of
-from served_robot import ServedRobot
+from arm_client import arm_on, refused, until
 
 ROBOTS = ("nao_h25", "icub_v2")
+GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
+STEP = np.array([-0.2, 0.1, 0, -0.3, 0.1])
+ELBOW = np.array([0.0, 0, 0, 1, 0])
+NONE = np.zeros(0)
+BOTH = pytest.mark.parametrize("robot", ROBOTS)
 
 
-@pytest.fixture(params=ROBOTS)
-def name(request: pytest.FixtureRequest) -> str:
-    return str(request.param)
-
-
-@pytest.fixture
-def robot(name: str, request: pytest.FixtureRequest) -> Iterator[ServedRobot]:
-    made = ServedRobot(name, ARM.interfaces, request.node.nodeid)
-    yield made
-    made.away()
-
-
-@pytest.fixture
-def arm(name: str, robot: ServedRobot, request: pytest.FixtureRequest) -> Iterator[RunningArm]:
-    made = RunningArm(
-        request.node.nodeid, wires_of(robot, name), f"description={DESCRIPTIONS / name}.yaml"
-    )
-    until(lambda: made.states)
-    yield made
-    assert made.end()
-
-
-def test_it_tells_where_the_arm_is(arm: RunningArm, robot: ServedRobot) -> None:
+@BOTH
+def test_it_tells_where_the_arm_is(robot: str) -> None:
     """The robots stand in the start pose of their descriptions."""
-    assert arm.getState().position == pytest.approx(arm.getLimits().start, abs=0.05)
+    with arm_on(robot) as (arm, _):
+        limits, state = arm.getLimits(), arm.getState()
+        assert limits.available.all()
+        assert state.position == pytest.approx(limits.start, abs=0.05)
+        until(lambda: len(arm.states) > 3)
+        times = [one.time for one in arm.states]
+        assert times == sorted(set(times))
 
 
-def test_the_same_command_gives_the_same_angles(arm: RunningArm) -> None:
-    goal = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
-    outcome = arm.move(goal, np.full(5, 1.5))
-    assert not outcome.clipped.any()
-    assert not outcome.dropped.any()
-    assert arm.getState().moving
-    arm.came_to_rest()
-    assert arm.getState().position == pytest.approx(goal, abs=0.03)
+def test_the_same_commands_give_the_same_angles() -> None:
+    ends = []
+    for robot in ROBOTS:
+        with arm_on(robot) as (arm, _):
+            outcome = arm.move(GOAL, np.full(5, 1.5))
+            assert not outcome.clipped.any()
+            assert not outcome.dropped.any()
+            assert arm.getState().moving
+            first = arm.rest().position
+            arm.moveBy(STEP, NONE)
+            ends.append((first, arm.rest().position))
+    (nao, nao_by), (icub, icub_by) = ends
+    assert nao == pytest.approx(GOAL, abs=0.02)
+    assert nao == pytest.approx(icub, abs=0.03)
+    assert nao_by == pytest.approx(GOAL + STEP, abs=0.04)
+    assert nao_by == pytest.approx(icub_by, abs=0.05)
+
+
+@BOTH
+def test_speeds_are_kept_and_goals_are_clipped(robot: str) -> None:
+    with arm_on(robot) as (arm, _):
+        limits = arm.getLimits()
+        arm.move(limits.start + 0.4 * ELBOW, np.array([1, 1, 1, 0.2, 1]))
+        arm.rest()
+        fastest = max(abs(one.velocity[3]) for one in arm.states)
+        assert 0.2 < fastest < 0.2 * 2.2  # minimum jerk peaks at 1.875 of its mean
+        outcome = arm.move(np.array([9.0, 0.6, 0.3, 9.0, 0.2]), NONE)
+        assert outcome.clipped.tolist() == [True, False, False, True, False]
+        there = arm.rest().position
+        assert there[[0, 3]] == pytest.approx(limits.high[[0, 3]], abs=0.06)
+
+
+def test_what_the_robot_lacks_reads_sigma_and_drops_commands() -> None:
+    with arm_on("nao_h21") as (arm, _):
+        limits = arm.getLimits()
+        assert limits.available.tolist() == [True] * 4 + [False]
+        assert limits.low[4] == limits.high[4] == limits.speed[4] == 0.0
+        outcome = arm.move(GOAL, NONE)
+        assert outcome.dropped.tolist() == [False] * 4 + [True]
+        assert not outcome.clipped.any()
+        state = arm.rest()
+        assert state.position == pytest.approx([*GOAL[:4], 0.0], abs=0.03)
+        assert state.velocity[4] == state.torque[4] == 0.0
+
+
+@BOTH
+def test_what_cannot_be_meant_changes_nothing(robot: str) -> None:
+    with arm_on(robot) as (arm, served):
+        before = len([call for call in served.calls if call[1] == "positionMove"])
+        assert "5 values are needed, 3 were given" in refused(arm.move, np.zeros(3), NONE)
+        assert "NaN" in refused(arm.move, np.full(5, np.nan), NONE)
+        assert "above 0" in refused(arm.move, GOAL, np.zeros(5))
+        assert "5 finite displacements" in refused(arm.moveBy, NONE, NONE)
+        assert "not negative" in refused(arm.setStiffness, np.full(5, -1.0), np.ones(5))
+        assert "5 values are needed, 0" in refused(arm.setStiffness, np.ones(5), NONE)
+        arm.drive(np.full(5, np.inf))
+        arm.push(np.zeros(2))
+        arm.follow(np.zeros(0))
+        arm.glide(np.nan, 0.0, 0.0)
+        position = arm.getState().position
+        until(lambda: len(arm.states) > 30)
+        assert arm.getState().position == pytest.approx(position, abs=0.01)
+        assert len([call for call in served.calls if call[1] == "positionMove"]) == before
+
+
+@BOTH
+def test_speeds_last_until_the_next_command(robot: str) -> None:
+    with arm_on(robot) as (arm, _):
+        start = arm.getState().position
+        arm.drive(np.array([0, 0.3, 0, 0.4, 0]))
+        until(lambda: arm.getState().position[3] > start[3] + 0.3)
+        state = arm.getState()
+        assert state.moving
+        assert state.velocity[[1, 3]] == pytest.approx([0.3, 0.4], abs=0.1)
+        assert state.velocity[[0, 2, 4]] == pytest.approx(0, abs=0.1)
+        arm.stop()
+        rest = arm.rest()
+        assert rest.position[0] == pytest.approx(start[0], abs=0.03)
+        until(lambda: len(arm.states) and arm.states[-1].time > rest.time + 0.3)
+        assert arm.getState().position == pytest.approx(rest.position, abs=0.02)
+
+
+@BOTH
+def test_speeds_end_after_hold_when_their_caller_is_silent(robot: str) -> None:
+    with arm_on(robot, "hold=0.2") as (arm, _):
+        arm.drive(np.array([0, 0, 0, 0.5, 0]))
+        until(lambda: arm.getState().moving)
+        there = arm.rest().position
+        assert there[3] < arm.getLimits().high[3] - 0.1
+
+
+@BOTH
+def test_a_stream_of_positions_is_followed(robot: str) -> None:
+    with arm_on(robot) as (arm, _):
+        start = arm.getState().position
+        for step in range(1, 101):
+            seen = len(arm.states)
+            arm.follow(start + 0.004 * step * ELBOW)
+            until(lambda seen=seen: len(arm.states) > seen)
+        until(lambda: abs(arm.getState().position[3] - start[3] - 0.4) < 0.03)
+        # and a move starts from there
+        arm.move(start, NONE)
+        assert arm.rest().position == pytest.approx(start, abs=0.05)
+
+
+@BOTH
+def test_a_pushed_joint_turns_the_way_it_is_pushed(robot: str) -> None:
+    """Torque follows power: the generic elbow flexes under a positive torque on every robot."""
+    with arm_on(robot) as (arm, _):
+        before = arm.getState().position
+        del arm.states[:]
+        arm.push({"nao_h25": 0.8, "icub_v2": 3.0}[robot] * ELBOW)
+        until(lambda: arm.getState().position[3] > before[3] + 0.15)
+        assert max(one.torque[3] for one in arm.states) > 0
+        arm.stop()
+        rest = arm.rest()
+        until(lambda: arm.states[-1].time > rest.time + 0.3)
+        assert arm.getState().position == pytest.approx(rest.position, abs=0.05)
+
+
+@BOTH
+def test_springs_are_set_in_the_units_of_the_device(robot: str) -> None:
+    with arm_on(robot) as (arm, served):
+        arm.setStiffness(np.full(5, 6.0), np.full(5, 0.3))
+        board = served.part.board
+        joints = [one.rpartition("/")[2] for one in arm.runner.worker.arm.part.joints]
+        rows = [board.spec.names.index(name) for name in joints]
+        assert [board.table.interactions[row].value for row in rows] == ["comp"] * 5
+        assert board.impedance.stiffness[rows] == pytest.approx(6.0)
+        assert board.impedance.damping[rows] == pytest.approx(0.3)
+        said = refused(arm.setStiffness, np.array([5.0, 5, 5, 5, 1e6]), np.zeros(5))
+        assert "`board`" in said
+        assert joints[4] in said
+        assert board.impedance.stiffness[rows] == pytest.approx(6.0)
+        arm.setStiffness(NONE, NONE)
+        assert [board.table.interactions[row].value for row in rows] == ["stif"] * 5
+
+
+@BOTH
+def test_it_begins_as_it_is_told(robot: str) -> None:
+    with arm_on(robot, "begin=nothing") as (arm, served):
+        kinds = {operation for _, operation in served.calls}
+        assert kinds == {"getJoints", "getState"}
+    with arm_on(robot, "begin=start", "compliant=true") as (arm, served):
+        asked = [operation for _, operation in served.calls]
+        assert {"setImpedance", "setInteractionMode", "positionMove"} <= set(asked)
+        assert arm.rest().position == pytest.approx(arm.getLimits().start, abs=0.25)
+
+
+@BOTH
+def test_live_parameters_change_speed_and_rate(robot: str) -> None:
+    with arm_on(robot) as (arm, _):
+        full = arm.getLimits().speed
+        arm.runner.params.set({"speed": 0.1, "period": 5})
+        assert arm.getLimits().speed == pytest.approx(0.1 * full)
+        assert arm.runner.lifecycle.period_ms == 5
+        outcome = arm.move(arm.getLimits().start + 0.3 * ELBOW, np.full(5, 100.0))
+        assert not outcome.clipped.any()
+        del arm.states[:]
+        arm.rest()
+        assert max(abs(one.velocity[3]) for one in arm.states) <= 0.1 * full[3] * 1.3

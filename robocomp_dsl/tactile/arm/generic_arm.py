@@ -19,6 +19,10 @@ from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.errors import InvalidCommand, NoChain, NoState
 
 
+PEAK = 15 / 8
+"""Largest speed of a motion with the least jerk, as a share of its mean speed."""
+
+
 class Control(StrEnum):
     """What the numbers of an order are."""
 
@@ -30,7 +34,7 @@ class Control(StrEnum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Orders:
-    """For `joints` (m,), qualified names: `values` (m,) and for positions `speeds` (m,), SI units.
+    """For `joints` (m,), qualified names: `values` (m,) and for moves mean `speeds` (m,), SI units.
 
     `clipped` and `dropped` (n,) tell by generic index what was not possible.
     """
@@ -77,12 +81,17 @@ class GenericArm:
         return self.state
 
     def move(self, goal: Floats, speed: Floats | None = None) -> Orders:
-        """Go to generic angles `goal` at `speed` [rad/s], by default and at most the limits."""
+        """Go to generic angles `goal`, by default as fast as the limits allow.
+
+        `speed` (n,) [rad/s] is the mean of the motion, so that the peak of a slow start and end is
+        within the limits, too.
+        """
         sent = self.mapping.command(goal)
         wished = self.speed_limits if speed is None else self._expected(speed, "speeds")
         if (wished[self.mapping.present] <= 0.0).any():
             raise InvalidCommand("every joint needs a speed above 0, or it would never arrive")
-        speeds = self.mapping.speed(np.minimum(wished, self.speed_limits)).values * self._to_si
+        kept = np.minimum(wished, self.speed_limits / PEAK)
+        speeds = self.mapping.speed(kept).values * self._to_si
         return self._orders(Control.POSITION, sent, speeds)
 
     def move_by(self, way: Floats, speed: Floats | None = None) -> Orders:
