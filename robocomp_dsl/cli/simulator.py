@@ -1,7 +1,7 @@
 """`rcgen simulator`: a world becomes a component that simulates it and serves what is in it.
 
-In: an InnerModel file. Out: a folder with the component, or with `--dry-run` the list of what would
-be served; findings on standard error.
+In: a file in InnerModel, URDF or MJCF. Out: a folder with the component, or with `--dry-run` the
+list of what would be served; findings on standard error.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from robocomp_dsl.cli.consequences import consequences
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes, codes_model
-from robocomp_dsl.source import Span
+from robocomp_dsl.hardware.model_kind import MODELS, outermost
+from robocomp_dsl.source import Source, Span
 
 if TYPE_CHECKING:
     from robocomp_dsl.generate.output import OutputFile
@@ -37,7 +38,14 @@ if TYPE_CHECKING:
     help="Where to; by default a folder <world>_simulator beside the file.",
 )
 @click.option("--dry-run", is_flag=True, help="Write nothing; list what would be served.")
-@click.option("--strict", is_flag=True, help="Make nothing of a world with errors.")
+@click.option(
+    "--packages",
+    multiple=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="DIR",
+    help="Look for package://… here; may be repeated.",
+)
+@click.option("--strict", is_flag=True, help="Make nothing of an InnerModel file with errors.")
 @options.output_format
 @options.folders
 def command(
@@ -45,11 +53,15 @@ def command(
     file: Path,
     output: Path | None,
     dry_run: bool,
+    packages: tuple[Path, ...],
     strict: bool,
     form: str,
     folders: tuple[Path, ...],
 ) -> None:
-    """Generate a simulator from an InnerModel file: a component that serves its devices.
+    """Generate a simulator from a world: a component that serves its devices.
+
+    The file is InnerModel, URDF or MJCF. In MJCF, a tuple of joints is a control board, and a
+    number `speed_<joint>` tells the largest speed of a joint.
 
     The world is built once to see that it can be; one with errors is simulated as far as it is
     understood. All is rewritten the next time but `specificworker.py`, `README.md` and
@@ -57,7 +69,10 @@ def command(
     """
     told, report = Report(), Report()
     workspace = Workspace(folders)
-    made = _world(file, workspace, told, report, strict=strict)
+    if _kind(file) in MODELS:
+        made = _model(file, packages, report)
+    else:
+        made = world(file, workspace, told, report, strict=strict)
     folder = output or file.parent / (made.name if made else "")
     files = _files(made, folder, workspace, report) if made and not report.failed else []
     told.extend(report)
@@ -70,7 +85,7 @@ def command(
         _write(folder, files, made)
 
 
-def _world(
+def world(
     file: Path, workspace: Workspace, told: Report, report: Report, *, strict: bool
 ) -> Simulator | None:
     """The simulator of a file. What the file says wrongly is `told`; `report` is of its world."""
@@ -86,6 +101,22 @@ def _world(
         place = body.root.span.source.whole
         report.add(codes.UNDERSTOOD_WORLD, place, said, help="with `--strict` nothing is made")
     return made
+
+
+def _kind(file: Path) -> str:
+    try:
+        return outermost(file.read_bytes())
+    except OSError:  # told by who reads it next
+        return ""
+
+
+def _model(file: Path, packages: tuple[Path, ...], report: Report) -> Simulator | None:
+    try:
+        from robocomp_dsl.cli.simulator_model import model_world  # noqa: PLC0415 - slow: MuJoCo
+    except ImportError as missing:
+        report.add(codes.NO_SIMULATION, Source(file, "").whole, str(missing))
+        return None
+    return model_world(file, packages, report)
 
 
 def _build(made: Simulator, body: Body, report: Report) -> None:

@@ -5,7 +5,6 @@ In: what the user named. Out: a compiled model, and findings with their places.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,19 +14,21 @@ import mujoco
 
 from robocomp_dsl.check import check_innermodel
 from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.model_findings import code_of, read_source, tell, tell_faults
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene import lower
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
-from robocomp_dsl.hardware.mujoco.model_file import compiled, outermost, read_spec
+from robocomp_dsl.hardware.model_kind import MODELS, outermost
+from robocomp_dsl.hardware.mujoco.model_file import compiled, read_spec
 from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.robots.build import add_robot, new_world
 from robocomp_dsl.hardware.robots.catalog import ROBOTS
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.view.picture import lit
-from robocomp_dsl.source import Source, Span, UnreadableSource
+from robocomp_dsl.source import Source, Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +58,7 @@ def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subjec
         said = f"`{path}` cannot be read: {error.strerror or error}"
         report.add(codes.MODEL_FILE, Source(path, "").whole, said)
         return None
-    if outermost(data) in {"robot", "mujoco"}:
+    if outermost(data) in MODELS:
         return _model(path, packages, report)
     return _world(path, report)
 
@@ -71,21 +72,15 @@ def _robot(name: str) -> Subject:
 
 
 def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
-    try:
-        source = Source.read(path)
-    except UnreadableSource:  # MuJoCo takes what is not UTF-8, or very large; lines are left out
-        source = Source(path, "")
+    source = read_source(path)
     try:
         spec, findings = read_spec(path, packages)
         lit(spec)
         model = compiled(spec, findings)
     except ModelFileError as error:
-        for fault in error.faults:
-            report.add(codes.MODEL_FILE, _line(source, fault.line), fault.said)
+        tell_faults(error, source, report)
         return None
-    for one in findings:
-        place = _line(source, one.line) if one.line else _tag(source, one.subject)
-        _add(one, place, report)
+    tell(findings, source, report)
     return Subject(path.stem, model, {})
 
 
@@ -107,7 +102,7 @@ def _world(path: Path, report: Report) -> Subject | None:
     for note in told + notes:
         report.add(codes.MODEL_SIMPLIFIED, _named(note, spans, body.root.span), note)
     for one in findings:
-        _add(one, _named(str(one), spans, body.root.span), report)
+        report.add(code_of(one), _named(str(one), spans, body.root.span), one.said)
     return Subject(path.stem, model, {})
 
 
@@ -117,28 +112,8 @@ def _empty(path: Path) -> Subject:
     return Subject(path.stem, spec.compile(), {})
 
 
-def _add(one: Finding, span: Span, report: Report) -> None:
-    code = codes.MODEL_OVERLAP if one.kind == "overlap" else codes.MODEL_SIMPLIFIED
-    report.add(code, span, one.said)
-
-
 def _named(said: str, spans: dict[str, Span], otherwise: Span) -> Span:
     """The tag of the node whose id a message names first."""
     found = next((spans[name] for name in said.split("`")[1::2] if name in spans), otherwise)
     line = found.source.text.find("\n", found.start, found.end)
     return found.source.span(found.start, found.end if line < 0 else line)
-
-
-def _tag(source: Source, name: str) -> Span:
-    """Where a link or a body begins."""
-    tag = rf"<(?:link|body)\b[^<>]*\bname\s*=\s*([\"']){re.escape(name)}\1"
-    found = re.search(tag, source.text)
-    return source.span(*found.span()) if found else source.whole
-
-
-def _line(source: Source, number: int) -> Span:
-    if not 0 < number <= len(source.line_starts):
-        return source.whole
-    text = source.line(number)
-    start = source.line_starts[number - 1] + len(text) - len(text.lstrip())
-    return source.span(start, start + len(text.strip()))

@@ -6,7 +6,7 @@ what is asked for is computed, and only once until something moves. Pure numpy; 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -97,6 +97,10 @@ class TransformTree:
 
     def __contains__(self, frame: object) -> bool:
         return frame in self._nodes
+
+    def __iter__(self) -> Iterator[str]:
+        """All frames, in the order in which they came."""
+        return iter(self._nodes)
 
     def __len__(self) -> int:
         return len(self._nodes)

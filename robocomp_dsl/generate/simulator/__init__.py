@@ -1,8 +1,8 @@
-"""A simulator from a body: the descriptions of a component, and the code that serves its devices.
+"""A simulator from a world: the descriptions of a component, and the code that serves its devices.
 
-In: a resolved `Body`, later the `Component` that the descriptions resolve to. Out: texts and
-`OutputFile`s. The scene goes as data into `generated/scene.json`; what simulates it is in
-`robocomp_dsl.hardware`.
+In: a resolved `Body`, or a model file as the data of a scene; later the `Component` that the
+descriptions resolve to. Out: texts and `OutputFile`s. The scene goes as data into
+`generated/scene.json`, a model file beside it; what simulates them is in `robocomp_dsl.hardware`.
 """
 
 from __future__ import annotations
@@ -38,11 +38,15 @@ _NUMBERS = re.compile(r"\[\n\s*(-?[\d.][^\[\]{}\"]*?)\n\s*\]")
 
 FOLDER = "python/simulator/"
 WORKER = "specificworker.py"
+LEAST_STEP, MOST_STEP = 0.05, 20.0  # ms, as the PDSL has it
 
 
 @dataclass(frozen=True, slots=True)
 class Simulator:
-    """What a world becomes: the `scene` as data, its `ports`, devices (id, kind) without one."""
+    """What a world becomes: the `scene` as data, its `ports`, devices (id, kind) without one.
+
+    `model` is the text of the model file that the scene begins with; `step` is in ms.
+    """
 
     name: str
     source: str
@@ -51,6 +55,13 @@ class Simulator:
     topics: tuple[Published, ...]
     unserved: tuple[tuple[str, str], ...]
     skin_rate: float = 0.0
+    model: str = ""
+    step: float = 2.0
+
+    @property
+    def step_told(self) -> str:
+        """The length of a step as the PDSL tells it."""
+        return f"{self.step:g}"
 
     @property
     def title(self) -> str:
@@ -67,15 +78,28 @@ def simulator(body: Body) -> Simulator:
     ):
         if one.get(key):
             one[key] = str(Path(one[key]).absolute())
+    return _simulator(body.path, scene)
+
+
+def simulator_of_model(
+    path: Path, scene: dict[str, Any], model: str, *, step: float = 0.002
+) -> Simulator:
+    """The simulator of the model file at `path`, whose text is to be `model`; `step` is in s."""
+    return _simulator(path, scene, model, min(max(round(step * 1000, 6), LEAST_STEP), MOST_STEP))
+
+
+def _simulator(path: Path, scene: dict[str, Any], model: str = "", step: float = 2.0) -> Simulator:
     ports = served(scene)
     return Simulator(
-        f"{identifier(body.path.stem)}_simulator",
-        body.path.name,
+        f"{identifier(path.stem)}_simulator",
+        path.name,
         scene,
         ports,
         published(ports),
         tuple(not_served(scene)),
         skin_rate(scene),
+        model,
+        step,
     )
 
 
@@ -98,6 +122,8 @@ def files(made: Simulator, component: Component) -> list[OutputFile]:
     code = simulator_code(made.source, component, names_of(component), made.topics)
     data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
     planned = [one for one in plan(component) if one.path != WORKER]
+    if made.model:
+        planned.append(OutputFile(f"generated/{made.scene['model']['file']}", made.model))
     return [
         *planned,
         OutputFile("generated/scene.json", _text(data)),

@@ -41,8 +41,17 @@ OFFERS = (
     Offer("ultrasound", "Ultrasound", shared=True),
     Offer("battery", "BatteryStatus"),
     Offer("touchsensor", "TouchSensor", shared=True),
+    Offer("model_camera", "CameraSimple"),
+    Offer("model_rgbd", "CameraSimple"),
+    Offer("model_rgbd", "CameraRGBDSimple", shared=True),
+    Offer("model_imu", "IMU"),
+    Offer("model_touch", "TouchSensor", shared=True),
     Offer("skin", "Skin", shared=True),
 )
+
+BOARDS = "ControlBoard"
+"""The shared interface that has a port for each group of joints, called as the group; those of no
+group share the port that is called as the interface."""
 
 
 OF_THE_WORLD = ("InnerModelManager", "Simulation")
@@ -116,7 +125,7 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
                 port = _free(identifier(device["id"]), taken)
                 pair = (device["id"], device["kind"])
                 found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
-    return (*found, *(ServedAs(name, name) for name in OF_THE_WORLD))
+    return (*_boards(found, scene, taken), *(ServedAs(name, name) for name in OF_THE_WORLD))
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +145,21 @@ def published(ports: Sequence[ServedAs]) -> tuple[Published, ...]:
         for t in TOPICS
         if t.interface == p.interface
     )
+
+
+def _boards(ports: Sequence[ServedAs], scene: dict[str, Any], taken: set[str]) -> list[ServedAs]:
+    """The same ports, with one for each group of joints in the place of that for all boards."""
+    groups = {d["id"]: d["settings"].get("board", "") for d in scene["devices"]}
+    made: list[ServedAs] = []
+    for one in ports:
+        if one.interface != BOARDS:
+            made.append(one)
+            continue
+        for group in dict.fromkeys(groups[id_] for id_, _ in one.devices):
+            port = _free(identifier(group), taken) if group else one.port
+            here = tuple(pair for pair in one.devices if groups[pair[0]] == group)
+            made.append(ServedAs(port, one.interface, here))
+    return made
 
 
 def _free(wanted: str, taken: set[str]) -> str:

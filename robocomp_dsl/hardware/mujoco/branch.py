@@ -19,7 +19,7 @@ from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.rotations import Matrix
-from robocomp_dsl.hardware.scene import JOINTS, Scene
+from robocomp_dsl.hardware.scene import Scene
 
 
 @dataclass(slots=True)
@@ -66,8 +66,8 @@ class Branch:
     def joint(self, frame: str) -> float:
         """The value of a joint in rad or mm. Raises `FrameError`."""
         model = self.world.model
-        served = {one.id for one in self.scene.devices if one.kind in JOINTS}
-        known = served | {one.id for one in self.scene.frames if one.motion}
+        given = {one.id for one in self.scene.devices if one.kind.endswith("joint")}
+        known = given | {one.id for one in self.scene.frames if one.motion}
         if frame not in known:
             raise FrameError(f"there is no joint `{frame}`")
         joint = model.joint(frame)

@@ -22,15 +22,25 @@ from robocomp_dsl.hardware.view.picture import Look, Painter, lit
 
 
 class Camera:
-    """The device `name` on the body `body`. `turns` are those of its world."""
+    """The device `name` on the body `body`. `turns` are those of its world.
+
+    `given` is the name of a camera that a model file has; its own settings count.
+    """
 
     def __init__(
-        self, settings: CameraSettings, body: str, level: NoiseLevel, *, name: str
+        self,
+        settings: CameraSettings,
+        body: str,
+        level: NoiseLevel,
+        *,
+        name: str,
+        given: str = "",
     ) -> None:
         self._settings = settings
         self._at = body
         self._level = level
         self.name = name
+        self._given = given
         self._studio = _Studio(settings)
         self._random = np.random.default_rng(0)
         self._latest: Picture | None = None
@@ -44,6 +54,8 @@ class Camera:
         spec.visual.global_.offwidth = max(spec.visual.global_.offwidth, width)
         spec.visual.global_.offheight = max(spec.visual.global_.offheight, height)
         lit(spec)
+        if self._given:
+            return
         angle = 2 * np.degrees(np.arctan2(height / 2, self._settings.focal))
         # MuJoCo's cameras look along -z with y up; z ahead of RoboComp is its y
         spec.body(self._at).add_camera(
@@ -87,7 +99,7 @@ class Camera:
             data = mujoco.MjData(model)
             for kept in ("qpos", "qvel", "time"):
                 setattr(data, kept, getattr(self._data, kept))
-        self._latest = self._noisy(self._studio.draw(model, data, self.name))
+        self._latest = self._noisy(self._studio.draw(model, data, self._given or self.name))
         return self._latest
 
     def _noisy(self, seen: Picture) -> Picture:

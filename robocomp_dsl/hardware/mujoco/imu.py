@@ -23,24 +23,30 @@ _SENSORS = {
 
 
 class Imu:
-    """The device `name` on the body `body`; its reference is the frame of the world."""
+    """The device `name` on the body `body`; its reference is the frame of the world.
 
-    def __init__(self, body: str, *, name: str) -> None:
+    It sits in the frame of the body, or at a `site` that is there.
+    """
+
+    def __init__(self, body: str, *, name: str, site: str = "") -> None:
         self._at = body
         self.name = name
+        self._given = bool(site)
+        self._site_name = site or name
         self._reference = np.eye(3)
 
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
         """A site and three sensors."""
-        spec.body(self._at).add_site(name=self.name)
+        if not self._given:
+            spec.body(self._at).add_site(name=self.name)
         for what, kind in _SENSORS.items():
             spec.add_sensor(
                 name=f"{self.name}.{what}",
                 type=kind,
                 objtype=mujoco.mjtObj.mjOBJ_SITE,
-                objname=self.name,
+                objname=self._site_name,
             )
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
@@ -50,7 +56,7 @@ class Imu:
     def find(self, model: Any, data: Any) -> None:
         """The same sensors in another model."""
         self._data = data
-        self._site = int(model.site(self.name).id)
+        self._site = int(model.site(self._site_name).id)
         self._first = {what: int(model.sensor(f"{self.name}.{what}").adr[0]) for what in _SENSORS}
 
     def before_step(self, dt: float) -> None:

@@ -41,11 +41,15 @@ class Followed:
 
 @dataclass(slots=True)
 class Mirror:
-    """`tree` with the model's bodies; `bodies[i]` is the frame of body i, `joints` what moves."""
+    """`tree` with the model's bodies; `bodies[i]` is the frame of body i, `joints` what moves.
+
+    `sites[i]` is the frame of site i, empty for one without a name.
+    """
 
     tree: TransformTree
     bodies: tuple[str, ...]
     joints: tuple[Followed, ...]
+    sites: tuple[str, ...] = ()
 
     def follow(self, qpos: Sequence[float] | NDArray[np.float64]) -> None:
         """Move all joints to `qpos`, shape (nq,), as MuJoCo counts it; not finite: refused."""
@@ -75,11 +79,15 @@ class _Builder:
         bodies = [ROOT, *(self._free(self._body_name(i)) for i in range(1, self.model.nbody))]
         for i in range(1, self.model.nbody):
             self._body(i, bodies[i], bodies[self.model.body_parentid[i]])
-        for i in range(self.model.nsite):
-            if name := self.model.site(i).name:
-                pose = _pose(self.model.site_pos[i], self.model.site_quat[i])
-                self._fixed(self._free(name), bodies[self.model.site_bodyid[i]], pose)
-        return Mirror(self.tree, tuple(bodies), tuple(self.joints))
+        sites = tuple(self._site(i, bodies) for i in range(self.model.nsite))
+        return Mirror(self.tree, tuple(bodies), tuple(self.joints), sites)
+
+    def _site(self, i: int, bodies: Sequence[str]) -> str:
+        name = self.model.site(i).name
+        if not name:
+            return ""
+        pose = _pose(self.model.site_pos[i], self.model.site_quat[i])
+        return self._fixed(self._free(name), bodies[self.model.site_bodyid[i]], pose)
 
     def _body_name(self, i: int) -> str:
         return self.model.body(i).name or f"body{i}"

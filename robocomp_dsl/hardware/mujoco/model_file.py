@@ -6,7 +6,6 @@ is not as described; `ModelFileError` when there is no model, with the lines tha
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,14 +14,13 @@ from typing import Any
 import mujoco
 
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
+from robocomp_dsl.hardware.model_kind import outermost
 from robocomp_dsl.hardware.mujoco.memory import make_room
 from robocomp_dsl.hardware.mujoco.mjcf_spec import build_mjcf, located
 from robocomp_dsl.hardware.mujoco.overlaps import overlaps
 from robocomp_dsl.hardware.mujoco.urdf_spec import build_urdf
 from robocomp_dsl.hardware.urdf import read_urdf
 
-_OUTERMOST = re.compile(rb"<\s*([A-Za-z_][\w.:-]*)")
-_SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
 _WEIGHTLESS = "mass and inertia of moving bodies"
 _LIGHTEST = 1e-3
 
@@ -34,12 +32,6 @@ class Loaded:
     spec: Any
     model: Any
     findings: list[Finding]
-
-
-def outermost(data: bytes) -> str:
-    """The first tag, in lower case; empty if there is none."""
-    found = _OUTERMOST.search(_SKIPPED.sub(b"", data))
-    return found[1].decode().lower() if found else ""
 
 
 def load_model(path: Path, packages: Sequence[Path] = ()) -> Loaded:

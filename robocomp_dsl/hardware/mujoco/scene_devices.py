@@ -22,6 +22,7 @@ from robocomp_dsl.hardware.mujoco.gps import Gps
 from robocomp_dsl.hardware.mujoco.imu import Imu
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
+from robocomp_dsl.hardware.mujoco.model_touch import ModelTouch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard, driven
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
@@ -126,6 +127,27 @@ def _battery(site: Site, device: Device) -> Battery:  # noqa: ARG001
     return Battery(capacity, voltage, float(given["idle"]), name=device.id)
 
 
+def _model_camera(site: Site, device: Device) -> Camera:
+    given = device.settings
+    settings = CameraSettings(
+        int(given["width"]),
+        int(given["height"]),
+        float(given["focal"]),
+        noise=float(given["noise"]),
+        depth=device.kind == "model_rgbd",
+    )
+    named = str(given["camera"])
+    return Camera(settings, device.frame, site.noise, name=device.id, given=named)
+
+
+def _model_imu(site: Site, device: Device) -> Imu:  # noqa: ARG001
+    return Imu(device.frame, name=device.id, site=str(device.settings["site"]))
+
+
+def _model_touch(site: Site, device: Device) -> ModelTouch:  # noqa: ARG001
+    return ModelTouch(str(device.settings["sensor"]), name=device.id)
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
@@ -137,6 +159,10 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "camera": _camera,
     "rgbd": _camera,
     "touchsensor": _touch,
+    "model_camera": _model_camera,
+    "model_rgbd": _model_camera,
+    "model_imu": _model_imu,
+    "model_touch": _model_touch,
 }
 """Kinds of devices that are simulated one by one."""
 

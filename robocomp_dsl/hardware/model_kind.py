@@ -1,0 +1,17 @@
+"""What language a model is in: the first tag of its file tells."""
+
+from __future__ import annotations
+
+import re
+
+_OUTERMOST = re.compile(rb"<\s*([A-Za-z_][\w.:-]*)")
+_SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
+
+MODELS = {"robot": ".urdf", "mujoco": ".xml"}
+"""The outermost tags of URDF and MJCF, and how their files end."""
+
+
+def outermost(data: bytes) -> str:
+    """The first tag, in lower case; empty if there is none."""
+    found = _OUTERMOST.search(_SKIPPED.sub(b"", data))
+    return found[1].decode().lower() if found else ""

@@ -1,0 +1,184 @@
+"""The joints of a model file that have motors, as devices of a scene.
+
+In: the compiled model. Out: a device for each, with its limits in MuJoCo's units. A joint that
+follows another by an equality has no motor; neither has one without an actuator where others of
+the file have some: it swings freely, as the file means it.
+
+    <custom>
+      <tuple name="LArm"> <element objtype="joint" objname="LElbowRoll"/> </tuple>
+      <numeric name="speed_LElbowRoll" data="7.2"/>
+    </custom>
+
+makes a control board `LArm`, and tells the largest speed of a joint in rad/s or m/s.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.findings import Finding
+from robocomp_dsl.hardware.mujoco.mirror import Mirror
+from robocomp_dsl.hardware.mujoco.model_start import Started
+from robocomp_dsl.hardware.mujoco.scene_joints import FORCE, SPEED
+
+_KINDS = {mujoco.mjtJoint.mjJNT_HINGE: "joint", mujoco.mjtJoint.mjJNT_SLIDE: "prismaticjoint"}
+_MOVES = {"joint": "hinge", "prismaticjoint": "slide"}
+_ON_JOINTS = {int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)}
+_PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
+_STRONG = 2.0
+"""A joint of unknown force holds so many times the weight that it may carry."""
+
+_SLOWEST = 0.0015
+_SLOWNESS = 1.0
+"""Least inertia [kg m²] of a joint for each N·m, and for each N·m and second of a step: a regulator
+whose damping is half its torque per rad/s stays calm then."""
+
+Data = dict[str, Any]
+
+
+def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
+    """A device for every joint, those without a motor under kinds that nothing is served as."""
+    frames = {one.name: one.frame for one in seen.joints}
+    motors = _motors(model)
+    followers = _followers(model)
+    boards = _boards(model, started.findings)
+    made = []
+    for joint in range(model.njnt):
+        name = model.joint(joint).name
+        kind = _KINDS.get(mujoco.mjtJoint(model.jnt_type[joint]))
+        if kind is None:
+            continue
+        without = joint in followers or (motors and joint not in motors and joint not in boards)
+        if without:
+            said = "followingjoint" if joint in followers else "passivejoint"
+            made.append({"id": name, "kind": said, "frame": frames[name], "settings": {}})
+            continue
+        settings = _settings(model, joint, kind, motors.get(joint, []), started)
+        settings["board"] = boards.get(joint, "")
+        made.append({"id": name, "kind": kind, "frame": frames[name], "settings": settings})
+    return made
+
+
+def _settings(model: Any, joint: int, kind: str, motors: list[int], started: Started) -> Data:
+    name = model.joint(joint).name
+    known = _force(model, joint, motors)
+    force = known or max(FORCE[_MOVES[kind]], _STRONG * _weight(model, joint, kind))
+    home = started.start.get(name, model.joint(joint).qpos0)[0]
+    made: Data = {
+        "speed": _speed(model, name, started.findings) or SPEED[_MOVES[kind]],
+        "force": force,
+        "home": float(home),
+        "armature": _armature(model, joint, force, started.findings),
+    }
+    if model.jnt_limited[joint]:
+        made["low"], made["high"] = model.jnt_range[joint].tolist()
+    return made
+
+
+def _motors(model: Any) -> dict[int, list[int]]:
+    """The actuators that act on a joint, by joint."""
+    found: dict[int, list[int]] = {}
+    for motor in range(model.nu):
+        if int(model.actuator_trntype[motor]) in _ON_JOINTS:
+            found.setdefault(int(model.actuator_trnid[motor, 0]), []).append(motor)
+    return found
+
+
+def _followers(model: Any) -> set[int]:
+    """Joints that are tied to another one."""
+    return {
+        int(model.eq_obj1id[i])
+        for i in range(model.neq)
+        if int(model.eq_type[i]) == int(mujoco.mjtEq.mjEQ_JOINT)
+        and model.eq_active0[i]
+        and model.eq_obj2id[i] >= 0
+    }
+
+
+def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:
+    """The board of joints that are in a tuple; in a second one they stay in the first."""
+    found: dict[int, str] = {}
+    for i in range(model.ntuple):
+        first, size = int(model.tuple_adr[i]), int(model.tuple_size[i])
+        for at in range(first, first + size):
+            if int(model.tuple_objtype[at]) != int(mujoco.mjtObj.mjOBJ_JOINT):
+                continue
+            joint, name = int(model.tuple_objid[at]), model.tuple(i).name
+            board = found.setdefault(joint, name)
+            if board != name:
+                said = (
+                    f"`{model.joint(joint).name}` is in `{name}` and stays on the board `{board}`"
+                )
+                findings.append(Finding("joint", model.joint(joint).name, said))
+    return found
+
+
+def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
+    """The largest speed that the file tells; 0: it tells none."""
+    name = f"speed_{joint}"
+    at = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
+    if at < 0:
+        return 0.0
+    told = float(model.numeric(name).data[0])
+    if 0 < told < math.inf:
+        return told
+    findings.append(Finding("joint", joint, f"`{name}` is {told:g}, no speed: the usual is taken"))
+    return 0.0
+
+
+def _force(model: Any, joint: int, motors: list[int]) -> float:
+    """The largest torque [N·m] or force [N] that the file gives its motors; 0: none."""
+    force = max((_most(model, one) for one in motors), default=math.inf)
+    if model.jnt_actfrclimited[joint]:
+        force = min(force, float(np.abs(model.jnt_actfrcrange[joint]).max()))
+    return force if 0 < force < math.inf else 0.0
+
+
+def _most(model: Any, motor: int) -> float:
+    """The largest force of an actuator at its joint."""
+    found = math.inf
+    kind = (
+        mujoco.mjtGain(model.actuator_gaintype[motor]),
+        mujoco.mjtBias(model.actuator_biastype[motor]),
+    )
+    if kind == _PLAIN and model.actuator_ctrllimited[motor]:
+        gain = abs(float(model.actuator_gainprm[motor, 0]))
+        found = gain * float(np.abs(model.actuator_ctrlrange[motor]).max())
+    if model.actuator_forcelimited[motor]:
+        found = min(found, float(np.abs(model.actuator_forcerange[motor]).max()))
+    return found * abs(float(model.actuator_gear[motor, 0]))
+
+
+def _weight(model: Any, joint: int, kind: str) -> float:
+    """The most that gravity pulls at a joint: all that it carries, stretched out."""
+    body = int(model.jnt_bodyid[joint])
+    mass = float(model.body_subtreemass[body]) * float(np.linalg.norm(model.opt.gravity))
+    return mass if kind == "prismaticjoint" else mass * _reach(model, body)
+
+
+def _reach(model: Any, body: int) -> float:
+    """How far the masses that a body carries may be from it [m]."""
+    far = {body: 0.0}
+    for one in range(body + 1, model.nbody):
+        above = int(model.body_parentid[one])
+        if above in far:
+            far[one] = far[above] + float(np.linalg.norm(model.body_pos[one]))
+    return max(way + float(np.linalg.norm(model.body_ipos[one])) for one, way in far.items())
+
+
+def _armature(model: Any, joint: int, force: float, findings: list[Finding]) -> float:
+    """The motor's inertia, with what a regulator of so much force needs to stay calm."""
+    dof = int(model.jnt_dofadr[joint])
+    there = float(model.dof_armature[dof])
+    inertia = 1.0 / max(float(model.dof_invweight0[dof]), 1e-12)
+    missing = force * max(_SLOWEST, _SLOWNESS * float(model.opt.timestep)) - inertia
+    if missing <= 0:
+        return there
+    name = model.joint(joint).name
+    said = f"`{name}` is too light for its motor of {force:g}: it gets {missing:.2g} of armature"
+    findings.append(Finding("joint", name, said))
+    return there + missing

@@ -1,0 +1,88 @@
+"""Cameras, inertial units and touch sensors of a model file, as devices of a scene.
+
+In: the compiled model. Out: a device for each. A gyroscope and an accelerometer at one site are an
+inertial unit, called as the site; a camera whose `output` has a depth is one with depth.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.camera import CameraSettings
+from robocomp_dsl.hardware.mujoco.mirror import Mirror
+
+Data = dict[str, Any]
+
+_SENSOR = mujoco.mjtSensor
+_DEPTH = mujoco.mjtCamOutBit.mjCAMOUT_DEPTH | mujoco.mjtCamOutBit.mjCAMOUT_DIST
+
+
+def sensors_of(model: Any, seen: Mirror, taken: set[str]) -> list[Data]:
+    """All of them; their ids are not in `taken`, but for that of their own site."""
+    cameras = [_camera(model, seen, i, taken) for i in range(model.ncam)]
+    units = [_unit(model, seen, site, taken) for site in _units(model)]
+    felt = np.flatnonzero(model.sensor_type == int(_SENSOR.mjSENS_TOUCH))
+    touches = [_touch(model, seen, int(i), taken) for i in felt]
+    return [*cameras, *units, *touches]
+
+
+def _camera(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
+    usual = CameraSettings()
+    width, height = (int(size) for size in model.cam_resolution[i])
+    if width * height <= 1:  # as MuJoCo has it where the file says nothing
+        width, height = usual.width, usual.height
+    angle = np.radians(float(model.cam_fovy[i]))
+    name = model.camera(i).name
+    return {
+        "id": _claim(name, "", taken),
+        "kind": "model_rgbd" if int(model.cam_output[i]) & int(_DEPTH) else "model_camera",
+        "frame": seen.bodies[model.cam_bodyid[i]],
+        "settings": {
+            "camera": name,
+            "width": width,
+            "height": height,
+            "focal": float(height / 2 / np.tan(angle / 2)),
+            "noise": 0.0,
+        },
+    }
+
+
+def _units(model: Any) -> list[int]:
+    """Sites that have both a gyroscope and an accelerometer."""
+    at: dict[int, set[int]] = {}
+    for i in range(model.nsensor):
+        at.setdefault(int(model.sensor_objid[i]), set()).add(int(model.sensor_type[i]))
+    both = {int(_SENSOR.mjSENS_GYRO), int(_SENSOR.mjSENS_ACCELEROMETER)}
+    return [site for site, kinds in at.items() if both <= kinds]
+
+
+def _unit(model: Any, seen: Mirror, site: int, taken: set[str]) -> Data:
+    name = model.site(site).name
+    return {
+        "id": _claim(name, seen.sites[site], taken),
+        "kind": "model_imu",
+        "frame": seen.bodies[model.site_bodyid[site]],
+        "settings": {"site": name},
+    }
+
+
+def _touch(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
+    name, site = model.sensor(i).name, int(model.sensor_objid[i])
+    return {
+        "id": _claim(name, seen.sites[site], taken),
+        "kind": "model_touch",
+        "frame": seen.bodies[model.site_bodyid[site]],
+        "settings": {"sensor": name},
+    }
+
+
+def _claim(wanted: str, own: str, taken: set[str]) -> str:
+    """A free id, or that of the frame that the device is anyway."""
+    made, number = wanted, 2
+    while made in taken and made != own:
+        made, number = f"{wanted}#{number}", number + 1
+    taken.add(made)
+    return made
