@@ -1,14 +1,14 @@
-"""`rcgen view`: a world or a robot in the browser, or as a picture.
+"""`rcgen view`: a world, a robot or a running simulation in the browser, or as a picture.
 
-In: a file in InnerModel, URDF or MJCF, or the name of a robot that ships. Out: a page on this
-machine, or a PNG file; findings on standard error.
+In: a file in InnerModel, URDF or MJCF, the name of a robot that ships, or that of a simulator that
+runs. Out: a page on this machine, or a PNG file; findings on standard error.
 """
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Never
 
 import click
 
@@ -29,7 +29,18 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
 
 
 @click.command()
-@click.argument("file", type=click.Path(readable=False, path_type=Path), metavar="FILE")
+@click.argument(
+    "file", type=click.Path(readable=False, path_type=Path), metavar="FILE", required=False
+)
+@click.option(
+    "--live", is_flag=True, help="FILE is a component that simulates; without: the only one."
+)
+@click.option(
+    "--domain",
+    metavar="NAME",
+    envvar="ROBOCOMP_DOMAIN",
+    help="Where it runs: a domain or a deployment; by default it is looked for.",
+)
 @click.option(
     "--screenshot",
     type=click.Path(readable=False, dir_okay=False, path_type=Path),
@@ -57,7 +68,9 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
 @options.output_format
 def command(
     *,
-    file: Path,
+    file: Path | None,
+    live: bool,
+    domain: str | None,
     screenshot: Path | None,
     size: tuple[int, int],
     camera: str,
@@ -71,11 +84,14 @@ def command(
     packages: tuple[Path, ...],
     form: str,
 ) -> None:
-    """Show a world or a robot in the browser, or make a picture of it.
+    """Show a world, a robot or a running simulation in the browser, or make a picture of it.
 
     FILE is InnerModel, URDF or MJCF, or a robot that ships: nao_h21, nao_h25, icub_v2. The page is
-    served on this machine alone. A model with errors is shown as far as it is understood.
+    served on this machine alone. A model with errors is shown as far as it is understood. With
+    `--live` the page follows a simulation that runs, and its time can be held there.
     """
+    if file is None and not live:
+        raise click.UsageError("Missing argument 'FILE'; `--live` shows a simulation that runs.")
     report = Report()
     try:
         from robocomp_dsl.cli.view_subject import read_subject  # noqa: PLC0415 - slow: MuJoCo
@@ -83,24 +99,30 @@ def command(
     except ImportError as missing:
         options.complain(str(missing))
         sys.exit(FINDINGS)
+    look = Look(azimuth, elevation, 1 / zoom, camera, frames, names, contacts)
+    if live or file is None:
+        from robocomp_dsl.cli import view_live  # noqa: PLC0415 - loads a middleware
+
+        view_live.show(str(file or ""), domain, look, screenshot, size, port)
+        return
     subject = read_subject(file, packages, report)
     options.show(report.sorted(), form, sys.stderr)
     if subject is None:
         sys.exit(FINDINGS)
-    look = Look(azimuth, elevation, 1 / zoom, camera, frames, names, contacts)
     if screenshot:
-        _photograph(subject, screenshot, size, look)
+        photograph(subject.model, subject.data(), screenshot, size, look)
     else:
         _serve(subject, port, look)
 
 
-def _photograph(subject: Subject, path: Path, size: tuple[int, int], look: Look) -> None:
+def photograph(model: Any, data: Any, path: Path, size: tuple[int, int], look: Look) -> None:
+    """Make a picture, and say so."""
     from robocomp_dsl.hardware.view.picture import Painter, save  # noqa: PLC0415
     from robocomp_dsl.hardware.view.screenless import NoRendering  # noqa: PLC0415
 
     try:
-        with Painter(subject.model, *size) as painter:
-            save(path, painter.paint(subject.data(), look))
+        with Painter(model, *size) as painter:
+            save(path, painter.paint(data, look))
     except (NoRendering, OSError) as error:
         options.complain(str(error))
         sys.exit(FINDINGS)
@@ -114,11 +136,17 @@ def _serve(subject: Subject, port: int, look: Look) -> None:
         options.complain(str(missing))
         sys.exit(FINDINGS)
     try:
-        serve(subject.name, subject.model, subject.data(), look, port, _tell)
+        serve(subject.name, subject.model, subject.data(), look, port, tell)
     except OSError as error:
-        options.complain(f"port {port} cannot be used: {error.strerror or error}; try --port 0")
-        sys.exit(FINDINGS)
+        taken(port, error)
 
 
-def _tell(url: str) -> None:
+def taken(port: int, error: OSError) -> Never:
+    """Say that the page cannot be there."""
+    options.complain(f"port {port} cannot be used: {error.strerror or error}; try --port 0")
+    sys.exit(FINDINGS)
+
+
+def tell(url: str) -> None:
+    """Where the page is."""
     print(f"{url} shows it; Ctrl-C ends", flush=True)

@@ -1,19 +1,13 @@
 """The view in the browser: what its controls do, and a real browser that looks at it."""
 
-import base64
-import io
-import json
-import os
 import re
-import shutil
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
@@ -23,26 +17,16 @@ import pytest
 
 pytest.importorskip("viser", reason="needs the extra `view`")
 
-from matplotlib.image import imread
-from websockets.sync.client import connect
+from chromium_tab import CHROMIUM, PATIENCE, Tab, opened_tab, red, wait_for
 
 from robocomp_dsl.hardware.mujoco.model_file import load_model
+from robocomp_dsl.hardware.mujoco.sight import seen
 from robocomp_dsl.hardware.view.browser import LOOPBACK, Page
 from robocomp_dsl.hardware.view.controls import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.hardware.view.shapes import colour, triangles
 from robocomp_dsl.hardware.view.stage import relative_poses
 
 MODELS = Path(__file__).parent / "models"
-PATIENCE = 60.0
-
-
-def wait_for(done: Callable[[], object]) -> object:
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        if found := done():
-            return found
-        time.sleep(0.02)
-    raise AssertionError("it did not happen")
 
 
 @pytest.fixture
@@ -87,7 +71,7 @@ def test_nodes_hang_as_in_the_model_and_follow_it(page: Page) -> None:
     page.data.joint("turn").qpos = 1.0
     mujoco.mj_forward(page.model, page.data)
     page.refresh()
-    poses = relative_poses(page.model, page.data)
+    poses = relative_poses(page.model, seen(page.model, page.data).poses)
     for body, handle in enumerate(page.stage.frames, 1):
         assert handle.position == pytest.approx(poses[body, :3], abs=1e-6)
         assert handle.wxyz == pytest.approx(poses[body, 3:], abs=1e-6)
@@ -97,7 +81,7 @@ def test_nodes_hang_as_in_the_model_and_follow_it(page: Page) -> None:
 
 def test_relative_poses_give_the_absolute_ones(page: Page) -> None:
     model, data = page.model, page.data
-    poses = relative_poses(model, data)
+    poses = relative_poses(model, seen(model, data).poses)
     for body in range(1, model.nbody):
         above = model.body_parentid[body]
         turn, quat = np.zeros(9), np.zeros(4)
@@ -141,9 +125,9 @@ def test_time_runs_when_it_is_told_to(page: Page) -> None:
     page.controls.running = True
     page.run(lambda: page.data.time < 0.5 and time.monotonic() < end)
     assert page.data.xpos[crate, 2] < height - 0.05
-    page.stage.show_contacts(page.data, on=True)
+    page.stage.show_contacts(on=True)
     assert page.stage._contacts is not None
-    page.stage.show_contacts(page.data, on=False)
+    page.stage.show_contacts(on=False)
     assert page.stage._contacts is None
 
 
@@ -198,94 +182,11 @@ def test_shapes_have_their_size_and_their_outside_is_outside(kind: str) -> None:
 
 # -- a real browser ------------------------------------------------------------------------------
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-SWITCHES = (
-    "--headless=new",
-    "--no-sandbox",
-    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",  # nobody else is there
-    "--remote-debugging-port=0",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-dev-shm-usage",
-    "--ignore-gpu-blocklist",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-)
-
-
-class Tab:
-    """One tab of Chromium, over its own protocol."""
-
-    def __init__(self, port: int) -> None:
-        with urllib.request.urlopen(f"http://{LOOPBACK}:{port}/json/list", timeout=10) as answer:
-            tabs = json.load(answer)
-        url = next(one["webSocketDebuggerUrl"] for one in tabs if one["type"] == "page")
-        self._link = connect(url, max_size=None)
-        self._number = 0
-        self.asked: list[str] = []
-
-    def __call__(self, method: str, **parameters: object) -> dict:  # type: ignore[type-arg]
-        self._number += 1
-        order = {"id": self._number, "method": method, "params": parameters}
-        self._link.send(json.dumps(order))
-        while True:
-            told = json.loads(self._link.recv(timeout=PATIENCE))
-            if told.get("method") == "Network.requestWillBeSent":
-                self.asked.append(told["params"]["request"]["url"])
-            elif told.get("method") == "Network.webSocketCreated":
-                self.asked.append(told["params"]["url"])
-            elif told.get("id") == self._number:
-                return told.get("result", {})
-
-    def value(self, script: str) -> object:
-        return self("Runtime.evaluate", expression=script)["result"].get("value")
-
-    def shows(self, *words: str) -> bool:
-        text = str(self.value("document.body ? document.body.innerText : ''"))
-        return all(word in text for word in words)
-
-    def open_panel(self, name: str) -> None:
-        tab = (
-            f"[...document.querySelectorAll('[role=tab]')].find(t => /{name}/.test(t.textContent))"
-        )
-        middle = "r => `${r.x + r.width / 2} ${r.y + r.height / 2}`"
-        where = f"({middle})({tab}.getBoundingClientRect())"
-        x, y = (float(number) for number in str(self.value(where)).split())
-        for kind in ("mousePressed", "mouseReleased"):
-            self("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
-
-    def picture(self) -> np.ndarray:
-        data = base64.b64decode(self("Page.captureScreenshot")["data"])
-        return imread(io.BytesIO(data))[:, :, :3]
-
-    def close(self) -> None:
-        self._link.close()
-
-
-def red(picture: np.ndarray) -> float:
-    """How much of a picture, values from 0 to 1, is red."""
-    return float(((picture[:, :, 0] > 0.6) & (picture[:, :, 1:].max(axis=2) < 0.35)).mean())
-
 
 @pytest.fixture
 def tab() -> Iterator[Tab]:
-    assert CHROMIUM
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        browser = subprocess.Popen(
-            [CHROMIUM, *SWITCHES, f"--user-data-dir={profile}", "about:blank"],
-            stderr=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            start_new_session=True,
-        )
-        try:
-            told = Path(profile) / "DevToolsActivePort"
-            wait_for(lambda: told.is_file() and told.read_text().count("\n"))
-            made = Tab(int(told.read_text().splitlines()[0]))
-            yield made
-            made.close()
-        finally:
-            os.killpg(browser.pid, signal.SIGKILL)
-            browser.wait()
+    with opened_tab() as made:
+        yield made
 
 
 @pytest.mark.skipif(not CHROMIUM, reason="needs Chromium: apt install chromium")

@@ -1,4 +1,4 @@
-"""The Python side of the interfaces that the library itself calls is what rcgen makes of their IDSL files."""
+"""The Python side of the interfaces that the library itself calls is what rcgen makes of IDSL."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.mujoco.world import World
+Floats = NDArray[np.float64]
 
 VERSION: str = mujoco.mj_versionString()
 """Another MuJoCo reads no models of this one."""
@@ -27,17 +27,16 @@ MOST_CONTACTS = 500
 class Seen:
     """`positions` (nq,), `poses` (nbody, 7), `contacts` (n, 6): point and normal."""
 
-    positions: NDArray[np.float64]
-    poses: NDArray[np.float32]
-    contacts: NDArray[np.float32]
+    positions: Floats
+    poses: Floats
+    contacts: Floats
 
 
-def seen(world: World) -> Seen:
-    """What is to be seen of a world; copies."""
-    model, data = world.model, world.data
-    poses = np.empty((model.nbody, 7), np.float32)
+def seen(model: Any, data: Any) -> Seen:
+    """What is to be seen of a state; copies."""
+    poses = np.empty((model.nbody, 7))
     poses[:, :3], poses[:, 3:] = data.xpos, data.xquat
-    contacts = np.empty((min(data.ncon, MOST_CONTACTS), 6), np.float32)
+    contacts = np.empty((min(data.ncon, MOST_CONTACTS), 6))
     if len(contacts):
         contacts[:, :3] = data.contact.pos[:MOST_CONTACTS]
         contacts[:, 3:] = data.contact.frame[:MOST_CONTACTS, :3]

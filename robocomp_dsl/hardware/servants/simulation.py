@@ -201,7 +201,8 @@ class SimulationServant(Servant):
         """Where everything is."""
         it = self.device()
         with it.turns:
-            seen, revision, time = self._sight.seen(it.world), it.revision, it.time
+            seen = self._sight.seen(it.world.model, it.world.data)
+            revision, time = it.revision, it.time
         return self.types.Sight(
             time=time,
             realTimeFactor=it.pace.factor,

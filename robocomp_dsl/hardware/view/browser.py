@@ -15,9 +15,10 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.view.controls import Controls
+from robocomp_dsl.hardware.mujoco.sight import Seen, seen
+from robocomp_dsl.hardware.view.controls import Controls, Far
 from robocomp_dsl.hardware.view.picture import Look, surroundings
-from robocomp_dsl.hardware.view.stage import Stage
+from robocomp_dsl.hardware.view.stage import Colours, Floats, Stage
 
 try:
     import rich
@@ -35,12 +36,23 @@ _MOST_BEHIND = 0.1  # s that running physics makes up for
 
 
 class Page:
-    """Open until `close`. `model` and `data` belong to it, or are used under `controls.lock`."""
+    """Open until `close`. `model` and `data` belong to it, or are used under `controls.lock`.
+
+    To show what something else tells: set joints in `data`, call `mujoco.mj_kinematics`, and then
+    `refresh`; or `follow` with the poses themselves. `far` holds a world that runs elsewhere.
+    """
 
     def __init__(
-        self, name: str, model: Any, data: Any, look: Look = PLAIN, *, port: int = 0
+        self,
+        name: str,
+        model: Any,
+        data: Any,
+        look: Look = PLAIN,
+        *,
+        port: int = 0,
+        far: Far | None = None,
     ) -> None:
-        self.model, self.data = model, data
+        self._look, self._far = look, far
         port = _free(port)  # viser would silently take another one
         logging.getLogger("websockets").setLevel(logging.ERROR)
         rich.get_console().quiet = True  # viser greets with a panel of its own
@@ -50,12 +62,19 @@ class Page:
         self.url = f"http://{LOOPBACK}:{self._server.get_port()}"
         self._server.gui.configure_theme(show_logo=False, show_share_button=False)
         self._server.scene.set_up_direction("+z")
-        self._look_at(data)
-        self.stage = Stage(self._server, model, data)
-        self.controls = Controls(self._server, self.stage, data, look)
+        self._look_at(model, data)
+        self.show(model, data)
 
-    def _look_at(self, data: Any) -> None:
-        low, high = surroundings(self.model, data)
+    def show(self, model: Any, data: Any) -> None:
+        """Another model, in place of the one before."""
+        self.model, self.data = model, data
+        self._server.scene.reset()
+        self._server.gui.reset()
+        self.stage = Stage(self._server, model, seen(model, data))
+        self.controls = Controls(self._server, self.stage, data, self._look, self._far)
+
+    def _look_at(self, model: Any, data: Any) -> None:
+        low, high = surroundings(model, data)
         middle, away = (low + high) / 2, float(((high - low) ** 2).sum() ** 0.5)
         camera = self._server.initial_camera
         camera.look_at = tuple(middle.tolist())
@@ -64,8 +83,21 @@ class Page:
     def refresh(self) -> None:
         """Show the state as it is now."""
         with self.controls.lock:
-            self.stage.follow(self.data)
+            self.follow(seen(self.model, self.data))
+
+    def follow(self, seen: Seen) -> None:
+        """Show what somebody has seen of the same model."""
+        with self.controls.lock:
+            self.data.qpos[:] = seen.positions
+            self.stage.follow(seen)
             self.controls.tell()
+
+    def show_points(
+        self, name: str, body: str, points: Floats, colours: Colours, size: float = 0.004
+    ) -> None:
+        """Coloured points on a body, or other colours of those: see `Stage.show_points`."""
+        with self.controls.lock:
+            self.stage.show_points(name, body, points, colours, size)
 
     def run(self, going_on: Callable[[], bool] = lambda: True) -> None:
         """Let time pass where it is told to, as fast as it does, until `going_on` says no."""

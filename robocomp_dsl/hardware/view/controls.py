@@ -1,6 +1,7 @@
 """The panel beside the scene: what is shown, joints that can be moved, nodes that can be placed.
 
-In: a viser server, a stage and the state behind it. Out: changes of the state, made under a lock.
+In: a viser server, a stage and the state behind it. Out: changes of the state, under a lock. Of a
+world that runs elsewhere (`Far`) the state is only shown, and its time can be held.
 """
 
 from __future__ import annotations
@@ -8,11 +9,12 @@ from __future__ import annotations
 import html
 import math
 import threading
-from typing import Any
+from typing import Any, Protocol
 
 import mujoco
 import numpy as np
 
+from robocomp_dsl.hardware.mujoco.sight import seen
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.stage import Stage
 
@@ -27,10 +29,23 @@ _KINDS = {
 }
 
 
+class Far(Protocol):
+    """Holds a world that runs elsewhere. What does not work out is told by it, and not raised."""
+
+    def run(self, on: bool) -> None:
+        """Let its time pass, or stand still."""
+
+    def reset(self) -> None:
+        """Let it begin anew."""
+
+
 class Controls:
     """`lock` guards `data`; `running` is whether time shall pass."""
 
-    def __init__(self, server: Any, stage: Stage, data: Any, look: Look) -> None:
+    def __init__(
+        self, server: Any, stage: Stage, data: Any, look: Look, far: Far | None = None
+    ) -> None:
+        self._far = far
         self.gui, self.stage, self.data = server.gui, stage, data
         self.model = stage.model
         self.lock = threading.RLock()
@@ -50,28 +65,46 @@ class Controls:
 
     def _view(self, look: Look) -> None:
         stage = self.stage
+        self._said = self.gui.add_markdown("", visible=self._far is not None)
         self._switch("Frames", look.frames, stage.show_frames)
         self._switch("Names", look.names, stage.show_names)
-        self._switch("Contacts", look.contacts, lambda on: stage.show_contacts(self.data, on))
-        self._switch("Let time run", False, self._run)
+        self._switch("Contacts", look.contacts, stage.show_contacts)
+        self._time = self._switch("Let time run", False, self._run)
         self.gui.add_button("Back to the start").on_click(lambda _: self.reset())
 
-    def _switch(self, label: str, on: bool, act: Any) -> None:
+    def _switch(self, label: str, on: bool, act: Any) -> Any:
         box = self.gui.add_checkbox(label, on)
 
         def switched(_: Any) -> None:
             with self.lock:
-                act(box.value)
+                if not self._quiet:
+                    act(box.value)
 
         box.on_update(switched)
         if on:
             act(True)
+        return box
 
     def _run(self, on: bool) -> None:
         self.running = on
+        if self._far:
+            self._far.run(on)
+
+    def say(self, text: str, running: bool) -> None:
+        """What is so of a world elsewhere; call it under the lock."""
+        self.running = running
+        if self._said.content != text:
+            self._said.content = text
+        if self._time.value != running:
+            self._quiet = True
+            self._time.value = running
+            self._quiet = False
 
     def reset(self) -> None:
         """The joints as at the start, at rest."""
+        if self._far:
+            self._far.reset()
+            return
         with self.lock:
             mujoco.mj_resetData(self.model, self.data)
             self.data.qpos[:] = self._start
@@ -79,7 +112,7 @@ class Controls:
 
     def _changed(self) -> None:
         mujoco.mj_forward(self.model, self.data)
-        self.stage.follow(self.data)
+        self.stage.follow(seen(self.model, self.data))
         self.tell()
 
     def tell(self) -> None:
@@ -111,7 +144,8 @@ class Controls:
         now = float(self.data.qpos[address])
         low, high = min(low, now), max(high, now, low + 1e-6)
         label = f"{model.joint(j).name or f'joint{j}'} [{'rad' if hinge else 'm'}]"
-        slider = self.gui.add_slider(label, low, high, (high - low) / 1000, now)
+        far = self._far is not None
+        slider = self.gui.add_slider(label, low, high, (high - low) / 1000, now, disabled=far)
         self._sliders.append((slider, address))
 
         def moved(_: Any) -> None:
@@ -132,8 +166,9 @@ class Controls:
             return
         choice = self.gui.add_dropdown("Node", tuple(f"{i}: {n}" for i, n in enumerate(names) if i))
         about = self.gui.add_markdown("")
-        place = self.gui.add_vector3("place [m]", (0.0, 0.0, 0.0), step=0.001)
-        turn = self.gui.add_vector3("roll pitch yaw [rad]", (0.0, 0.0, 0.0), step=0.001)
+        zero, far = (0.0, 0.0, 0.0), self._far is not None
+        place = self.gui.add_vector3("place [m]", zero, step=0.001, disabled=far)
+        turn = self.gui.add_vector3("roll pitch yaw [rad]", zero, step=0.001, disabled=far)
 
         def chosen() -> int:
             return int(choice.value.partition(":")[0])

@@ -1,20 +1,22 @@
 """A model as nodes of a viser scene, which follow its state.
 
-In: a viser server, `MjModel` and `MjData`. Out: one node per body under that of its parent, so that
-the viewer's own tree is the model's; shapes, labels and contacts in it.
+In: a viser server, a model, and what is to be seen of its state. Out: one node per body under that
+of its parent, so that the viewer's own tree is the model's; shapes, labels, points and contacts.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.hardware.mujoco.sight import Seen
 from robocomp_dsl.hardware.view.shapes import colour, triangles
 
-_MOST_CONTACTS = 500
+Floats = NDArray[np.float64]
+Colours = NDArray[np.uint8]
+
 _INVISIBLE_GROUPS = 3
 """Groups from this one on are hidden, as MuJoCo's own viewer has it."""
 
@@ -22,13 +24,15 @@ _INVISIBLE_GROUPS = 3
 class Stage:
     """What is to be seen of one model. Not thread-safe: the caller holds a lock."""
 
-    def __init__(self, server: Any, model: Any, data: Any) -> None:
+    def __init__(self, server: Any, model: Any, seen: Seen) -> None:
         self.server, self.model = server, model
         self.extent = max(float(model.stat.extent), 0.1)
         self.paths = _paths(model)
         self._contacts_on = False
         self._contacts: Any = None
-        self._poses: NDArray[np.float64] = np.full((model.nbody, 7), np.nan)
+        self._clouds: dict[str, Any] = {}
+        self._seen = seen
+        self._poses: Floats = np.full((model.nbody, 7), np.nan)
         self.frames = [self._frame(i) for i in range(1, model.nbody)]
         self.labels = [
             server.scene.add_label(f"{path}/name", self.names[i], visible=False)
@@ -38,7 +42,7 @@ class Stage:
         for geom in range(model.ngeom):
             if model.geom_group[geom] < _INVISIBLE_GROUPS:
                 self._show(geom)
-        self.follow(data)
+        self.follow(seen)
 
     @property
     def names(self) -> list[str]:
@@ -70,9 +74,10 @@ class Stage:
             wxyz=self.model.geom_quat[geom],
         )
 
-    def follow(self, data: Any) -> None:
-        """Show the poses and contacts of `data`; what has not moved is not sent."""
-        poses = relative_poses(self.model, data)
+    def follow(self, seen: Seen) -> None:
+        """Show poses and contacts; what has not moved is not sent."""
+        self._seen = seen
+        poses = relative_poses(self.model, seen.poses)
         moved = np.flatnonzero(~np.isclose(poses, self._poses, atol=1e-7, rtol=0).all(axis=1))
         with self.server.atomic():
             for body in moved:
@@ -80,7 +85,7 @@ class Stage:
                     handle = self.frames[body - 1]
                     handle.position, handle.wxyz = poses[body, :3], poses[body, 3:]
             if self._contacts_on:
-                self._touch(data)
+                self._touch()
         self._poses[moved] = poses[moved]
 
     def show_frames(self, on: bool) -> None:
@@ -93,19 +98,40 @@ class Stage:
         for handle in self.labels:
             handle.visible = on
 
-    def show_contacts(self, data: Any, on: bool) -> None:
+    def show_points(
+        self, name: str, body: str, points: Floats, colours: Colours, size: float
+    ) -> None:
+        """Points (n, 3) in the frame of a body, in m, with colours (n, 3); they move with it.
+
+        Called again under the same name it changes them. Raises `KeyError` for no such body.
+        """
+        at = f"{self.paths[self.model.body(body).id]}/{_safe(name)}:points"
+        known = self._clouds.get(at)
+        if known is not None and len(known.points) == len(points):
+            known.points, known.colors = points.astype(np.float32), colours
+        else:
+            self._clouds[at] = self.server.scene.add_point_cloud(
+                at,
+                points.astype(np.float32),
+                colours,
+                point_size=size,
+                precision="float32",
+                point_shape="circle",
+                point_shading="flat",
+            )
+
+    def show_contacts(self, on: bool) -> None:
         """Points that touch, and an arrow along the normal of each."""
         self._contacts_on = on
-        self._touch(data)
+        self._touch()
 
-    def _touch(self, data: Any) -> None:
+    def _touch(self) -> None:
         if self._contacts is not None:
             self._contacts.remove()
             self._contacts = None
-        points = data.contact.pos[:_MOST_CONTACTS] if data.ncon else np.empty((0, 3))
+        points, normals = self._seen.contacts[:, :3], self._seen.contacts[:, 3:]
         if not self._contacts_on or not len(points):
             return
-        normals = data.contact.frame[:_MOST_CONTACTS, :3]
         ends = np.stack((points, points + 0.08 * self.extent * normals), axis=1)
         self._contacts = self.server.scene.add_arrows(
             "/contacts",
@@ -117,17 +143,24 @@ class Stage:
         )
 
 
-def relative_poses(model: Any, data: Any) -> NDArray[np.float64]:
-    """Place and quaternion (w, x, y, z) of every body in its parent, shape (nbody, 7)."""
-    made = np.zeros((model.nbody, 7))
-    turn = data.xmat.reshape(-1, 3, 3)
-    above = model.body_parentid
-    back = turn[above].transpose(0, 2, 1)
-    made[:, :3] = np.einsum("nij,nj->ni", back, data.xpos - data.xpos[above])
-    inside = (back @ turn).reshape(-1, 9)
-    for i in range(model.nbody):
-        mujoco.mju_mat2Quat(made[i, 3:], inside[i])
-    return made
+def relative_poses(model: Any, poses: Floats) -> Floats:
+    """Place and quaternion (w, x, y, z) of every body in its parent, shape (nbody, 7).
+
+    `poses` are those in the world, of the same shape.
+    """
+    above = poses[model.body_parentid]
+    back = above[:, 3:] * (1, -1, -1, -1)
+    away = np.zeros((len(poses), 4))
+    away[:, 1:] = poses[:, :3] - above[:, :3]
+    turned = _product(_product(back, away), above[:, 3:])
+    return np.concatenate((turned[:, 1:], _product(back, poses[:, 3:])), axis=1)
+
+
+def _product(one: Floats, other: Floats) -> Floats:
+    """Hamilton's, of quaternions (w, x, y, z), row by row."""
+    a, u, b, v = one[:, :1], one[:, 1:], other[:, :1], other[:, 1:]
+    real = a * b - (u * v).sum(axis=1, keepdims=True)
+    return np.concatenate((real, a * v + b * u + np.cross(u, v)), axis=1)
 
 
 def _paths(model: Any) -> list[str]:

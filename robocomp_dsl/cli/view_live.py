@@ -1,0 +1,122 @@
+"""`rcgen view --live`: a simulation that runs, on a page or as a picture.
+
+In: the name of a component or none, a domain or a deployment or none. Out: a page that follows it
+until Ctrl-C, or a PNG file.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Never
+
+from robocomp_dsl.cli import options, view
+from robocomp_dsl.cli.program import FINDINGS
+from robocomp_dsl.deploy import folder
+from robocomp_dsl.hardware.simulation_interface import SIMULATION, SimulationProxy
+from robocomp_dsl.hardware.view.picture import Look
+from robocomp_dsl.hardware.view.running import CannotFollow, look_at
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware
+from robocomp_dsl.runtime.statistics import Statistics
+
+ME = f"rcgen-view-{os.getpid()}"
+DEFAULT = "default"
+PATIENCE_S = 3.0
+
+
+def show(
+    component: str,
+    domain: str | None,
+    look: Look,
+    screenshot: Path | None,
+    size: tuple[int, int],
+    port: int,
+) -> None:
+    """See the module; ends with exit code 1 where there is none, or several."""
+    with _hand(component, domain) as hand:
+        try:
+            if screenshot:
+                seen = look_at(hand)
+                view.photograph(seen.model, seen.data(), screenshot, size, look)
+            else:
+                _serve(component or "simulation", hand, look, port)
+        except (MiddlewareError, CannotFollow) as error:
+            _fail(str(error))
+
+
+def _serve(name: str, hand: SimulationProxy, look: Look, port: int) -> None:
+    try:
+        from robocomp_dsl.hardware.view.live import LivePage  # noqa: PLC0415 - needs an extra
+
+        page = LivePage(name, hand, look, port=port)
+    except ImportError as missing:
+        _fail(str(missing))
+    except OSError as error:
+        view.taken(port, error)
+    view.tell(page.page.url)
+    try:
+        page.run()
+    finally:
+        page.close()
+
+
+@contextmanager
+def _hand(component: str, domain: str | None) -> Iterator[SimulationProxy]:
+    """The simulation that is meant."""
+    domains = _domains(domain)
+    with ExitStack() as stack:
+        found = {}
+        for name in domains:
+            proxy = stack.enter_context(_connected(component, name))
+            if proxy.wait_for_server(PATIENCE_S / len(domains)):
+                found[name] = proxy
+        if len(found) != 1:
+            _fail(_unclear(component, list(found), domains))
+        yield next(iter(found.values()))
+
+
+@contextmanager
+def _connected(component: str, domain: str) -> Iterator[SimulationProxy]:
+    try:
+        middleware: Middleware = open_middleware(
+            "zenoh", Host(ME, domain, Execution(), Statistics())
+        )
+    except MiddlewareError as error:
+        _fail(str(error))
+    try:
+        at = Endpoint(SIMULATION, ME, "Simulation", (component,) if component else ())
+        yield SimulationProxy(middleware.proxy(at))
+    finally:
+        middleware.close()
+
+
+def _domains(said: str | None) -> Sequence[str]:
+    """Where to look: a deployment stands for its domain."""
+    try:
+        running = {one.name: one.domain for one in folder.running()}
+    except folder.Unavailable:
+        running = {}
+    if said is not None:
+        return [running.get(said, said)]
+    return list(dict.fromkeys([*running.values(), DEFAULT]))
+
+
+def _unclear(component: str, found: Sequence[str], domains: Sequence[str]) -> str:
+    if found:
+        return f"simulations run in several domains: say which, --domain {found[0]}"
+    what = f"no simulation called `{component}`" if component else "no simulation"
+    return (
+        f"{what} runs in the domain {' or '.join(f'`{one}`' for one in domains)}; start it"
+        " (`python3 main.py`, `rcdeploy app.ddsl up`), or say where it is with --domain"
+    )
+
+
+def _fail(message: str) -> Never:
+    options.complain(message)
+    sys.exit(FINDINGS)

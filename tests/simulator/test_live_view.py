@@ -1,0 +1,238 @@
+"""The live view: a page that follows a running simulation and holds its time."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("viser", reason="needs the extra `view`")
+
+from chromium_tab import CHROMIUM, PATIENCE, opened_tab, red, wait_for
+from worlds import CLIENT, Served, rcgen, run, served
+
+from robocomp_dsl.hardware.mujoco import sight
+from robocomp_dsl.hardware.view.live import LivePage
+from robocomp_dsl.hardware.view.running import CannotFollow, look_at
+from robocomp_dsl.runtime.errors import NoServer
+
+WORLD = """\
+<innerModel>
+ <plane id="ground" ny="1" size="4000,4000,50" py="-25" texture="#606060"/>
+ <differentialrobot id="robot" tx="-1000">
+  <plane id="hull" nz="-1" py="500" size="900,900,900" texture="#ff0000"/>
+  <joint id="neck" axis="y" min="-1" max="1" ty="900"/>
+ </differentialrobot>
+</innerModel>
+"""
+
+
+class Hand:
+    """The proxy of a world in this process; `gone` as long as nobody serves it."""
+
+    def __init__(self, world: Served) -> None:
+        self.world, self.gone = world, False
+        self.set_timeout: Callable[[float], None] = lambda seconds: None
+
+    def __getattr__(self, operation: str) -> Any:
+        if self.gone:
+            raise NoServer("nobody is there")
+        return getattr(self.world.ports["Simulation"], operation)
+
+
+@pytest.fixture
+def live(tmp_path: Path) -> Iterator[LivePage]:
+    hand: Any = Hand(served(tmp_path, WORLD))
+    made = LivePage("sim", hand)
+    made.hand = hand  # type: ignore[attr-defined]
+    yield made
+    made.close()
+
+
+def world_of(live: LivePage) -> Served:
+    found: Served = live.hand.world  # type: ignore[attr-defined]
+    return found
+
+
+def text(live: LivePage) -> str:
+    said: str = live.page.controls._said.content
+    return said
+
+
+def test_it_is_where_the_world_is(live: LivePage) -> None:
+    world = world_of(live)
+    world.ports["robot"].setSpeedBase(400.0, 0.5)
+    goal = SimpleNamespace(name="neck", position=0.5, maxSpeed=1.0)
+    world.ports["JointMotor"].setPosition(goal)
+    world.simulation.advance(1.0)
+    live.look()
+    place = live.page.stage.frames[live.page.model.body("robot").id - 1].position
+    pose = world.ports["Simulation"].getPoses(0, ["robot"])[0]
+    assert place[:2] * 1000 == pytest.approx([pose.x, pose.z], abs=0.1)
+    assert pose.z > 200
+    slider = next(s for s, _ in live.page.controls._sliders if s.label == "neck [rad]")
+    assert slider.value == pytest.approx(0.5, abs=0.01)
+    assert slider.disabled, "what runs elsewhere is not moved from here"
+    assert text(live) == "simulated time 1.00 s, 0.00 times real time"
+
+
+def test_its_switches_hold_the_time(live: LivePage) -> None:
+    world, controls = world_of(live), live.page.controls
+    assert controls._time.value
+    controls._time.value = False  # as in the browser
+    assert world.simulation.pace.paused
+    live.look()
+    assert text(live).endswith("stands still")
+    world.ports["Simulation"].step(50)
+    world.ports["Simulation"].resume()
+    live.look()
+    assert controls._time.value, "somebody else has let it go on"
+    assert not world.simulation.pace.paused
+    controls.reset()
+    assert world.simulation.time == 0
+
+
+def test_a_node_that_comes_is_on_the_page(live: LivePage) -> None:
+    world = world_of(live)
+    before = live.page.stage.paths
+    plane = world.types.Plane3D(500.0, 140.0, 900, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0)
+    nodes = world.ports["InnerModelManager"]
+    nodes.addTransform("mark", "", "robot", world.types.Pose3D(1, 2, 3, 0, 0, 0))
+    nodes.addPlane("crate", "mark", plane)
+    live.look()
+    assert set(live.page.stage.paths) == {*before, "/world/robot/mark"}
+    nodes.removeNode("mark")
+    live.look()
+    assert live.page.stage.paths == before
+
+
+def test_a_simulation_that_ends_is_told_and_comes_back(live: LivePage, tmp_path: Path) -> None:
+    hand: Any = live.hand  # type: ignore[attr-defined]
+    hand.gone = True
+    live.look()
+    assert text(live) == "**sim does not answer**"
+    hand.gone, hand.world = False, served(tmp_path, WORLD.replace("neck", "head"))
+    live.look()
+    assert "simulated time 0.00 s" in text(live)
+    assert "/world/robot/head" in live.page.stage.paths
+
+
+def test_another_mujoco_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    world = served(tmp_path, WORLD)
+    monkeypatch.setattr(sight, "VERSION", "1.2.3")
+    hand: Any = Hand(world)
+    with pytest.raises(CannotFollow, match=r"1\.2\.3"):
+        look_at(hand)
+
+
+def test_points_move_with_their_body(live: LivePage) -> None:
+    points = np.array([[0.0, 0.0, 0.5], [0.1, 0.0, 0.5]])
+    colours = np.array([[255, 0, 0], [0, 255, 0]], np.uint8)
+    live.page.show_points("skin", "robot", points, colours)
+    (cloud,) = live.page.stage._clouds.values()
+    assert cloud.name == "/world/robot/skin:points"
+    live.page.show_points("skin", "robot", points, colours[::-1])
+    assert live.page.stage._clouds == {cloud.name: cloud}
+    assert cloud.colors.tolist() == colours[::-1].tolist()
+    live.page.show_points("skin", "robot", points[:1], colours[:1])
+    assert len(live.page.stage._clouds[cloud.name].points) == 1
+    with pytest.raises(KeyError):
+        live.page.show_points("skin", "nobody", points, colours)
+
+
+# -- the command, and a real browser -------------------------------------------------------------
+
+
+@contextmanager
+def command(*arguments: str, cwd: Path) -> Iterator[subprocess.Popen[str]]:
+    """A program that is ended with Ctrl-C, whatever happens."""
+    process = subprocess.Popen(
+        arguments, cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(PATIENCE)
+        finally:
+            process.kill()
+
+
+VIEW = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen import main; main()", "view", "--live"]
+
+
+@pytest.fixture(scope="module")
+def simulator(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    home = tmp_path_factory.mktemp("live")
+    (home / "room.xml").write_text(WORLD)
+    done = rcgen("simulator", "room.xml", cwd=home)
+    assert done.returncode == 0, done.stderr
+    return home / "room_simulator"
+
+
+def middle(picture: np.ndarray) -> float:
+    """Where the red of a picture is, from left to right."""
+    seen = (picture[:, :, 0] > 0.6) & (picture[:, :, 1:].max(axis=2) < 0.35)
+    return float(np.flatnonzero(seen.any(axis=0)).mean())
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="needs Chromium: apt install chromium")
+def test_a_real_browser_sees_a_robot_drive(simulator: Path) -> None:
+    domain = f"live-{os.getpid()}"
+    main = [sys.executable, "main.py", "--domain", domain]
+    with command(*main, cwd=simulator), opened_tab() as tab:
+        options = ["room_simulator", "--domain", domain, "--port", "0"]
+        with command(*VIEW, *options, cwd=simulator) as view:
+            assert view.stdout
+            told = re.match(r"(http://127\.0\.0\.1:\d+) shows it", view.stdout.readline())
+            assert told
+            tab("Page.enable")
+            tab("Page.navigate", url=told[1])
+            wait_for(lambda: tab.shows("Let time run", "simulated time"))
+            wait_for(lambda: red(tab.picture()) > 0.003)
+            before = middle(tab.picture())
+            run(simulator, CLIENT + DRIVE, "zenoh", domain, "room_simulator")
+            wait_for(lambda: abs(middle(tab.picture()) - before) > 40)
+            told_time = lambda: re.search(  # noqa: E731
+                r"simulated time ([\d.]+) s", str(tab.value("document.body.innerText"))
+            )
+            first = told_time()
+            assert first
+            wait_for(lambda: (now := told_time()) and float(now[1]) > float(first[1]) + 1)
+
+
+DRIVE = """
+proxy(i.DIFFERENTIALROBOT, "robot").setSpeedBase(800.0, 0.0)
+middleware.close()
+"""
+
+
+def test_the_only_simulation_is_found_and_one_that_is_not_there_is_told(simulator: Path) -> None:
+    domain = f"alone-{os.getpid()}"
+    picture = simulator.parent / "live.png"
+    ask = [*VIEW, "--domain", domain, "--screenshot", str(picture), "--size", "320x240"]
+    none = subprocess.run([*ask, "nobody"], capture_output=True, text=True, check=False)
+    assert none.returncode == 1
+    assert "nobody" in none.stderr
+    assert domain in none.stderr
+    assert "Traceback" not in none.stderr
+    with command(sys.executable, "main.py", "--domain", domain, cwd=simulator):
+        deadline = time.monotonic() + PATIENCE
+        while time.monotonic() < deadline:
+            done = subprocess.run(ask, capture_output=True, text=True, check=False)
+            if done.returncode == 0:
+                break
+        assert done.returncode == 0, done.stderr
+    assert picture.stat().st_size > 1000
