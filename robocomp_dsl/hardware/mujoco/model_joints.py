@@ -32,7 +32,7 @@ _PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
 _STRONG = 2.0
 """A joint of unknown force holds so many times the weight that it may carry."""
 
-_SLOWEST = 0.0015
+_SLOWEST = 0.001
 _SLOWNESS = 1.0
 """Least inertia [kg m²] of a joint for each N·m, and for each N·m and second of a step: a regulator
 whose damping is half its torque per rad/s stays calm then."""
@@ -47,7 +47,7 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
     followers = _followers(model)
     boards = _boards(model, started.findings)
     made = []
-    for joint in range(model.njnt):
+    for joint in (*boards, *(one for one in range(model.njnt) if one not in boards)):
         name = model.joint(joint).name
         kind = _KINDS.get(mujoco.mjtJoint(model.jnt_type[joint]))
         if kind is None:
@@ -100,7 +100,7 @@ def _followers(model: Any) -> set[int]:
 
 
 def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:
-    """The board of joints that are in a tuple; in a second one they stay in the first."""
+    """The board of joints that are in a tuple, in its order; the first one of a joint counts."""
     found: dict[int, str] = {}
     for i in range(model.ntuple):
         first, size = int(model.tuple_adr[i]), int(model.tuple_size[i])
