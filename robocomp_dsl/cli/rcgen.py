@@ -14,6 +14,7 @@ TABLE = {
     "component": ("component", "Generate a component from its CDSL file."),
     "interface": ("interface", "Write an interface as Slice, as ROS 2 messages or as JSON Schema."),
     "simulator": ("simulator", "Generate a simulator from a world: its devices are served."),
+    "hardware": ("hardware", "Generate the real twin of a simulated device: fill in its driver."),
     "view": ("view", "Show a world or a robot in the browser, or make a picture of it."),
     "check": ("check", "Check descriptions; the exit code is 1 if there are errors."),
     "doc": ("doc", "Write linked documentation of interfaces, components and deployments."),

@@ -3,6 +3,7 @@
 HardwareError
 ├── CommandRefused      the command was not carried out; the device does what it did before
 ├── DeviceGone          the device was taken out of the world
+├── NotWritten          a method of a driver that nobody has filled in yet
 ├── FrameError          a frame that is not there, is there already, or cannot go there
 └── SceneError          the description of the world cannot be simulated
     └── Diverged        the simulation has become meaningless and must be started again
@@ -23,6 +24,13 @@ class CommandRefused(HardwareError):
 
 class DeviceGone(HardwareError):
     """The device was there and has been taken out of the world."""
+
+
+class NotWritten(HardwareError):
+    """A method of a driver that is still as `rcgen hardware` wrote it."""
+
+    def __init__(self, method: str) -> None:
+        super().__init__(f"`{method}` of driver.py is not written yet")
 
 
 class FrameError(HardwareError):

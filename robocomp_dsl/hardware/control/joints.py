@@ -81,6 +81,16 @@ class BoardSpec:
         """Which joints slide, (n,)."""
         return np.array([joint.prismatic for joint in self.joints])
 
+    def part(self, names: Sequence[str]) -> BoardSpec:
+        """The joints `names` with their motors, in that order. Raises `UnknownJoint`."""
+        at = Selector(self.names).indices(names)
+        pick = at.tolist()
+        return BoardSpec(
+            tuple(self.joints[i] for i in pick),
+            tuple(self.motors[i] for i in pick),
+            self.coupling[np.ix_(at, at)],
+        )
+
     def column(self, name: str) -> Floats:
         """One number of every joint, (n,)."""
         return np.array([float(getattr(joint, name)) for joint in self.joints])

@@ -1,0 +1,28 @@
+"""What every device of a kind keeps to, simulated or real: one rule, one function.
+
+In: a device and a way to let time pass. Out: nothing, or `Broken` with what is wrong. `rcgen
+hardware` writes a test that holds these against a new driver and against its simulated twin.
+"""
+
+from __future__ import annotations
+
+from robocomp_dsl.hardware.rules import base, joints, pictures, ranges, sensors
+from robocomp_dsl.hardware.rules.rule import Broken, Rule
+
+__all__ = ["RULES", "Broken", "Rule"]
+
+RULES: dict[str, tuple[Rule, ...]] = {
+    "laser": ranges.LASER,
+    "ultrasound": ranges.ULTRASOUND,
+    "differentialrobot": base.BASE,
+    "omnirobot": base.BASE,
+    "imu": sensors.IMU,
+    "gps": sensors.GPS,
+    "battery": sensors.BATTERY,
+    "touchsensor": sensors.TOUCH,
+    "camera": pictures.CAMERA,
+    "rgbd": pictures.RGBD,
+    "joint": joints.JOINTS,
+    "prismaticjoint": joints.JOINTS,
+}
+"""The rules of each kind of device, by the tag of InnerModel."""

@@ -1,0 +1,213 @@
+"""A driver behind the ports of a component: opened, lost, opened again; and motors on a board."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.driven import Hardware
+from robocomp_dsl.hardware.errors import HardwareError, NotWritten
+from robocomp_dsl.hardware.rules import RULES, Broken, Rule
+from robocomp_dsl.hardware.rules.trial import MAY_MOVE, on_hardware
+
+JOINT = JointSpec("pan", -1.0, 1.0, 3.0, 5.0)
+DEADLINE_S = 20.0
+
+
+class Motor:
+    """A joint without load that lives by the wall clock."""
+
+    spec = BoardSpec((JOINT,), (MotorSpec("pan"),))
+
+    def __init__(self) -> None:
+        self.failing = ""
+        self.opened = self.closed = 0
+        self.torque, self.position, self.velocity = 0.0, 0.3, 0.0
+        self.last = time.perf_counter()
+
+    def open(self) -> None:
+        if self.failing:
+            raise OSError(self.failing)
+        self.opened += 1
+        self.last = time.perf_counter()
+
+    def close(self) -> None:
+        self.closed += 1
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        if self.failing:
+            raise OSError(self.failing)
+        now = time.perf_counter()
+        for _ in range(min(round((now - self.last) / 0.0005), 100)):
+            self.velocity += (self.torque - 0.2 * self.velocity) / 0.05 * 0.0005
+            self.position += self.velocity * 0.0005
+        self.last = now
+        return np.array([self.position]), np.array([self.velocity])
+
+    def write(self, torque: np.ndarray) -> None:
+        self.torque = float(torque[0])
+
+
+@pytest.fixture
+def motor() -> Motor:
+    return Motor()
+
+
+@pytest.fixture
+def hardware(motor: Motor) -> Iterator[Hardware]:
+    made = Hardware(motor, ("pan",), motors=True)
+    yield made
+    made.close()
+    assert "motors" not in {one.name for one in threading.enumerate()}
+
+
+def until(what: Callable[[], object]) -> None:
+    end = time.monotonic() + DEADLINE_S
+    while not what():
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.002)
+
+
+def test_before_it_is_opened_it_is_not_there(hardware: Hardware) -> None:
+    with pytest.raises(HardwareError, match="`pan` is not there: it has not been opened yet"):
+        hardware.devices["pan"]
+
+
+def test_motors_start_idle_where_they_are_and_obey_the_board(
+    hardware: Hardware, motor: Motor
+) -> None:
+    with hardware.working():
+        board = hardware.devices["pan"].board
+        commands = hardware.devices["pan"].commands
+    assert board.table.modes == [Mode.IDLE]
+    assert board.position == pytest.approx([0.3])
+    with hardware.turns:
+        commands.set_mode(None, Mode.POSITION)
+        hardware.devices["pan"].settings.set_reference_speed(None, 2.0)
+        clipped = commands.position_move(None, 5.0)
+    assert clipped.tolist() == [True]
+    until(lambda: abs(motor.position - 1.0) < 0.02)
+
+
+def test_a_failure_lets_go_of_motors_and_opens_them_again(hardware: Hardware, motor: Motor) -> None:
+    with hardware.working():
+        device = hardware.devices["pan"]
+    motor.failing = "the cable is out"
+    until(lambda: device.failure)
+    assert device.board.table.modes == [Mode.HW_FAULT]
+    with pytest.raises(HardwareError, match="the cable is out"), hardware.working():
+        pass
+    with pytest.raises(HardwareError, match="`pan` is not there: the cable is out"):
+        hardware.devices["pan"]
+    with pytest.raises(HardwareError, match="the cable is out"):
+        hardware.open()
+    motor.failing = ""
+    with hardware.working():
+        assert hardware.devices["pan"].board.table.modes == [Mode.IDLE]
+    assert motor.opened == 2
+
+
+def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
+    hardware = Hardware(motor, ("pan",), motors=True)
+    with hardware.working():
+        hardware.devices["pan"].commands.set_mode(None, Mode.POSITION)
+    motor.torque = 1.0
+    hardware.close()
+    assert motor.torque == 0.0
+
+
+@pytest.mark.parametrize("rule", RULES["joint"], ids=str)
+def test_the_motor_keeps_to_the_rules(
+    rule: Rule, motor: Motor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(MAY_MOVE, "1")
+    on_hardware(rule, motor, ("pan",), motors=True, skip=pytest.fail)
+    assert motor.closed == 1
+
+
+def test_what_moves_is_skipped_unless_there_is_room(
+    motor: Motor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv(MAY_MOVE, raising=False)
+    said: list[str] = []
+    moving = next(rule for rule in RULES["joint"] if rule.moves)
+    on_hardware(moving, motor, ("pan",), motors=True, skip=said.append)
+    assert said == ["it moves the robot: say ROBOCOMP_MAY_MOVE=1 when there is room"]
+    assert motor.opened == 0
+
+
+class Unwritten:
+    """As `rcgen hardware` writes it."""
+
+    def open(self) -> None:
+        raise NotWritten("open")
+
+    def close(self) -> None:
+        pass
+
+
+def test_what_is_not_written_is_skipped_with_its_name() -> None:
+    said: list[str] = []
+    on_hardware(RULES["laser"][0], Unwritten(), ("laser",), skip=said.append)
+    assert said == ["`open` of driver.py is not written yet"]
+
+
+class Deaf(Unwritten):
+    """There, and wrong."""
+
+    def open(self) -> None:
+        pass
+
+    def value(self) -> float:
+        return -1.0
+
+
+def test_a_broken_rule_is_told_and_the_device_closed() -> None:
+    with pytest.raises(Broken, match="the value is -1"):
+        on_hardware(RULES["touchsensor"][0], Deaf(), ("bump",), skip=pytest.fail)
+
+
+def test_a_driver_that_cannot_be_closed_hides_nothing() -> None:
+    class Torn(Deaf):
+        def open(self) -> None:
+            raise OSError("no such port")
+
+        def close(self) -> None:
+            raise OSError("never opened")
+
+    hardware = Hardware(Torn(), ("bump",))
+    with pytest.raises(HardwareError, match="no such port"):
+        hardware.open()
+    with suppress(OSError):
+        hardware.close()
+
+
+def test_a_call_that_fails_closes_the_device_and_the_next_work_opens_it() -> None:
+    class Loose(Deaf):
+        opened = 0
+
+        def open(self) -> None:
+            self.opened += 1
+
+        def value(self) -> float:
+            if self.opened == 1:
+                raise OSError("the plug is loose")
+            return 0.0
+
+    driver = Loose()
+    hardware = Hardware(driver, ("bump",))
+    with hardware.working():
+        device = hardware.devices["bump"]
+    with pytest.raises(HardwareError, match="the plug is loose"):
+        device.value()
+    with pytest.raises(HardwareError, match="`bump` is not there: the plug is loose"):
+        hardware.devices["bump"]
+    with hardware.working():
+        assert hardware.devices["bump"].value() == 0.0

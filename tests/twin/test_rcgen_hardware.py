@@ -1,0 +1,241 @@
+"""`rcgen hardware`: the twin of each device is clean, typed and tested; code runs on both alike."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+RCGEN = Path(sys.executable).with_name("rcgen")
+MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+WORLD = """\
+<innerModel>
+  <transform id="floor">
+    <plane id="wall" nz="-1" pz="3000" py="500" size="6000,1000,50" collide="1"/>
+    <differentialrobot id="robot">
+      <translation id="pose" ty="140" tz="200">
+        <laser id="laser" measures="101" min="100" max="30000" angle="1"/>
+        <camera id="eye" width="64" height="48" focal="60"/>
+        <rgbd id="depth" width="64" height="48" focal="60"/>
+        <ultrasound id="sonar" min="20" max="3000" angle="0.3"/>
+      </translation>
+      <imu id="inertia"/>
+      <gps id="sat" latitude="39" longitude="-6"/>
+      <battery id="cell"/>
+      <touchsensor id="bump" type="bumper"/>
+      <joint id="neck" axis="y" min="-1" max="1">
+        <joint id="nod" axis="x" min="-0.5" max="0.5"/>
+      </joint>
+    </differentialrobot>
+    <omnirobot id="platform" tx="-2000"/>
+  </transform>
+</innerModel>
+"""
+DEVICES = ("laser", "eye", "depth", "sonar", "robot", "inertia", "sat", "cell", "bump",
+           "nod,neck", "platform")  # fmt: skip
+TYPED = ("laser", "nod,neck", "robot")
+"""Those whose types are checked; it takes seconds each."""
+
+
+def run(*command: str | Path, cwd: Path, **env: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [str(one) for one in command],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        env={**os.environ, **env},
+        timeout=120,
+        check=False,
+    )
+
+
+@pytest.fixture(scope="module")
+def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("home")
+    (made / "world.xml").write_text(WORLD)
+    return made
+
+
+def twin(home: Path, ids: str, name: str) -> Path:
+    done = run(RCGEN, "hardware", name, "--like", f"world.xml#{ids}", cwd=home)
+    assert (done.returncode, done.stderr) == (0, "")
+    return home / name
+
+
+@pytest.mark.parametrize("ids", DEVICES)
+def test_a_twin_is_clean_typed_and_tested(home: Path, ids: str, tmp_path: Path) -> None:
+    folder = twin(home, ids, f"real_{ids.partition(',')[0]}")
+    ruff = str(shutil.which("ruff"))
+    commands = [
+        [ruff, "check", "--isolated", "--no-cache", "."],
+        [ruff, "format", "--diff", "--isolated", "--no-cache", "."],
+    ]
+    if ids in TYPED:
+        commands.append([*MYPY, f"--cache-dir={tmp_path}", "driver.py", "main.py"])
+    for command in commands:
+        done = run(*command, cwd=folder)
+        assert done.returncode == 0, done.stdout
+    options = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-rs", "--rootdir=.")
+    done = run(sys.executable, "-m", "pytest", *options, cwd=folder, PYTEST_ADDOPTS="")
+    passed, skipped = (int(n) for n in done.stdout.splitlines()[-1].split() if n.isdecimal())
+    assert passed == skipped > 0, done.stdout
+    assert "`open` of driver.py is not written yet" in done.stdout
+
+
+PLAYED = '''
+    def open(self) -> None:
+        """Another process' worth of physics stands for the device."""
+        if Path(self.params.address).exists():
+            raise OSError("the cable is out")
+        self.world = Simulation.read(Path(__file__).parent / "generated" / "scene.json")
+        self.world.start()
+
+    def close(self) -> None:
+        """Let go of it."""
+        if hasattr(self, "world"):
+            self.world.stop()
+            del self.world
+
+    @property
+    def settings(self) -> LaserSettings:
+        """How the laser scans."""
+        return LaserSettings(101, 57.2958, 100.0, 30000.0)
+
+    def scan(self) -> Scan:
+        """The latest scan."""
+        if Path(self.params.address).exists():
+            raise OSError("the cable is out")
+        with self.world.turns:
+            return self.world.devices["laser"].scan()
+'''
+CLIENT = """
+import sys, time
+from robocomp_dsl.runtime.component_interface import COMPONENT, LifeState
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.statistics import Statistics
+from generated.interfaces import LASER
+from pathlib import Path
+
+name, domain, cable = sys.argv[1:]
+middleware = open_middleware("zenoh", Host("client", domain, Execution(), Statistics()))
+
+def bound(interface, port, operation):
+    link = middleware.proxy(Endpoint(interface, "client", "x", (f"{name}.{port}",)))
+    assert link.wait(30), port
+    return link.bind(next(one for one in interface.operations if one.name == operation))
+
+def until(what):
+    end = time.monotonic() + 30
+    while True:
+        try:
+            if what():
+                return
+        except Exception:
+            if time.monotonic() > end:
+                raise
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.01)
+
+def work():
+    scan = bound(LASER, "laser", "getLaserData")
+    until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
+    assert bound(LASER, "laser", "getLaserConfData")().maxMeasures == 101
+    if cable:
+        info = bound(COMPONENT, "Component", "getInfo")
+        Path(cable).touch()
+        until(lambda: info().state == LifeState.Emergency)
+        try:
+            scan()
+            raise SystemExit("a scan without a cable")
+        except Exception as error:
+            assert "the cable is out" in str(getattr(error, "what", error)), error
+        Path(cable).unlink()
+        until(lambda: info().state == LifeState.Compute)
+        until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
+
+try:
+    work()
+finally:
+    middleware.close()
+"""
+
+
+def talk(folder: Path, name: str, domain: str, cable: str) -> None:
+    """The client against the component in `folder`, which ends in order."""
+    options = ("--name", name, "--domain", domain, "--middleware", "zenoh")
+    extra = ("--set", f"address={cable}") if cable else ()
+    component = subprocess.Popen([sys.executable, "main.py", *options, *extra], cwd=folder)
+    try:
+        done = run(sys.executable, "-c", CLIENT, name, domain, cable, cwd=folder)
+        assert done.returncode == 0, done.stderr
+    finally:
+        component.terminate()
+    assert component.wait(timeout=30) == 0
+
+
+def test_code_for_the_simulated_laser_runs_on_the_real_one(home: Path, tmp_path: Path) -> None:
+    """The same client; and when the cable is out the component is in Emergency until it is back."""
+    assert run(RCGEN, "simulator", "world.xml", cwd=home).returncode == 0
+    domain = f"twin-{os.getpid()}"
+    talk(home / "world_simulator", "laser_here", domain, "")
+    folder = twin(home, "laser", "front")
+    driver = folder / "driver.py"
+    head, _, _ = driver.read_text().partition("    def open(self)")
+    needed = (
+        "from pathlib import Path\n\n"
+        "from robocomp_dsl.hardware.mujoco.simulation import Simulation\n"
+    )
+    driver.write_text(head.replace("from robocomp", f"{needed}from robocomp", 1) + PLAYED)
+    talk(folder, "laser_there", domain, str(tmp_path / "cable"))
+
+
+def test_again_nothing_of_the_user_is_written(home: Path) -> None:
+    folder = twin(home, "bump", "bumper")
+    mine = [folder / one for one in ("driver.py", "test_bumper.py", "bumper.pdsl", "bumper.cdsl")]
+    for one in mine:
+        one.write_text(f"{one.read_text()}\n")
+    before = [one.read_bytes() for one in mine]
+    done = run(RCGEN, "hardware", "bumper", "--like", "world.xml#bump", cwd=home)
+    assert "0 of" in done.stdout
+    assert [one.read_bytes() for one in mine] == before
+
+
+def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
+    folder = twin(home, "nod,neck", "head")
+    driver = (folder / "driver.py").read_text()
+    assert driver.index('name="nod"') < driver.index('name="neck"')
+    ports = json.loads((folder / "generated" / "scene.json").read_text())["ports"]
+    assert sorted(ports) == ["ControlBoard", "JointMotor"]
+
+
+@pytest.mark.parametrize(
+    ("like", "said"),
+    [
+        ("world.xml", "`--like world.xml` names no device: say WORLD.xml#ID"),
+        ("world.xml#", "names no device"),
+        ("world.xml#lasr", "there is no device `lasr`: did you mean `laser`?"),
+        ("world.xml#xyz", "there is no device `xyz`: there are bump, cell, depth"),
+        ("world.xml#laser,sonar", "a driver is for one `laser`; only motors share one"),
+        ("world.xml#laser,neck", "motors and other devices have drivers of their own"),
+        ("nowhere.xml#laser", "cannot read `nowhere.xml`"),
+    ],
+)
+def test_mistakes_are_told(home: Path, like: str, said: str) -> None:
+    done = run(RCGEN, "hardware", "any", "--like", like, cwd=home)
+    assert done.returncode in (1, 2)
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (home / "any").exists()
+
+
+def test_a_name_that_is_none_is_told(home: Path) -> None:
+    done = run(RCGEN, "hardware", "my-laser", "--like", "world.xml#laser", cwd=home)
+    assert done.returncode == 2
+    assert "`my-laser` cannot name a component" in done.stderr
