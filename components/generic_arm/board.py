@@ -6,7 +6,7 @@ they need. Failures of the board keep their type; `Refusal` says what it refuses
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -84,24 +84,35 @@ class Board:
             self._modes = [state.modes[row] for row in self.rows]
         return state
 
-    def prepare(self, control: Control, speeds: Floats | None) -> None:
-        """Bring the joints into the mode that `control` needs; moves go at `speeds` (k,)."""
+    def prepare(self, control: Control, speeds: Floats | None, proceed: Callable[[], None]) -> None:
+        """Bring the joints into the mode that `control` needs; moves go at `speeds` (k,).
+
+        `proceed` raises when that is no longer wanted.
+        """
         with self._words():
             self._change(MODES[control])
             if speeds is not None:
+                proceed()
                 self._proxy.setReferenceSpeed(self._names, speeds)
 
-    def send(self, control: Control, values: Floats, hold: float) -> Bools:
-        """The command itself, (k,); which values the board clipped."""
-        proxy, names = self._proxy, self._names
+    def send(
+        self, control: Control, values: Floats, hold: float, proceed: Callable[[], None]
+    ) -> Bools:
+        """The command itself, (k,); which values the board clipped.
+
+        Where somebody else has changed the mode meanwhile, it is changed back once, unless
+        `proceed` raises.
+        """
+        proceed()
         with self._words():
-            if control is Control.POSITION:
-                return np.asarray(proxy.positionMove(names, values))
-            if control is Control.DIRECT:
-                return np.asarray(proxy.setPosition(names, values))
-            if control is Control.VELOCITY:
-                return np.asarray(proxy.velocityMove(names, values, hold))
-            return np.asarray(proxy.setTorque(names, values))
+            try:
+                return self._command(control, values, hold)
+            except WrongMode:
+                proceed()
+                self._modes = []
+                self._change(MODES[control])
+                proceed()
+                return self._command(control, values, hold)
 
     def arrived(self) -> bool:
         """Whether no joint is on its way to a goal."""
@@ -128,6 +139,16 @@ class Board:
         """Stiff, or giving way like the springs."""
         with self._words():
             self._proxy.setInteractionMode(self._names, mode)
+
+    def _command(self, control: Control, values: Floats, hold: float) -> Bools:
+        proxy, names = self._proxy, self._names
+        if control is Control.POSITION:
+            return np.asarray(proxy.positionMove(names, values))
+        if control is Control.DIRECT:
+            return np.asarray(proxy.setPosition(names, values))
+        if control is Control.VELOCITY:
+            return np.asarray(proxy.velocityMove(names, values, hold))
+        return np.asarray(proxy.setTorque(names, values))
 
     def _change(self, mode: ControlMode) -> None:
         if any(one is not mode for one in self._modes) or not self._modes:

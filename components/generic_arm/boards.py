@@ -63,14 +63,12 @@ class Boards:
         """
         proceed = self._begin()
         for one in self.boards:
-            one.prepare(orders.control, _part(orders.speeds, one))
-            proceed()
+            one.prepare(orders.control, _part(orders.speeds, one), proceed)
         clipped = np.zeros(self._size, bool)
         try:
             for one in self.boards:
                 values = orders.values[one.joints.at]
-                clipped[one.joints.at] = one.send(orders.control, values, hold)
-                proceed()
+                clipped[one.joints.at] = one.send(orders.control, values, hold, proceed)
         except Exception as error:
             if len(self.boards) > 1 and not isinstance(error, Overtaken):
                 self.stop()
@@ -89,8 +87,9 @@ class Boards:
 
     def hold(self) -> None:
         """Let the joints keep the angles that they have."""
+        proceed = self._begin()
         for one in self.boards:
-            one.prepare(Control.POSITION, None)
+            one.prepare(Control.POSITION, None, proceed)
 
     def soften(self, stiffness: Floats, damping: Floats) -> None:
         """Springs [N m/rad] and dampers [N m s/rad] (m,) instead of stiff joints.

@@ -80,9 +80,10 @@ class SpecificWorker(GenericWorker):
 
     def finalize(self) -> None:
         """Leave no arm moving."""
-        if not self.control.trouble:
+        control = getattr(self, "control", None)  # not there after a wrong description
+        if control is not None and not control.trouble:
             try:
-                self.control.stop()
+                control.stop()
             except AWAY as error:
                 self.log.info("the arm could not be stopped: %s", error)
 

@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.clock import DIGITS, NANO, Clock, Wake
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe
+from robocomp_dsl.runtime.parameters import ConfigError
 from robocomp_dsl.runtime.statistics import Statistics
 
 log = logging.getLogger("robocomp")
@@ -254,6 +255,10 @@ class Lifecycle:
         try:
             with self._execution:
                 hook()
+        except ConfigError as error:
+            # Findings say where they are; the place that raised them is of no interest.
+            log.error("%s", str(error).removeprefix("error: "))  # noqa: TRY400
+            return False
         except Exception as error:
             log.error("%s failed: %s", name, describe(error))  # noqa: TRY400 - trace below
             log.debug("the whole trace", exc_info=error)

@@ -13,6 +13,7 @@ import shipped_component
 from served_robot import ServedRobot
 
 from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.lifecycle import State
 from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Endpoint, Host
 from robocomp_dsl.runtime.runner import Runner
@@ -92,7 +93,7 @@ def arm_on(
         *settings,
     )
     try:
-        until(lambda: arm.states or "answers" in arm.runner.lifecycle.reason)
+        until(lambda: arm.states or arm.runner.lifecycle.state is State.EMERGENCY)
         yield arm, served
     finally:
         well = arm.end()

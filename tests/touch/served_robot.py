@@ -7,6 +7,7 @@ depends on the clock.
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
@@ -28,7 +29,11 @@ TICK = 0.01
 
 
 class ServedRobot:
-    """The robot `name`; every board is a port of the component `robot`, named as the board."""
+    """The robot `name`; every board is a port of the component `robot`, named as the board.
+
+    `calls` are the operations that boards were asked for; `before` is called in front of one,
+    `failing` is what one raises.
+    """
 
     def __init__(self, name: str, interfaces: ModuleType, domain: str) -> None:
         self.robot = ROBOTS[name]()
@@ -43,6 +48,8 @@ class ServedRobot:
         self.part.commands.set_mode(None, Mode.POSITION)
         self.ticking = True
         self.calls: list[tuple[str, str]] = []
+        self.before: dict[tuple[str, str], Callable[[], None]] = {}
+        self.failing: dict[tuple[str, str], Exception] = {}
         self._interfaces, self._domain = interfaces, domain
         self._turn = threading.RLock()
         self.connect()
@@ -71,7 +78,10 @@ class ServedRobot:
             if operation == "getState" and self.ticking:
                 with self._turn:
                     self.world.advance(TICK)
+            self.before.get((board, operation), int)()
             self.calls.append((board, operation))
+            if (board, operation) in self.failing:
+                raise self.failing[board, operation]
             return call(*given)
 
         return answer

@@ -1,0 +1,206 @@
+"""What `generic_arm` does when its boards or its description are not what they should be."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import numpy as np
+import pytest
+from arm_client import ARM, DESCRIPTIONS, arm_on, refused, until
+
+from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.runtime.lifecycle import State
+
+GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
+NONE = np.zeros(0)
+BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
+ON_TWO = (
+    "{joint: LWristYaw, part: LArm,",
+    "{joint: HeadYaw, part: Head,",
+)
+
+
+@pytest.fixture
+def on_two(tmp_path: Path) -> Path:
+    """An arm whose last joint is on another board: that of the head."""
+    text = (DESCRIPTIONS / "nao_h25.yaml").read_text()
+    assert ON_TWO[0] in text
+    (tmp_path / "two.yaml").write_text(text.replace(*ON_TWO))
+    return tmp_path / "two.yaml"
+
+
+# -- boards that go away, and come back -----------------------------------------------------------
+
+
+@BOTH
+def test_a_board_that_goes_away_is_an_emergency_until_it_is_there_again(robot: str) -> None:
+    with arm_on(robot) as (arm, served):
+        arm.drive(np.array([0, 0, 0, 0.2, 0]))
+        until(lambda: arm.getState().moving)
+        served.away()
+        life = arm.runner.lifecycle
+        until(lambda: life.state is State.EMERGENCY)
+        told = len(arm.states)
+        for call, given in ((arm.getState, ()), (arm.move, (GOAL, NONE)), (arm.stop, ())):
+            assert "the arm does not answer" in refused(call, *given)
+        assert arm.getLimits().available.any()  # known without the board
+        assert len(arm.states) == told
+        served.calls.clear()
+        served.connect()
+        until(lambda: life.state is State.COMPUTE)
+        # nobody drives any more, whatever the board was doing meanwhile
+        assert (served.calls[2][1], served.calls[0][1]) == ("stopMotion", "getJoints")
+        rest = arm.rest().position
+        until(lambda: len(arm.states) > told + 20)
+        assert arm.getState().position == pytest.approx(rest, abs=0.03)
+        arm.move(GOAL, NONE)
+        assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
+
+
+def test_a_port_that_is_wired_to_the_wrong_board_says_so() -> None:
+    with arm_on("nao_h25", board="RArm") as (arm, _):
+        said = refused(arm.getState)
+        for word in ("`board`", "`LShoulderPitch`", "`LArm`", "RShoulderPitch", "wired"):
+            assert word in said
+        assert arm.runner.lifecycle.state is State.EMERGENCY
+
+
+def test_a_joint_at_fault_is_told_in_the_words_of_its_board() -> None:
+    with arm_on("nao_h25") as (arm, served):
+        board = served.part.board
+        board.fault(np.array([board.spec.names.index("LElbowRoll")]), Fault.OVERCURRENT, "burnt")
+        said = refused(arm.move, GOAL, NONE)
+        assert "`board`" in said
+        assert "`LElbowRoll` has a hardware fault" in said
+        assert arm.getState().position.shape == (5,)  # it still knows where it is
+        assert arm.runner.lifecycle.state is State.COMPUTE
+        served.part.commands.set_mode(["LElbowRoll"], Mode.FORCE_IDLE)
+        arm.move(GOAL, NONE)
+        assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
+
+
+# -- several boards -------------------------------------------------------------------------------
+
+
+def test_one_arm_on_two_boards(on_two: Path) -> None:
+    with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
+        assert arm.getLimits().available.all()
+        arm.move(GOAL, NONE)
+        assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
+        board = served.part.board
+        head = board.position[board.spec.names.index("HeadYaw")]
+        wrist = board.position[board.spec.names.index("LWristYaw")]
+        assert head == pytest.approx(0.2, abs=0.02)
+        assert wrist == pytest.approx(0.0, abs=0.02)
+        arm.drive(np.array([0, 0, 0, 0, -0.5]))
+        until(lambda: arm.getState().position[4] < 0)
+        arm.stop()
+        boards = {board for board, operation in served.calls if operation == "stopMotion"}
+        assert boards == {"LArm", "Head"}
+
+
+def test_when_one_board_refuses_the_other_is_not_moved(on_two: Path) -> None:
+    with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
+        board = served.part.board
+        board.fault(np.array([board.spec.names.index("HeadYaw")]), Fault.OVERCURRENT, "burnt")
+        before = arm.getState().position
+        served.calls.clear()
+        assert "`board2`" in refused(arm.move, GOAL, NONE)
+        assert ("LArm", "positionMove") not in served.calls
+        assert arm.rest().position == pytest.approx(before, abs=0.02)
+
+
+def test_a_board_that_refuses_the_goal_itself_stops_the_others(on_two: Path) -> None:
+    with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
+        before = arm.getState().position
+        served.failing["Head", "positionMove"] = ARM.interfaces.Refused("not today")
+        assert "`board2`: not today" in refused(arm.move, GOAL, NONE)
+        assert ("LArm", "positionMove") in served.calls
+        assert ("LArm", "stopMotion") in served.calls
+        assert arm.rest().position == pytest.approx(before, abs=0.1)
+
+
+def test_a_mode_that_somebody_else_changed_is_changed_back() -> None:
+    with arm_on("nao_h25") as (arm, served):
+
+        def meanwhile() -> None:
+            del served.before["LArm", "positionMove"]
+            served.part.commands.set_mode(list(served.joints["LArm"]), Mode.VELOCITY)
+
+        served.before["LArm", "positionMove"] = meanwhile
+        arm.move(GOAL, NONE)
+        assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
+
+
+def test_the_later_command_wins() -> None:
+    """`stop` comes while the board still changes its mode for `drive`: it must not drive then."""
+    with arm_on("nao_h25") as (arm, served):
+        boards = arm.runner.worker.control._boards
+        stopping = threading.Thread(target=arm.stop)
+
+        def meanwhile() -> None:
+            commands = boards._commands
+            stopping.start()
+            until(lambda: boards._commands > commands)
+
+        served.before["LArm", "setControlMode"] = meanwhile
+        arm.follow(GOAL)
+        until(lambda: ("LArm", "stopMotion") in served.calls)
+        stopping.join(10)
+        until(lambda: len(arm.states) > 20)
+        assert ("LArm", "setPosition") not in served.calls
+
+
+# -- descriptions ---------------------------------------------------------------------------------
+
+NAO = DESCRIPTIONS / "nao_h25.yaml"
+WRONG = {
+    "part": ([f"description={NAO}", "part=left_leg"], ("nao_h25.yaml:", "left_arm, right_arm")),
+    "near": ([f"description={NAO}", "part=left_arn"], ("did you mean `left_arm`?",)),
+    "file": (["description=nobody.yaml"], ("no file `nobody.yaml`", "etc/nobody.yaml")),
+    "folder": ([f"description={DESCRIPTIONS}"], ("no file",)),
+    "fault": (["description=FAULTY"], ("faulty.yaml:9:51", "did you mean `gamma`?")),
+    "bytes": (["description=BYTES"], ("bytes.yaml:1:1", "no text in UTF-8")),
+    "boards": (["description=SPREAD"], ("on 5 physical parts", "ports for 3")),
+}
+
+
+def written(folder: Path) -> dict[str, Path]:
+    text = NAO.read_text()
+    (folder / "faulty.yaml").write_text(text.replace(" gamma: -1", " gama: -1", 1))
+    (folder / "bytes.yaml").write_bytes(b"\xff\xfe\x00")
+    spread, number = "", 0
+    for line in text.splitlines(keepends=True):
+        number += "part: LArm" in line
+        spread += line.replace("part: LArm", f"part: piece{number}")
+    (folder / "spread.yaml").write_text(spread)
+    return {name.upper(): folder / f"{name}.yaml" for name in ("faulty", "bytes", "spread")}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_description_ends_it_with_the_place_and_the_way_out(
+    case: str, tmp_path: Path
+) -> None:
+    settings, words = WRONG[case]
+    files = written(tmp_path)
+    given = []
+    for one in settings:
+        key, _, value = one.partition("=")
+        given += ["--set", f"{key}={files.get(value, value)}"]
+    done = subprocess.run(
+        [sys.executable, "main.py", "--domain", f"wrong-{tmp_path.name}", *given],
+        cwd=ARM.folder,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 1
+    for word in words:
+        assert word in done.stderr
+    assert "Traceback" not in done.stderr
+    assert "finalize" not in done.stderr
