@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.tactile.skin.contacts import SkinContact
+from robocomp_dsl.tactile.skin.contacts import Touches
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from robocomp_dsl.tactile.skin.kernel import SIGMA
 from robocomp_dsl.tactile.skin.manager import Compensation
@@ -64,7 +64,7 @@ class SkinDevice(Protocol):
     def frame(self) -> SkinFrame:
         """The latest frame. Raises `HardwareError` when there is none."""
 
-    def contacts(self, frame: SkinFrame) -> list[SkinContact]:
+    def touches(self, frame: SkinFrame) -> Touches:
         """The touches of a frame."""
 
     def calibrate(self, seconds: float) -> None:

@@ -243,5 +243,5 @@ def test_no_lists_of_taxels(words: str) -> None:
 def test_taxels_that_are_not_there_cannot_be_dead(it: Touched) -> None:
     geometry = it.simulation.skin.geometry
     known_taxels("100-110, 500", geometry)
-    with pytest.raises(Refused, match="no taxel 7, 99$"):
+    with pytest.raises(Refused, match=r"no taxel 7, 99$"):
         known_taxels("7, 99-101", geometry)

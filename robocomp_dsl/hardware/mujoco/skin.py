@@ -18,7 +18,7 @@ from robocomp_dsl.hardware.errors import CommandRefused, SceneError, finite
 from robocomp_dsl.hardware.mujoco.contact_forces import ContactRecorder, merge
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.skin import SkinFrame, SkinSettings
-from robocomp_dsl.tactile.skin.contacts import SkinContact, contacts
+from robocomp_dsl.tactile.skin.contacts import SkinContact, Touches, contacts, touches
 from robocomp_dsl.tactile.skin.electronics import Electronics
 from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
 from robocomp_dsl.tactile.skin.kernel import Kernel
@@ -117,12 +117,16 @@ class SimulatedSkin:
             raise CommandRefused("the skin is not compensated, so there is nothing to calibrate")
         self.electronics.calibrate(seconds)
 
-    def contacts(self, frame: SkinFrame | None = None) -> list[SkinContact]:
-        """The touches of a frame, or of the last one."""
-        frame = frame or self.frame
+    def contacts(self) -> list[SkinContact]:
+        """The touches of the last frame."""
+        frame = self.frame
         if frame is None:
             return []
         return contacts(self.geometry, self.neighbours, frame.force, frame.shear)
+
+    def touches(self, frame: SkinFrame) -> Touches:
+        """The touches of a frame of this geometry."""
+        return touches(self.geometry, self.neighbours, frame.force, frame.shear)
 
     def before_step(self, dt: float) -> None:
         """Nothing to drive."""

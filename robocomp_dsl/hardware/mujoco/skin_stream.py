@@ -15,7 +15,7 @@ from robocomp_dsl.hardware.errors import DeviceGone
 from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin
 from robocomp_dsl.hardware.scene_skin import geometry_of
 from robocomp_dsl.hardware.skin import SkinFrame, SkinSettings
-from robocomp_dsl.tactile.skin.contacts import SkinContact
+from robocomp_dsl.tactile.skin.contacts import Touches
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 
 MOST_WAITING = 64
@@ -60,10 +60,12 @@ class SkinStream:
             raise DeviceGone("the skin has not felt anything yet: its first frame is still to come")
         return found
 
-    def contacts(self, frame: SkinFrame) -> list[SkinContact]:
-        """See `SkinDevice`; none where the taxels have changed since."""
+    def touches(self, frame: SkinFrame) -> Touches:
+        """See `SkinDevice`. Raises `DeviceGone` where the taxels have changed since."""
         skin = self._there()
-        return skin.contacts(frame) if skin.geometry.version == frame.geometry else []
+        if skin.geometry.version != frame.geometry:
+            raise DeviceGone(f"the taxels have changed since frame {frame.sequence}")
+        return skin.touches(frame)
 
     def calibrate(self, seconds: float) -> None:
         """See `SkinDevice`."""

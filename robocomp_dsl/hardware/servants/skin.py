@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from robocomp_dsl.hardware.errors import HardwareError
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.hardware.skin import SkinDevice, SkinFrame
-from robocomp_dsl.tactile.skin.contacts import SkinContact
+from robocomp_dsl.tactile.skin.contacts import Touches
 from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
 
 _NONE = np.zeros(0, np.float32)
@@ -53,7 +54,7 @@ class SkinServant(Servant):
     def getContacts(self) -> Any:
         """The touches of the latest frame."""
         frame = self._skin.frame
-        return self._list(frame, self._skin.contacts(frame))
+        return self._list(frame, self._skin.touches(frame))
 
     def calibrate(self, seconds: float) -> None:
         """Take the baseline."""
@@ -69,10 +70,15 @@ class SkinServant(Servant):
         def hear(new: SkinFrame) -> None:
             nonlocal touched
             frame(self._told(new))
-            found = self._skin.contacts(new)
-            if found or touched:
-                contacts(self._list(new, found))
-            touched = bool(found)
+            felt = bool(new.force.any())
+            if not (felt or touched):
+                return
+            touched = felt
+            try:
+                found = self._skin.touches(new)
+            except HardwareError:  # its taxels have been taken away meanwhile
+                return
+            contacts(self._list(new, found))
 
         self._skin.subscribe(hear)
 
@@ -92,33 +98,28 @@ class SkinServant(Servant):
             offSkin=frame.off_skin,
         )
 
-    def _list(self, frame: SkinFrame, found: list[SkinContact]) -> Any:
-        limbs = self._skin.geometry.limbs
-        return self.types.ContactList(
-            sequence=frame.sequence,
-            time=frame.time,
-            geometry=frame.geometry,
-            contacts=self.types.Contacts([self._contact(one, limbs) for one in found]),
-        )
-
-    def _contact(self, one: SkinContact, limbs: tuple[str, ...]) -> Any:
-        (x, y, z), (nx, ny, nz) = one.centre.tolist(), one.normal.tolist()
-        sx, sy, sz = one.shear.tolist()
-        return self.types.Contact(
-            limb=limbs.index(one.limb),
-            taxels=len(one.taxels),
+    def _list(self, frame: SkinFrame, found: Touches) -> Any:
+        x, y, z = found.centre.T
+        nx, ny, nz = found.normal.T
+        sx, sy, sz = found.shear.T
+        rows = self.types.Contacts.from_columns(
+            limb=found.limb,
+            taxels=found.count,
             x=x,
             y=y,
             z=z,
             nx=nx,
             ny=ny,
             nz=nz,
-            force=one.force,
+            force=found.force,
             shearX=sx,
             shearY=sy,
             shearZ=sz,
-            pressure=one.pressure,
-            area=one.area,
+            pressure=found.pressure,
+            area=found.area,
+        )
+        return self.types.ContactList(
+            sequence=frame.sequence, time=frame.time, geometry=frame.geometry, contacts=rows
         )
 
     def _patches(self, it: SkinGeometry) -> list[Any]:

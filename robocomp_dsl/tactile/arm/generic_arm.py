@@ -18,7 +18,6 @@ from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.errors import InvalidCommand, NoChain, NoState
 
-
 PEAK = 15 / 8
 """Largest speed of a motion with the least jerk, as a share of its mean speed."""
 

@@ -38,6 +38,72 @@ class SkinContact:
     area: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Touches:
+    """All touches of one frame as columns of k rows; see `SkinContact`.
+
+    `limb` is the index of the limb, `count` that of taxels. `active` are all touched taxels, of
+    which number i belongs to row `label[i]`.
+    """
+
+    limb: Ints
+    count: Ints
+    centre: Floats
+    middle: Floats
+    normal: Floats
+    force: Floats
+    shear: Floats
+    active: Ints
+    label: Ints
+
+    @property
+    def pressure(self) -> Floats:
+        """Mean force of a taxel (k,) [N]."""
+        return np.asarray(self.force / self.count, dtype=np.float64)
+
+    @property
+    def area(self) -> Floats:
+        """Skin that is touched (k,) [m²]."""
+        return np.asarray(self.count * TAXEL_AREA, dtype=np.float64)
+
+
+def touches(
+    geometry: SkinGeometry,
+    neighbours: Neighbours,
+    force: Floats,
+    shear: Floats | None = None,
+    threshold: float = 0.0,
+) -> Touches:
+    """The touches of one frame, lowest taxel first; `force` (n,), `shear` (n, 3) or None."""
+    active = np.flatnonzero(force > threshold)
+    label = neighbours.labels(active)
+    count = np.bincount(label)
+    k, share = len(count), force[active]
+
+    def summed(columns: Floats) -> Floats:
+        made = np.empty((k, 3))
+        for i in range(3):
+            made[:, i] = np.bincount(label, columns[:, i], k)
+        return made
+
+    total = np.asarray(np.bincount(label, share, k), dtype=np.float64)
+    points = geometry.points[active]
+    normal = summed(geometry.normals[active] * share[:, None])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    np.divide(normal, length, out=normal, where=length > 0.0)
+    return Touches(
+        limb=geometry.limb[active[np.unique(label, return_index=True)[1]]],
+        count=count,
+        centre=summed(points * share[:, None]) / total[:, None],
+        middle=summed(points) / count[:, None],
+        normal=normal,
+        force=total,
+        shear=np.zeros((k, 3)) if shear is None else summed(shear[active]),
+        active=active,
+        label=label,
+    )
+
+
 def contacts(
     geometry: SkinGeometry,
     neighbours: Neighbours,
@@ -45,24 +111,19 @@ def contacts(
     shear: Floats | None = None,
     threshold: float = 0.0,
 ) -> list[SkinContact]:
-    """The touches of one frame, lowest taxel first; `force` (n,), `shear` (n, 3) or None."""
-    found = []
-    for touch in neighbours.touches(force > threshold):
-        share = force[touch]
-        total = float(share.sum())
-        normal = share @ geometry.normals[touch]
-        length = float(np.linalg.norm(normal))
-        found.append(
-            SkinContact(
-                limb=geometry.limbs[int(geometry.limb[touch[0]])],
-                taxels=touch,
-                centre=share @ geometry.points[touch] / total,
-                middle=geometry.points[touch].mean(axis=0),
-                normal=normal / length if length > 0.0 else normal,
-                force=total,
-                shear=np.zeros(3) if shear is None else shear[touch].sum(axis=0),
-                pressure=total / len(touch),
-                area=len(touch) * TAXEL_AREA,
-            )
+    """The same as `touches`, one object for each."""
+    found = touches(geometry, neighbours, force, shear, threshold)
+    return [
+        SkinContact(
+            limb=geometry.limbs[found.limb[i]],
+            taxels=found.active[found.label == i],
+            centre=found.centre[i],
+            middle=found.middle[i],
+            normal=found.normal[i],
+            force=float(found.force[i]),
+            shear=found.shear[i],
+            pressure=float(found.pressure[i]),
+            area=float(found.area[i]),
         )
-    return found
+        for i in range(len(found.force))
+    ]

@@ -20,11 +20,10 @@ REACH = 0.015
 
 @dataclass(frozen=True, eq=False)
 class Neighbours:
-    """Pairs of taxels that may be one touch: `first[k]` and `second[k]`, of `size` taxels."""
+    """Which taxels may be one touch: those of taxel i are `near[start[i] : start[i + 1]]`."""
 
-    size: int
-    first: Ints
-    second: Ints
+    start: Ints
+    near: Ints
 
     def __deepcopy__(self, memo: object) -> Self:
         """It never changes: copies share it."""
@@ -34,22 +33,40 @@ class Neighbours:
     def of(cls, points: Floats, limb: Ints | None = None, reach: float = REACH) -> Neighbours:
         """Neighbours among `points` (n, 3); only taxels with equal `limb` (n,) are related."""
         where = np.zeros(len(points), np.int64) if limb is None else limb
-        first, second = [], []
-        for one in np.unique(where):
-            members = np.flatnonzero(where == one)
+        one, other = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+        for name in np.unique(where):
+            members = np.flatnonzero(where == name)
             i, j = _close(points[members], reach)
-            first.append(members[i])
-            second.append(members[j])
-        empty = np.empty(0, np.int64)
-        return cls(len(points), np.concatenate([empty, *first]), np.concatenate([empty, *second]))
+            one += [members[i], members[j]]
+            other += [members[j], members[i]]
+        first, second = np.concatenate(one), np.concatenate(other)
+        counts = np.bincount(first, minlength=len(points))
+        start = np.concatenate(([0], np.cumsum(counts)))
+        return cls(start, second[np.argsort(first, kind="stable")])
+
+    def labels(self, active: Ints) -> Ints:
+        """For each of the taxels `active` (k,), ascending, the number of its touch, from 0.
+
+        Touches are numbered by their lowest taxel.
+        """
+        place = np.full(len(self.start) - 1, -1)
+        place[active] = np.arange(len(active))
+        begin, count = self.start[active], self.start[active + 1] - self.start[active]
+        offset = np.repeat(begin - (np.cumsum(count) - count), count)
+        second = place[self.near[np.arange(len(offset)) + offset]]
+        there = second >= 0
+        first = np.repeat(np.arange(len(active)), count)[there]
+        lowest = _components(np.bincount(first, minlength=len(active)), second[there])
+        roots = np.zeros(len(active), np.int64)
+        roots[lowest] = 1
+        return (np.cumsum(roots) - 1)[lowest]
 
     def touches(self, touched: Bools) -> list[Ints]:
         """The touched taxels (n,) as touches, each an ascending index array; lowest index first."""
         active = np.flatnonzero(touched)
         if not len(active):
             return []
-        edge = touched[self.first] & touched[self.second]
-        label = _components(self.size, self.first[edge], self.second[edge])[active]
+        label = self.labels(active)
         order = np.argsort(label, kind="stable")
         starts = np.flatnonzero(np.diff(label[order])) + 1
         return np.split(active[order], starts)
@@ -69,18 +86,20 @@ def _close(points: Floats, reach: float) -> tuple[Ints, Ints]:
     return np.concatenate([empty, *first]), np.concatenate([empty, *second])
 
 
-def _components(size: int, first: Ints, second: Ints) -> Ints:
-    """The lowest index that each of `size` nodes is connected with."""
-    label = np.arange(size)
-    while True:
-        lowest = np.minimum(label[first], label[second])
+def _components(count: Ints, near: Ints) -> Ints:
+    """The lowest index that each node is connected with; `near` are `count` neighbours of each."""
+    label = np.arange(len(count))
+    lonely = count == 0
+    begin = np.cumsum(count)[~lonely] - count[~lonely]
+    while len(near):
         grown = label.copy()
-        np.minimum.at(grown, first, lowest)
-        np.minimum.at(grown, second, lowest)
+        grown[~lonely] = np.minimum(label[~lonely], np.minimum.reduceat(label[near], begin))
+        np.minimum.at(grown, label, grown)  # the lowest node of each group knows what all know
         grown = grown[grown]
         if np.array_equal(grown, label):
-            return label
+            break
         label = grown
+    return label
 
 
 def clusters(points: Floats, reach: float = REACH) -> list[Ints]:
