@@ -105,7 +105,7 @@ ARRAY_MEMBERS = frozenset(
 )
 """Public members of the base of all arrays of records."""
 
-PROXY_MEMBERS = frozenset(("INTERFACE", "set_timeout", "wait_for_server"))
+PROXY_MEMBERS = frozenset(("INTERFACE", "is_heard", "set_timeout", "wait_for_server"))
 """Public members of the base of all proxies."""
 
 COMPONENT_MEMBERS = frozenset(

@@ -209,6 +209,17 @@ def test_a_failing_subscriber_hears_the_next(network: Network) -> None:
     assert node.count("said", "News").failures == 1
 
 
+def test_a_topic_knows_whether_it_is_heard(network: Network) -> None:
+    news = network.node("p").news()
+    assert not news.is_heard()
+    network.node("deaf").serve(HANDLERS)
+    hearer = network.node("s")
+    hearer.hear(lambda *_: None)
+    wait_for(news.is_heard)
+    hearer.middleware.close()
+    wait_for(lambda: not news.is_heard())
+
+
 def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> None:
     free = threading.Event()
     heard: list[int] = []

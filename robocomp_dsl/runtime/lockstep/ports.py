@@ -144,6 +144,10 @@ class StepLink:
         """See `base.Link`."""
         return self._link.wait(timeout)
 
+    def heard(self) -> bool:
+        """See `base.Link`."""
+        return self._link.heard()
+
 
 class StepTopic:
     """Publishes to one subscriber after the other, in the order of their names."""
@@ -210,3 +214,7 @@ class StepTopic:
     def wait(self, timeout: float) -> bool:
         """See `base.Link`."""
         return bool(self._calls) or self._link.wait(timeout)
+
+    def heard(self) -> bool:
+        """See `base.Link`."""
+        return bool(self._calls) or self._link.heard()

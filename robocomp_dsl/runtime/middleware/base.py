@@ -72,6 +72,9 @@ class Link(Protocol):
     def wait(self, timeout: float) -> bool:
         """Whether there is a peer, waiting for one up to `timeout` s."""
 
+    def heard(self) -> bool:
+        """Whether anything would become of a publication now; without waiting, at hardly a cost."""
+
 
 class Middleware(Protocol):
     """All connections of one component."""

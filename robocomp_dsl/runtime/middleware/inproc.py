@@ -322,6 +322,10 @@ class ServiceLink:
             return False
         return True
 
+    def heard(self) -> bool:
+        """See `base.Link`."""
+        return self.wait(0.0)
+
 
 class TopicLink:
     """Publishes to all who subscribe, in the queue of each."""
@@ -358,6 +362,10 @@ class TopicLink:
         """See `base.Link`."""
         with self._domain.changed:
             return bool(self._domain.changed.wait_for(self._hearers, timeout))
+
+    def heard(self) -> bool:
+        """See `base.Link`."""
+        return bool(self._hearers())
 
 
 def _failed(server: _Served, operation: str, error: Exception) -> str:

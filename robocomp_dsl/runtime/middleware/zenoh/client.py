@@ -262,6 +262,10 @@ class ServiceLink:
             if paused:
                 self._host.execution.resume()
 
+    def heard(self) -> bool:
+        """See `base.Link`."""
+        return self.wait(0.0)
+
 
 class TopicLink:
     """Publishes to whoever subscribes."""
@@ -274,6 +278,7 @@ class TopicLink:
         self._directory = directory
         self._host = host
         self._at = at
+        self._publishers: list[zenoh.Publisher] = []
 
     def bind(self, operation: Operation) -> Bound:
         """See `base.Link`."""
@@ -281,6 +286,7 @@ class TopicLink:
         encode, number = operation.encode_request, keys.NUMBER.pack
         key = f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.part(operation.name)}"
         publisher = self._session.declare_publisher(key, **sending(self._at.qos))
+        self._publishers.append(publisher)
 
         def publish(*arguments: Any) -> None:
             data = encode(arguments)
@@ -302,6 +308,10 @@ class TopicLink:
         finally:
             if paused:
                 self._host.execution.resume()
+
+    def heard(self) -> bool:
+        """See `base.Link`; foreign subscribers count, too."""
+        return any(one.matching_status.matching for one in self._publishers)  # type: ignore[attr-defined]
 
     def _hears(self, one: Present) -> bool:
         return one.component != self._at.component and related(self._at.component, one.component)
