@@ -6,7 +6,7 @@ they need. Failures of the board keep their type; `Refusal` says what it refuses
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -47,11 +47,15 @@ class Overtaken(Exception):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Joints:
-    """The joints `names` of the physical part `part`; `at` (k,) of the arm's joints (m,)."""
+    """The joints `names` of the physical part `part`; `at` (k,) of the arm's joints (m,).
+
+    `held` are joints beyond these, each with the angle at which it stays.
+    """
 
     part: str
     names: tuple[str, ...]
     at: Ints
+    held: Mapping[str, float]
 
 
 class Board:
@@ -61,13 +65,15 @@ class Board:
         self.port, self.joints = port, joints
         self.rows: Ints = np.zeros(0, np.int64)
         self._proxy, self._names = proxy, list(joints.names)
+        self._fastest: Floats = np.zeros(0)
         self._modes: list[ControlMode] = []  # empty: not known
         self._changes = 0
 
     def reach(self) -> None:
         """Find the joints on the board. Raises `WrongBoard`, and what the call raises."""
-        found = {one.name: i for i, one in enumerate(self._proxy.getJoints())}
-        missing = [name for name in self._names if name not in found]
+        joints = self._proxy.getJoints()
+        found = {one.name: i for i, one in enumerate(joints)}
+        missing = [name for name in (*self._names, *self.joints.held) if name not in found]
         if missing:
             raise WrongBoard(
                 f"the board at `{self.port}` has no joint `{missing[0]}`, which the description"
@@ -75,6 +81,8 @@ class Board:
                 " to another board?"
             )
         self.rows = np.array([found[name] for name in self._names], np.int64)
+        fastest = [joints[found[name]].speedLimit for name in self.joints.held]
+        self._fastest = np.array(fastest, np.float64)
 
     def read(self) -> BoardState:
         """Everything it measured last."""
@@ -113,6 +121,15 @@ class Board:
                 self._change(MODES[control])
                 proceed()
                 return self._command(control, values, hold)
+
+    def hold_others(self, share: float) -> None:
+        """Send the held joints to where they stay, at a share of their speed limits."""
+        names, angles = list(self.joints.held), np.array(list(self.joints.held.values()))
+        if names:  # an empty list would be all joints of the board
+            with self._words():
+                self._proxy.setControlMode(names, ControlMode.Position)
+                self._proxy.setReferenceSpeed(names, share * self._fastest)
+                self._proxy.positionMove(names, angles)
 
     def arrived(self) -> bool:
         """Whether no joint is on its way to a goal."""

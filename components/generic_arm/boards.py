@@ -85,8 +85,13 @@ class Boards:
         for one in self.boards:
             one.stop()
 
-    def hold(self) -> None:
-        """Let the joints keep the angles that they have."""
+    def hold(self, share: float) -> None:
+        """Let the joints keep the angles that they have; those beyond the arm go to theirs.
+
+        They do at a `share` of their speed limits.
+        """
+        for one in self.boards:
+            one.hold_others(share)
         proceed = self._begin()
         for one in self.boards:
             one.prepare(Control.POSITION, None, proceed)
@@ -143,7 +148,8 @@ def joined(part: Part, file: str, proxies: Mapping[str, ControlBoardProxy]) -> B
     for name, (port, proxy) in zip(physical, proxies.items(), strict=False):
         at = np.flatnonzero([one.part == name for one in servos])
         names = tuple(servos[i].joint for i in at)
-        boards.append(Board(port, proxy, Joints(name, names, at)))
+        held = {one.joint: one.at for one in part.held if one.part == name}
+        boards.append(Board(port, proxy, Joints(name, names, at, held)))
     return Boards(boards, len(servos))
 
 

@@ -115,7 +115,7 @@ class ArmControl:
             servos = [one for one in self.arm.part.servos if one.joint]
             springs = np.array([(one.stiffness, one.damping) for one in servos])
             self._boards.soften(springs[:, 0], springs[:, 1])
-        self._boards.hold()
+        self._boards.hold(self._begin.speed)
         if self._begin.what == "start":
             part = self.arm.part
             self.carry_out(self.arm.move(part.start, part.speed_limits * self._begin.speed))

@@ -23,6 +23,8 @@ parts:
       - {joint: roll, gamma: 0.017453292519943295, sigma: 0,
          limits: [0, 160], speed: 100, unit: deg}
       - {sigma: 0.1}
+    held:
+      - {joint: wrist, part: LArm, unit: deg, at: 30}
     chain:
       base: {position: [0, 98 mm, 0.1], rpy: [-90 deg, 0, 0]}
       rows:
@@ -53,6 +55,8 @@ def test_a_description_is_read_in_si_units():
     assert arm.chain.base[:3, 2] == pytest.approx([0, 1, 0])
     assert [row.joint for row in arm.chain.rows] == [0, 1, None]
     assert arm.chain.rows[2].offset == 0.5
+    assert [(one.joint, one.part) for one in arm.held] == [("wrist", "LArm")]
+    assert arm.held[0].at == pytest.approx(np.deg2rad(30))
 
 
 def test_limbs_skin_and_fields_lie_in_the_frame_of_the_limb():
@@ -100,7 +104,11 @@ def faults(text: str) -> list[str]:
         ("speed: 4.0", "speed: 0", "the speed of `Pitch` must be positive"),
         ("unit: deg", "unit: turns", "`turns` is no unit of a joint"),
         ("joint: roll", "joint: Pitch, part: LArm", "`LArm/Pitch` is mapped twice"),
-        ("servo: 1, a", "servo: 7, a", "r.yaml:14:19: there is no servo 7"),
+        ("joint: wrist", "joint: Pitch", "r.yaml:11:9: `LArm/Pitch` cannot be held"),
+        ("wrist, part: LArm", "wrist, part: Head", "held on `Head`, where `left_arm` has no servo"),
+        ("unit: deg, at: 30", "unit: deg", "r.yaml:11:9: `at` is missing here"),
+        ("unit: deg, at: 30", "unit: ms, at: 30", "`ms` is no unit of a joint"),
+        ("servo: 1, a", "servo: 7, a", "r.yaml:16:19: there is no servo 7"),
         ("servo: 1, a", "servo: 0, a", "occurs at most once"),
         ("[0.02, 0.10]", "[0.10, 0.02]", "a cone must end behind its start"),
         ("limb: lower, points", "limb: upper, points", "no limb `upper` (limbs: lower)"),
@@ -155,17 +163,25 @@ def test_positions_come_from_a_file_beside_the_description(tmp_path):
 def test_joints_and_bodies_of_the_robot_are_compared():
     robot = read_robot(GOOD, Path("r.yaml"))
     turn = np.deg2rad(160)
-    compare(robot, Facts({"Pitch": (-2.1, 2.0), "roll": (0, turn)}, frozenset({"LForeArm"})))
-    wrong = {"Pitsch": (-2.1, 2.0), "roll": (0, np.deg2rad(90))}
+    fit = {"Pitch": (-2.1, 2.0), "roll": (0, turn), "wrist": (-1, 1)}
+    compare(robot, Facts(fit, frozenset({"LForeArm"})))
+    wrong = {"Pitsch": (-2.1, 2.0), "roll": (0, np.deg2rad(90)), "wrist": (-1, 0.2)}
     with pytest.raises(DescriptionError) as caught:
         compare(robot, Facts(wrong, frozenset({"LForearm", "torso"})))
     assert [str(one) for one in caught.value.findings] == [
         "r.yaml:5:9: the robot has no joint `Pitch` (did you mean `Pitsch`?)",
         "r.yaml:7:9: the limits of `roll` are wider than the robot's (the robot has 0 to 90 deg)",
-        "r.yaml:17:14: the limb `lower` is on `LForeArm`, which the robot does not have "
+        "r.yaml:11:9: `wrist` cannot be held at 0.523599, outside of its limits "
+        "(the robot has -1 to 0.2)",
+        "r.yaml:19:14: the limb `lower` is on `LForeArm`, which the robot does not have "
         "(did you mean `LForearm`?)",
     ]
-    assert [one.fault for one in caught.value.findings] == [Fault.JOINT, Fault.LIMITS, Fault.BODY]
+    assert [one.fault for one in caught.value.findings] == [
+        Fault.JOINT,
+        Fault.LIMITS,
+        Fault.LIMITS,
+        Fault.BODY,
+    ]
 
 
 def test_rotations_turn_about_fixed_axes():
@@ -200,6 +216,7 @@ def test_the_printed_listing_is_read_with_its_slip():
     servo = part.servos[1]
     assert (servo.gamma, servo.sigma, servo.speed, servo.start) == (1, 0, 20, 15)
     assert servo.unit == "deg"
+    assert [(one.joint, one.at) for one in part.held] == [("neck_pitch", np.deg2rad(-2))]
 
 
 def test_the_listing_with_root_limits_and_destination_part():

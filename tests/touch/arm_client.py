@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -80,11 +80,18 @@ class RunningArm:
 
 @contextmanager
 def arm_on(
-    robot: str, *settings: str, description: Path | None = None, **wires: str
+    robot: str,
+    *settings: str,
+    description: Path | None = None,
+    pose: Mapping[str, float] | None = None,
+    **wires: str,
 ) -> Iterator[tuple[RunningArm, ServedRobot]]:
-    """A robot and its left arm, that has been reached. `wires` are boards of the robot by port."""
+    """A robot and its left arm, that has been reached. `wires` are boards of the robot by port.
+
+    The robot stands in the start pose of its description but for the joints of `pose`.
+    """
     domain = next(_domains)
-    served = ServedRobot(robot, ARM.interfaces, domain)
+    served = ServedRobot(robot, ARM.interfaces, domain, pose or {})
     wired = {port: f"robot.{board}" for port, board in wires.items()}
     arm = RunningArm(
         domain,

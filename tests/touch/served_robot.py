@@ -7,7 +7,7 @@ depends on the clock.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from types import ModuleType
 from typing import Any
 
@@ -35,7 +35,9 @@ class ServedRobot:
     `failing` is what one raises.
     """
 
-    def __init__(self, name: str, interfaces: ModuleType, domain: str) -> None:
+    def __init__(
+        self, name: str, interfaces: ModuleType, domain: str, pose: Mapping[str, float]
+    ) -> None:
         self.robot = ROBOTS[name]()
         self.part = SimulatedBoard(whole_robot(self.robot))
         self.joints = {b: robot_board(self.robot, b).spec.names for b in board_names(self.robot)}
@@ -43,7 +45,7 @@ class ServedRobot:
         spec = new_world()
         add_robot(spec, self.robot)
         self.world = World(spec, [self.part])
-        set_pose(self.world.model, self.world.data, self.robot)
+        set_pose(self.world.model, self.world.data, self.robot, **pose)
         self.world.advance(0.001)
         self.part.commands.set_mode(None, Mode.POSITION)
         self.ticking = True

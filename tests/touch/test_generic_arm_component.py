@@ -175,6 +175,26 @@ def test_it_begins_as_it_is_told(robot: str) -> None:
         assert arm.rest().position == pytest.approx(arm.getLimits().start, abs=0.25)
 
 
+BEYOND = {"nao_h25": {"LHand": 0.8}, "icub_v2": {"l_wrist_pitch": -0.6, "l_wrist_yaw": 0.3}}
+
+
+@BOTH
+def test_joints_beyond_the_arm_go_to_their_places_and_stay_there(robot: str) -> None:
+    with arm_on(robot, pose=BEYOND[robot]) as (arm, served):
+        board = served.part.board
+        rows = [board.spec.names.index(name) for name in BEYOND[robot]]
+        until(lambda: np.abs(board.position[rows]).max() < 0.02)
+        arm.move(GOAL, NONE)
+        arm.rest()
+        assert board.position[rows] == pytest.approx(0, abs=0.03)
+        assert arm.getState().position == pytest.approx(GOAL, abs=0.05)
+    with arm_on(robot, "begin=nothing", pose=BEYOND[robot]) as (arm, served):
+        arm.move(GOAL, NONE)
+        arm.rest()
+        held = [served.part.board.position[row] for row in rows]
+        assert held == pytest.approx(list(BEYOND[robot].values()), abs=0.05)
+
+
 @BOTH
 def test_live_parameters_change_speed_and_rate(robot: str) -> None:
     with arm_on(robot) as (arm, _):

@@ -46,7 +46,7 @@ class GenericArmParams(Parameters):
             default=0.2,
             low=0.01,
             high=1.0,
-            doc="The share of the speed limits at which that happens.",
+            doc="The share of the speed limits at which that happens; joints beyond the arm go to their places as fast.",
         ),
         Parameter(
             "compliant",
@@ -91,7 +91,7 @@ class GenericArmParams(Parameters):
     period: int
     # When the boards are reached: leave the arm alone, hold it where it is, or let it go to its start pose.
     begin: Literal["nothing", "hold", "start"]
-    # The share of the speed limits at which that happens.
+    # The share of the speed limits at which that happens; joints beyond the arm go to their places as fast.
     begin_speed: float
     # Give way like the springs and dampers of the description from the beginning.
     compliant: bool

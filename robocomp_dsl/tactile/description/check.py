@@ -13,7 +13,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from robocomp_dsl.tactile.description.located import UNITS, Place, Reading
-from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot, Servo
+from robocomp_dsl.tactile.description.model import Held, Limb, Part, Patch, Robot, Servo
 from robocomp_dsl.tactile.errors import Fault, Finding
 
 OFF_BODY = 0.015
@@ -40,6 +40,7 @@ def check(robot: Robot, reading: Reading) -> None:
         for servo in part.servos:
             _servo(servo, complain)
         _joints_once(part, complain)
+        _held_beside(part, complain)
         for patch in part.patches:
             _on_body(part, patch, complain)
     _ids_once(robot, complain)
@@ -57,6 +58,8 @@ def compare(robot: Robot, facts: Facts) -> None:
         for servo in part.servos:
             if servo.joint:
                 _exists(servo, facts.joints, complain)
+        for held in part.held:
+            _holds(held, facts.joints, complain)
         for limb in part.limbs:
             _carried(limb, facts.bodies, complain)
     reading.finish()
@@ -96,6 +99,21 @@ def _joints_once(part: Part, complain: Complain) -> None:
             said = f"`{servo.qualified}` is mapped twice in `{part.name}`"
             complain(Fault.TWICE, servo.place, said, "")
         seen.add(servo.qualified)
+    for held in part.held:
+        name = f"{held.part}/{held.joint}" if held.part else held.joint
+        if name in seen:
+            said = f"`{name}` cannot be held: it is there already in `{part.name}`"
+            complain(Fault.TWICE, held.place, said, "")
+        seen.add(name)
+
+
+def _held_beside(part: Part, complain: Complain) -> None:
+    """Who moves the servos reaches the held joints, too."""
+    parts = {servo.part for servo in part.servos if servo.joint}
+    for held in part.held:
+        if held.part not in parts:
+            said = f"`{held.joint}` is held on `{held.part}`, where `{part.name}` has no servo"
+            complain(Fault.FORM, held.place, said, f"it has some on {', '.join(sorted(parts))}")
 
 
 def _on_body(part: Part, patch: Patch, complain: Complain) -> None:
@@ -135,6 +153,17 @@ def _exists(servo: Servo, joints: Mapping[str, tuple[float, float]], complain: C
         said = f"the limits of `{servo.joint}` are wider than the robot's"
         has = f"the robot has {low:g} to {high:g} {servo.unit}"
         complain(Fault.LIMITS, servo.place, said, has)
+
+
+def _holds(held: Held, joints: Mapping[str, tuple[float, float]], complain: Complain) -> None:
+    if held.joint not in joints:
+        said = f"the robot has no joint `{held.joint}`"
+        complain(Fault.JOINT, held.place, said, _near(held.joint, joints))
+        return
+    low, high = joints[held.joint]
+    if not low - 1e-3 <= held.at <= high + 1e-3:
+        said = f"`{held.joint}` cannot be held at {held.at:g}, outside of its limits"
+        complain(Fault.LIMITS, held.place, said, f"the robot has {low:g} to {high:g}")
 
 
 def _carried(limb: Limb, bodies: frozenset[str], complain: Complain) -> None:

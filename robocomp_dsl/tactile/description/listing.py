@@ -3,19 +3,20 @@
 In: the text. Out: a `Part` without chain and skin. The printed form has no root element, closes
 `initial_positions` by a misspelt tag and leaves out servos by dots: all accepted. Additions: a root
 element around it, `limits` with `min` and `max`, and `destination_part` in a servo. Indices that
-are not described count as joints that the robot lacks.
+are not described count as joints that the robot lacks; joints that have an initial position and no
+servo are held there.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from robocomp_dsl.tactile.description.located import UNITS, Place
-from robocomp_dsl.tactile.description.model import Part, Servo
+from robocomp_dsl.tactile.description.model import Held, Part, Servo
 from robocomp_dsl.tactile.errors import DescriptionError, Finding
 
 _TOKEN = re.compile(
@@ -95,7 +96,9 @@ def read_listing(text: str, file: Path, joints: tuple[str, ...] = ()) -> Part:
     if listing.findings:
         raise DescriptionError(listing.findings)
     part = name.text.strip()
-    return Part(part, tuple(servos.get(i, _absent(name.place)) for i in range(size)))
+    held = tuple(_held(starts, servos.values(), joints, name.place))
+    absent = _absent(name.place)
+    return Part(part, tuple(servos.get(i, absent) for i in range(size)), held=held)
 
 
 def _servo(
@@ -137,6 +140,22 @@ def _servo(
         unit=unit,
         place=element.place,
     )
+
+
+def _held(
+    starts: dict[int, tuple[str, float]],
+    servos: Iterable[Servo],
+    joints: tuple[str, ...],
+    place: Place,
+) -> Iterator[Held]:
+    """Initial positions of joints that no servo moves: they stay there."""
+    parts = {servo.part for servo in servos}
+    part = parts.pop() if len(parts) == 1 else ""
+    moved = {servo.joint for servo in servos}
+    for destination, (unit, start) in sorted(starts.items()):
+        known = joints[destination] if 0 <= destination < len(joints) else str(destination)
+        if known not in moved:
+            yield Held(known, part, start * UNITS.get(unit, 1.0), place)
 
 
 def _absent(place: Place) -> Servo:

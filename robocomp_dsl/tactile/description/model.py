@@ -50,6 +50,16 @@ class Servo:
         return f"{self.part}/{self.joint}" if self.part else self.joint
 
 
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A joint that no generic index moves: it stays `at` [rad or m]."""
+
+    joint: str
+    part: str
+    at: float
+    place: Place = NOWHERE
+
+
 @dataclass(frozen=True, eq=False)
 class Limb:
     """A limb on the robot's body `body`; `origin` (3,) and `axes` (3, 3) place its frame there.
@@ -93,7 +103,10 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A generic part: for an arm the five indices of `GENERIC_ARM`, whatever the robot has."""
+    """A generic part: for an arm the five indices of `GENERIC_ARM`, whatever the robot has.
+
+    `held` are joints that the robot has beyond them; they are kept where they are told to be.
+    """
 
     name: str
     servos: tuple[Servo, ...]
@@ -101,6 +114,7 @@ class Part:
     limbs: tuple[Limb, ...] = ()
     patches: tuple[Patch, ...] = ()
     fields: tuple[Field, ...] = ()
+    held: tuple[Held, ...] = ()
     place: Place = NOWHERE
 
     @property

@@ -11,6 +11,7 @@ In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every 
         limbs: {upper_arm: {body, covers, position, rpy, cone: {x: [x0, x1], r: [r0, r1]}}}
         skin: [{patch, limb, first_id, rings | points | file, sensitivity}]
         fields: [{name, limb, x, theta, rho, radius, motion}]
+        held: [{joint, part, at, unit}]
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from robocomp_dsl.tactile.arm.chain import Chain, Row
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.check import check
 from robocomp_dsl.tactile.description.located import UNITS, Entry, Reading, Table
-from robocomp_dsl.tactile.description.model import Limb, Part, Robot, Servo
+from robocomp_dsl.tactile.description.model import Held, Limb, Part, Robot, Servo
 from robocomp_dsl.tactile.description.skin import read_fields, read_patches
 from robocomp_dsl.tactile.skin.cone import Cone
 
@@ -62,19 +63,18 @@ def _part(name: str, entry: Entry) -> Part:
     limbs = {key: _limb(key, one) for key, one in rows.items()}
     patches = read_patches(table.get("skin"), limbs)
     fields = read_fields(table.get("fields"), limbs, len(servos))
+    kept = table.get("held")
+    held = tuple(_held(one) for one in kept.items()) if kept else ()
     table.finish()
     made = _chain(chain, len(servos)) if chain else None
-    return Part(name, servos, made, tuple(limbs.values()), patches, fields, entry.place)
+    return Part(name, servos, made, tuple(limbs.values()), patches, fields, held, entry.place)
 
 
 def _servo(entry: Entry) -> Servo:
     table = entry.table()
     joint = table.text("joint", "")
     low, high = table.numbers("limits", 2, () if joint else (-np.inf, np.inf))
-    unit = table.text("unit", "rad")
-    if unit not in UNITS:
-        entry.complain(f"`{unit}` is no unit of a joint", "use one of " + ", ".join(UNITS))
-        unit = "rad"
+    unit = _unit(table, entry)
     gamma = _gamma(table, entry, joint)
     servo = Servo(
         joint=joint,
@@ -94,6 +94,23 @@ def _servo(entry: Entry) -> Servo:
         entry.complain(f"the lower limit {low:g} lies above the upper limit {high:g}")
     table.finish()
     return servo
+
+
+def _held(entry: Entry) -> Held:
+    table = entry.table()
+    unit = UNITS[_unit(table, entry)]
+    held = Held(table.text("joint"), table.text("part", ""), table.number("at") * unit, entry.place)
+    table.finish()
+    return held
+
+
+def _unit(table: Table, entry: Entry) -> str:
+    """In what a joint counts; rad after a complaint."""
+    unit = table.text("unit", "rad")
+    if unit in UNITS:
+        return unit
+    entry.complain(f"`{unit}` is no unit of a joint", "use one of " + ", ".join(UNITS))
+    return "rad"
 
 
 def _gamma(table: Table, entry: Entry, joint: str) -> float:
