@@ -7,6 +7,7 @@ device serves, with a driver to fill in; findings on standard error.
 from __future__ import annotations
 
 import sys
+import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from robocomp_dsl.check import check_cdsl
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import FINDINGS
-from robocomp_dsl.cli.simulator import world
+from robocomp_dsl.cli.simulator import simulated
 from robocomp_dsl.diagnostics import Report
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     "--like",
     required=True,
     metavar="WORLD.xml#ID",
-    help="The device in a world; motors may be several: WORLD.xml#shoulder,elbow.",
+    help="The device in a world; motors may be several, or a board: WORLD.xml#shoulder,elbow.",
 )
 @click.option(
     "-o",
@@ -40,10 +41,17 @@ if TYPE_CHECKING:
     metavar="DIR",
     help="Where to; by default a folder NAME here.",
 )
+@options.packages
 @options.output_format
 @options.folders
 def command(
-    *, name: str, like: str, output: Path | None, form: str, folders: tuple[Path, ...]
+    *,
+    name: str,
+    like: str,
+    output: Path | None,
+    packages: tuple[Path, ...],
+    form: str,
+    folders: tuple[Path, ...],
 ) -> None:
     """Generate a component for a real device that serves what a simulated one does.
 
@@ -59,21 +67,21 @@ def command(
         raise click.UsageError(f"`{name}` cannot name a component: use letters, digits and _")
     told, report = Report(), Report()
     workspace = Workspace(folders)
-    simulated = world(Path(file), workspace, told, report, strict=False)
+    made = simulated(Path(file), packages, workspace, told, report, strict=False)
     told.extend(report)
     options.show(told.sorted(), form, sys.stderr)
-    if simulated is None or report.failed:
+    if made is None or report.failed:
         sys.exit(FINDINGS)
-    _make(simulated, ids, name, output or Path(name), workspace, form)
+    _make(made, ids, name, output or Path(name), workspace, form)
 
 
 def _make(
-    simulated: Simulator, ids: list[str], name: str, folder: Path, workspace: Workspace, form: str
+    world: Simulator, ids: list[str], name: str, folder: Path, workspace: Workspace, form: str
 ) -> None:
     from robocomp_dsl.generate.hardware import NoTwin, twin  # noqa: PLC0415 - not for --help
 
     try:
-        made = twin(simulated, ids, name)
+        made = twin(world, ids, name)
     except NoTwin as error:
         options.complain(str(error))
         sys.exit(FINDINGS)
@@ -101,10 +109,14 @@ def _files(made: Twin, folder: Path, workspace: Workspace, report: Report) -> li
 
 def known(made: Twin) -> dict[str, object]:
     """What the simulated device says of itself without being asked to measure."""
+    from robocomp_dsl.generate.simulator import scene_files  # noqa: PLC0415 - late
+    from robocomp_dsl.generate.write import write  # noqa: PLC0415
     from robocomp_dsl.hardware.mujoco.simulation import Simulation  # noqa: PLC0415 - MuJoCo
-    from robocomp_dsl.hardware.scene import Scene  # noqa: PLC0415
 
-    device = Simulation(Scene.of_data(made.made.scene)).devices[made.ids[0]]
+    with tempfile.TemporaryDirectory() as folder:
+        write(Path(folder), scene_files(made.made))
+        simulation = Simulation.read(Path(folder, "generated", "scene.json"))
+    device = simulation.devices[made.ids[0]]
     if made.motors:
         return {"spec": device.board.spec.part(made.ids)}
     return {name: getattr(device, name) for name in ("settings", "limits") if hasattr(device, name)}

@@ -33,6 +33,13 @@ folders = click.option(
     metavar="DIR",
     help="Look for imported interfaces here, too; may be repeated.",
 )
+packages = click.option(
+    "--packages",
+    multiple=True,
+    type=click.Path(readable=False, path_type=Path),
+    metavar="DIR",
+    help="Look for package://… here; may be repeated.",
+)
 output_format = click.option(
     "--format",
     "form",

@@ -38,13 +38,7 @@ if TYPE_CHECKING:
     help="Where to; by default a folder <world>_simulator beside the file.",
 )
 @click.option("--dry-run", is_flag=True, help="Write nothing; list what would be served.")
-@click.option(
-    "--packages",
-    multiple=True,
-    type=click.Path(readable=False, path_type=Path),
-    metavar="DIR",
-    help="Look for package://… here; may be repeated.",
-)
+@options.packages
 @click.option("--strict", is_flag=True, help="Make nothing of an InnerModel file with errors.")
 @options.output_format
 @options.folders
@@ -69,10 +63,7 @@ def command(
     """
     told, report = Report(), Report()
     workspace = Workspace(folders)
-    if _kind(file) in MODELS:
-        made = _model(file, packages, report)
-    else:
-        made = world(file, workspace, told, report, strict=strict)
+    made = simulated(file, packages, workspace, told, report, strict=strict)
     folder = output or file.parent / (made.name if made else "")
     files = _files(made, folder, workspace, report) if made and not report.failed else []
     told.extend(report)
@@ -85,10 +76,25 @@ def command(
         _write(folder, files, made)
 
 
-def world(
-    file: Path, workspace: Workspace, told: Report, report: Report, *, strict: bool
+def simulated(
+    file: Path,
+    packages: tuple[Path, ...],
+    workspace: Workspace,
+    told: Report,
+    report: Report,
+    *,
+    strict: bool,
 ) -> Simulator | None:
     """The simulator of a file. What the file says wrongly is `told`; `report` is of its world."""
+    if _kind(file) in MODELS:
+        return _model(file, packages, report)
+    return _world(file, workspace, told, report, strict=strict)
+
+
+def _world(
+    file: Path, workspace: Workspace, told: Report, report: Report, *, strict: bool
+) -> Simulator | None:
+    """The simulator of a body in InnerModel."""
     body = check_innermodel(file, workspace, told)
     if body is None or (told.failed and (strict or not body.root.children)):
         return None

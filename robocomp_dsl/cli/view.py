@@ -58,13 +58,7 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
 @click.option("--names", is_flag=True, help="Show the names of all bodies.")
 @click.option("--contacts", is_flag=True, help="Show what touches.")
 @click.option("--port", default=8080, show_default=True, help="Of the page; 0: any that is free.")
-@click.option(
-    "--packages",
-    multiple=True,
-    type=click.Path(readable=False, path_type=Path),
-    metavar="DIR",
-    help="Look for package://… here; may be repeated.",
-)
+@options.packages
 @options.output_format
 def command(
     *,

@@ -215,6 +215,19 @@ def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
     assert sorted(ports) == ["ControlBoard", "JointMotor"]
 
 
+def test_a_board_of_a_model_file_has_a_twin(home: Path) -> None:
+    """Its motors are known from the file; the rules are held against them alone."""
+    model = Path(__file__).parents[2] / "components" / "nao_simulator" / "nao.xml"
+    done = run(RCGEN, "hardware", "arm", "--like", f"{model}#LArm", cwd=home)
+    assert done.returncode == 0, done.stderr
+    driver = (home / "arm" / "driver.py").read_text()
+    assert 'name="LShoulderPitch",\n                    low=-2.08567,' in driver
+    assert "RArm" not in driver
+    options = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--rootdir=.")
+    done = run(sys.executable, "-m", "pytest", *options, cwd=home / "arm", PYTEST_ADDOPTS="")
+    assert "4 passed, 4 skipped" in done.stdout, done.stdout
+
+
 @pytest.mark.parametrize(
     ("like", "said"),
     [

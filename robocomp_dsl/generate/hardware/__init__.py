@@ -7,7 +7,6 @@ hardware is `driver.py` alone, and a test holds it against what its simulated tw
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
@@ -18,7 +17,7 @@ from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.hardware.skeleton import Skeleton, skeleton
 from robocomp_dsl.generate.names import camel
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.simulator import WORKER, Simulator
+from robocomp_dsl.generate.simulator import WORKER, Simulator, scene_files
 from robocomp_dsl.generate.simulator.handlers import simulator_code
 from robocomp_dsl.generate.simulator.offers import published
 from robocomp_dsl.generate.templates import render
@@ -79,7 +78,12 @@ class Twin:
 
 
 def twin(made: Simulator, ids: Sequence[str], name: str) -> Twin:
-    """The twin called `name` of devices of one kind. Raises `NoTwin`."""
+    """The twin called `name` of devices of one kind; a board's name is all its motors.
+
+    Raises `NoTwin`.
+    """
+    boards = {p.port: [id_ for id_, kind in p.devices if kind in JOINTS] for p in made.ports}
+    ids = list(dict.fromkeys(joint for one in ids for joint in boards.get(one) or [one]))
     kinds = {id_: kind for port in made.ports for id_, kind in port.devices}
     there = {id_: kind for id_, kind in kinds.items() if kind in PROTOCOLS}
     found = [_kind(one, kinds, there) for one in ids]
@@ -119,7 +123,6 @@ def descriptions(made: Twin) -> list[OutputFile]:
 def files(made: Twin, component: Component, known: Mapping[str, object]) -> list[OutputFile]:
     """All files but the descriptions. `known` has the values of the properties of the device."""
     code = simulator_code(made.made.source, component, names_of(component), made.made.topics)
-    scene = {"scene": made.made.scene, "ports": {one.port: one.ids for one in made.made.ports}}
     module, protocol = PROTOCOLS[made.kind]
     bones: Skeleton = skeleton(module, protocol, known)
     context: dict[str, Any] = {"twin": made, "code": code, "bones": bones}
@@ -127,7 +130,7 @@ def files(made: Twin, component: Component, known: Mapping[str, object]) -> list
     sources = {f"test_{made.name}.py": "test_driver.py"}
     return [
         *(one for one in plan(component) if one.path != WORKER),
-        OutputFile("generated/scene.json", f"{json.dumps(scene, indent=1, ensure_ascii=False)}\n"),
+        *scene_files(made.made),
         OutputFile("generated/hardware.py", render(f"{FOLDER}hardware.py.jinja", **context)),
         *(
             OutputFile(one, render(f"{FOLDER}{sources.get(one, one)}.jinja", **context), keep=True)

@@ -120,16 +120,21 @@ def descriptions(made: Simulator) -> list[OutputFile]:
 def files(made: Simulator, component: Component) -> list[OutputFile]:
     """All files of the component but its descriptions."""
     code = simulator_code(made.source, component, names_of(component), made.topics)
-    data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
-    planned = [one for one in plan(component) if one.path != WORKER]
-    if made.model:
-        planned.append(OutputFile(f"generated/{made.scene['model']['file']}", made.model))
     return [
-        *planned,
-        OutputFile("generated/scene.json", _text(data)),
+        *(one for one in plan(component) if one.path != WORKER),
+        *scene_files(made),
         OutputFile("generated/simulator.py", render(f"{FOLDER}simulator.py.jinja", code=code)),
         OutputFile(WORKER, render(f"{FOLDER}{WORKER}.jinja", code=code), keep=True),
     ]
+
+
+def scene_files(made: Simulator) -> list[OutputFile]:
+    """The world as data, and the model that it begins with, if any."""
+    data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
+    found = [OutputFile("generated/scene.json", _text(data))]
+    if made.model:
+        found.append(OutputFile(f"generated/{made.scene['model']['file']}", made.model))
+    return found
 
 
 def _text(data: dict[str, Any]) -> str:

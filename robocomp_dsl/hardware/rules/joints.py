@@ -2,68 +2,87 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from robocomp_dsl.hardware.control.errors import WrongMode
+from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.rules.rule import Broken, Pass, Rule, finite, later, must, rules
 
 STEP = 0.1
-"""How far joints are sent [rad, m for none]."""
+"""How far joints are sent [rad, m]."""
+
+NEAR = 0.02
+"""How near they must come [rad, m]."""
 
 
-def joints_are_measured_within_their_limits(device: Any, passes: Pass) -> None:
-    """Positions and velocities are numbers, n of them, and time goes on."""
+class Motors(NamedTuple):
+    """Some joints of a control board: `device` has it, with its commands and settings."""
+
+    device: Any
+    names: Sequence[str]
+
+    @property
+    def at(self) -> Ints:
+        """Their indices on the board."""
+        found: Ints = self.device.board.select.indices(self.names)
+        return found
+
+
+def joints_are_measured_within_their_limits(motors: Motors, passes: Pass) -> None:
+    """Positions and velocities are numbers, and time goes on."""
     passes(0.1)
-    state, limits = device.board.state(), device.board.limits
-    finite("position", state.position)
-    finite("velocity", state.velocity)
-    slack = 0.05
-    off = (state.position < limits.low - slack) | (state.position > limits.high + slack)
-    names = ", ".join(np.array(device.board.spec.names)[off])
-    must(not off.any(), f"beyond their limits: {names}")
+    board, at = motors.device.board, motors.at
+    state, limits = board.state(), board.limits
+    position, slack = state.position[at], 0.05
+    finite("position", position)
+    finite("velocity", state.velocity[at])
+    off = (position < limits.low[at] - slack) | (position > limits.high[at] + slack)
+    must(not off.any(), f"beyond their limits: {', '.join(np.array(motors.names)[off])}")
     passes(0.1)
-    later("state", state.time, device.board.time)
+    later("state", state.time, board.time)
 
 
-def idle_motors_give_no_torque(device: Any, passes: Pass) -> None:
+def idle_motors_give_no_torque(motors: Motors, passes: Pass) -> None:
     """Whatever they did before."""
-    device.commands.set_mode(None, Mode.IDLE)
+    motors.device.commands.set_mode(motors.names, Mode.IDLE)
     passes(0.1)
-    torque = device.board.state().torque
+    torque = motors.device.board.state().torque[motors.at]
     must(not torque.any(), f"torques of idle motors: {torque} N·m")
 
 
-def a_command_of_another_mode_is_refused(device: Any, passes: Pass) -> None:
+def a_command_of_another_mode_is_refused(motors: Motors, passes: Pass) -> None:
     """A position while idle."""
-    device.commands.set_mode(None, Mode.IDLE)
+    device = motors.device
+    device.commands.set_mode(motors.names, Mode.IDLE)
     passes(0.05)
     try:
-        device.commands.position_move(None, device.board.position)
+        device.commands.position_move(motors.names, device.board.position[motors.at])
     except WrongMode:
         return
     raise Broken("a position is taken by idle motors")
 
 
-def each_joint_goes_where_it_is_sent(device: Any, passes: Pass) -> None:
-    """A tenth of a rad to the side where there is more room, and back."""
+def each_joint_goes_where_it_is_sent(motors: Motors, passes: Pass) -> None:
+    """A tenth of a rad (of its way, if that is short) to where there is more room, and back."""
+    device, at = motors.device, motors.at
     board, commands = device.board, device.commands
-    start = board.state().position
-    low, high = board.limits.low, board.limits.high
-    room_above = np.minimum(high, start + 1e3) - start >= start - np.maximum(low, start - 1e3)
-    goal = np.clip(start + np.where(room_above, STEP, -STEP), low, high)
-    commands.set_mode(None, Mode.POSITION)
+    start = board.state().position[at]
+    above, below = board.limits.high[at] - start, start - board.limits.low[at]
+    goal = start + np.where(above >= below, 1.0, -1.0) * np.minimum(STEP, np.maximum(above, below))
+    commands.set_mode(motors.names, Mode.POSITION)
     for target in (goal, start):
-        device.settings.set_reference_speed(None, 0.2)
-        commands.position_move(None, target)
+        device.settings.set_reference_speed(motors.names, 0.2)
+        commands.position_move(motors.names, target)
         passes(2.0)
-        off = np.abs(board.state().position - target)
+        off = np.abs(board.state().position[at] - target)
         worst = int(off.argmax())
-        said = f"`{board.spec.names[worst]}` is {off[worst]:.3f} from where it was sent"
-        must(off[worst] < 0.02, said)
-    commands.set_mode(None, Mode.IDLE)
+        said = f"`{motors.names[worst]}` is {off[worst]:.3f} from where it was sent"
+        must(off[worst] < NEAR, said)
+    commands.set_mode(motors.names, Mode.IDLE)
 
 
 JOINTS = (

@@ -10,21 +10,26 @@ import os
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from robocomp_dsl.hardware.driven import Driver, Hardware
 from robocomp_dsl.hardware.errors import NotWritten
+from robocomp_dsl.hardware.rules.joints import Motors
 from robocomp_dsl.hardware.rules.rule import Rule
 
 MAY_MOVE = "ROBOCOMP_MAY_MOVE"
 """Set to 1 in the environment, it says that there is room for a robot to move."""
 
 
-def on_simulation(rule: Rule, scene: Path, id: str) -> None:
-    """The device `id` of a world that `rcgen` wrote; time is as fast as it can. Raises `Broken`."""
+def on_simulation(rule: Rule, scene: Path, ids: Sequence[str]) -> None:
+    """The device, or the joints, `ids` of a world that `rcgen` wrote, as fast as it can.
+
+    Raises `Broken`.
+    """
     from robocomp_dsl.hardware.mujoco.simulation import Simulation  # noqa: PLC0415 - MuJoCo
 
     simulation = Simulation.read(scene)
-    rule.holds(simulation.devices[id], simulation.advance)
+    rule.holds(_subject(simulation.devices[ids[0]], ids), simulation.advance)
 
 
 def on_hardware(
@@ -42,8 +47,13 @@ def on_hardware(
     hardware = Hardware(driver, ids, motors=motors)
     try:
         hardware.open()
-        rule.holds(hardware.device, time.sleep)
+        rule.holds(_subject(hardware.device, ids), time.sleep)
     except NotWritten as missing:
         skip(str(missing))
     finally:
         hardware.close()
+
+
+def _subject(device: Any, ids: Sequence[str]) -> Any:
+    """What rules are told of: the device, or on a control board the joints `ids`."""
+    return Motors(device, ids) if hasattr(device, "board") else device
