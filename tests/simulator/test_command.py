@@ -8,16 +8,20 @@ import pytest
 from worlds import ROOM, rcgen
 
 TABLE = """\
-device       kind               interface          port
-robot        differentialrobot  DifferentialRobot  robot
-platform     omnirobot          OmniRobot          platform
-laser        laser              Laser              laser
-neck         joint              JointMotor         JointMotor
-neck         joint              ControlBoard       ControlBoard
-inertia      imu                IMU                inertia
-bump         touchsensor        TouchSensor        TouchSensor
-(the world)  world              InnerModelManager  InnerModelManager
-(the world)  world              Simulation         Simulation
+device       kind               interface           port
+robot        differentialrobot  DifferentialRobot   robot
+platform     omnirobot          OmniRobot           platform
+robot        differentialrobot  GenericBase         robot_base
+platform     omnirobot          GenericBase         platform_base
+robot        differentialrobot  FullPoseEstimation  robot_pose
+platform     omnirobot          FullPoseEstimation  platform_pose
+laser        laser              Laser               laser
+neck         joint              JointMotor          JointMotor
+neck         joint              ControlBoard        ControlBoard
+inertia      imu                IMU                 inertia
+bump         touchsensor        TouchSensor         TouchSensor
+(the world)  world              InnerModelManager   InnerModelManager
+(the world)  world              Simulation          Simulation
 """
 
 

@@ -44,13 +44,24 @@ def test_no_servant_is_left_over() -> None:
     assert {declared(name).qualified for name in OFFERED} == set(SERVANTS)
 
 
-@pytest.mark.parametrize("topic", TOPICS, ids=lambda one: one.published)
+@pytest.mark.parametrize(
+    "topic", [one for one in TOPICS if not one.news], ids=lambda one: one.published
+)
 def test_a_topic_carries_what_its_port_answers(topic: Topic) -> None:
     asked = next(o for o in declared(topic.interface).operations if o.name == topic.asked)
     to = declared(topic.published, topic.file)
     told = next(o for o in to.operations if o.name == topic.operation)
     results = [asked.result] if asked.result else [one.type for one in asked.outputs]
     assert [named(one.type) for one in told.inputs] == [named(one) for one in results]
+
+
+@pytest.mark.parametrize(
+    "topic", [one for one in TOPICS if one.news], ids=lambda one: one.published
+)
+def test_a_topic_of_news_is_published_and_has_a_servant_that_tells_them(topic: Topic) -> None:
+    to = declared(topic.published, topic.file)
+    assert topic.operation in {one.name for one in to.operations}
+    assert callable(SERVANTS[declared(topic.interface).qualified].news)  # type: ignore[attr-defined]
 
 
 def named(type_: object) -> tuple[str, str]:

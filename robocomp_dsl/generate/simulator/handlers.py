@@ -62,7 +62,12 @@ def simulator_code(
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(called)),
         methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
-        topics=tuple(_publication(o, proxies[o.port]) for o in topics if not o.topic.at_once),
+        topics=tuple(
+            line
+            for one in topics
+            if not one.topic.at_once
+            for line in _publication(one, f"self.{proxies[one.port]}")
+        ),
         streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
         skin=_skin_parameters(component),
     )
@@ -87,10 +92,22 @@ def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
     return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
 
 
-def _publication(one: Published, proxy: str) -> str:
-    """The statement that publishes what a port answers."""
-    asked = f"self.ports[{literals.quoted(one.source)}].{one.topic.asked}()"
-    return layout.statement("", layout.call(f"self.{proxy}.{one.topic.operation}", asked), BODY)
+def _publication(one: Published, proxy: str) -> Iterator[str]:
+    """The lines that publish what a port answers, or what its servant has to tell."""
+    port = f"self.ports[{literals.quoted(one.source)}]"
+    if not one.topic.news:
+        asked = f"{port}.{one.topic.asked}()"
+        yield layout.statement("", layout.call(f"{proxy}.{one.topic.operation}", asked), BODY)
+        return
+    indent, given = "", list[str]()
+    if one.topic.dear:
+        indent, given = layout.STEP, ["self.simulation.in_step"]
+        yield layout.statement("if ", layout.call(f"{proxy}.wait_for_server", "0", tail="):"), BODY)
+    asking = layout.call(f"{port}.news", *given, tail="):")
+    yield indent + layout.statement("for told in ", asking, BODY + indent)
+    indent += layout.STEP
+    telling = layout.call(f"{proxy}.{one.topic.operation}", "*told")
+    yield indent + layout.statement("", telling, BODY + indent)
 
 
 def _method(port: Port, one: Operation, called: Called) -> Delegation:

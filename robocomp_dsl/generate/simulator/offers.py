@@ -18,17 +18,22 @@ class Offer:
     """Devices of a `kind` serve `interface` of the file of that name.
 
     `shared`: one port for all of them, called as the interface; else one for each, called as the
-    device.
+    device, with `_suffix` behind it where the device serves more than one.
     """
 
     kind: str
     interface: str
     shared: bool = False
+    suffix: str = ""
 
 
 OFFERS = (
     Offer("differentialrobot", "DifferentialRobot"),
     Offer("omnirobot", "OmniRobot"),
+    Offer("differentialrobot", "GenericBase", suffix="base"),
+    Offer("omnirobot", "GenericBase", suffix="base"),
+    Offer("differentialrobot", "FullPoseEstimation", suffix="pose"),
+    Offer("omnirobot", "FullPoseEstimation", suffix="pose"),
     Offer("laser", "Laser"),
     Offer("joint", "JointMotor", shared=True),
     Offer("prismaticjoint", "JointMotor", shared=True),
@@ -36,6 +41,7 @@ OFFERS = (
     Offer("prismaticjoint", "ControlBoard", shared=True),
     Offer("camera", "CameraSimple"),
     Offer("rgbd", "CameraRGBDSimple", shared=True),
+    Offer("rgbd", "RGBD"),
     Offer("imu", "IMU"),
     Offer("gps", "GPS"),
     Offer("ultrasound", "Ultrasound", shared=True),
@@ -71,7 +77,9 @@ _SHARED = tuple(dict.fromkeys(one.interface for one in OFFERS if one.shared))
 class Topic:
     """What the answer of `asked` of a port that serves `interface` is published as.
 
-    In every period; or `at_once`, when there is something new, whatever the period.
+    In every period; or `at_once`, when there is something new, whatever the period; or in those
+    periods in which the servant has `news` (`asked` is empty), if it is `dear`, only while somebody
+    listens.
     """
 
     interface: str
@@ -80,13 +88,40 @@ class Topic:
     operation: str
     file: str
     at_once: bool = False
+    news: bool = False
+    dear: bool = False
 
 
 TOPICS = (
+    Topic(
+        "DifferentialRobot",
+        "",
+        "DifferentialRobotPub",
+        "pushBaseState",
+        "DifferentialRobotPub",
+        news=True,
+    ),
     Topic("OmniRobot", "getBaseState", "OmniRobotPub", "pushBaseState", "OmniRobotPub"),
+    Topic(
+        "FullPoseEstimation",
+        "getFullPoseEuler",
+        "FullPoseEstimationPub",
+        "newFullPose",
+        "FullPoseEstimationPub",
+    ),
+    Topic("Laser", "", "LaserPub", "pushLaserData", "LaserPub", news=True),
     Topic("JointMotor", "getAllMotorState", "JointMotorPub", "motorStates", "JointMotorPub"),
     Topic("ControlBoard", "getState", "ControlBoardState", "boardState", "ControlBoard"),
     Topic("IMU", "getDataImu", "IMUPub", "publish", "IMUPub"),
+    Topic(
+        "CameraRGBDSimple",
+        "",
+        "CameraRGBDSimplePub",
+        "pushRGBD",
+        "CameraRGBDSimplePub",
+        news=True,
+        dear=True,
+    ),
     Topic("Skin", "getFrame", "SkinFrame", "frame", "Skin", at_once=True),
     Topic("Skin", "getContacts", "SkinContacts", "contacts", "Skin", at_once=True),
 )
@@ -115,14 +150,16 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
     taken = {one.lower() for one in (*_SHARED, *OF_THE_WORLD, CLOCK, COMPONENT)}
     found: list[ServedAs] = []
     for interface in dict.fromkeys(one.interface for one in OFFERS):
-        kinds = {one.kind: one.shared for one in OFFERS if one.interface == interface}
+        kinds = {one.kind: one for one in OFFERS if one.interface == interface}
         here = [d for d in scene["devices"] if d["kind"] in kinds]
-        together = tuple((d["id"], d["kind"]) for d in here if kinds[d["kind"]])
+        together = tuple((d["id"], d["kind"]) for d in here if kinds[d["kind"]].shared)
         if together:
             found.append(ServedAs(interface, interface, together))
         for device in here:
-            if not kinds[device["kind"]]:
-                port = _free(identifier(device["id"]), taken)
+            offer = kinds[device["kind"]]
+            if not offer.shared:
+                wanted = "_".join(filter(None, (identifier(device["id"]), offer.suffix)))
+                port = _free(wanted, taken)
                 pair = (device["id"], device["kind"])
                 found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
     return (*_boards(found, scene, taken), *(ServedAs(name, name) for name in OF_THE_WORLD))
@@ -173,7 +210,7 @@ def _free(wanted: str, taken: set[str]) -> str:
 
 def identifier(written: str) -> str:
     """A text as a name of the languages, not too long for a line of code."""
-    made = re.sub(r"[^A-Za-z0-9_]", "_", written).strip("_")[:40]
+    made = re.sub(r"[^A-Za-z0-9_]", "_", written).strip("_")[:36]
     return made if made[:1].isalpha() else f"n{made}"
 
 
@@ -190,8 +227,8 @@ def skin_rate(scene: dict[str, Any]) -> float:
 
 
 def _base(scene: dict[str, Any], device: dict[str, Any]) -> Iterator[str]:
-    """The mobile base that carries a laser."""
-    if device["kind"] != "laser":
+    """The mobile base that carries a laser or a camera with depth."""
+    if device["kind"] not in {"laser", "rgbd"}:
         return
     frames = {one["id"]: one for one in scene["frames"]}
     bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}

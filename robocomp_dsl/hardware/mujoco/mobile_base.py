@@ -15,11 +15,14 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.errors import finite
+from robocomp_dsl.hardware.full_pose import FullPose
 from robocomp_dsl.hardware.mobile_base import BaseLimits, MobileBaseState, check_speed
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.true_pose import TruePose
 from robocomp_dsl.hardware.planar import ORIGIN, Pose, wrapped
+from robocomp_dsl.hardware.rotations import Matrix
 
 _PARTS = ("x", "z", "alpha")
 _INERTIA = (20.0, 20.0, 2.0)  # kg, kg, kg·m²: the base itself, whatever it carries
@@ -51,6 +54,7 @@ class MobileBase:
         self._correction = ORIGIN
         self._goal = [0.0, 0.0, 0.0]  # side, ahead, turn in m/s and rad/s, in the frame of the base
         self._speed = [0.0, 0.0, 0.0]
+        self._truth = TruePose()
 
     # -- as a part of the world ---------------------------------------------------------------
 
@@ -85,6 +89,7 @@ class MobileBase:
         self._motors = [int(model.actuator(joint.name).id) for joint in joints]
         self._body = int(model.body(self.name).id)
         self._data = data
+        self._truth.find(model, data, self._body)
 
     def relocated(self, frame: str) -> None:  # noqa: ARG002 - it has one frame
         """It was moved by hand, which wheels do not feel."""
@@ -147,6 +152,14 @@ class MobileBase:
     def true_pose(self) -> Pose:
         """Where it really stands in the world."""
         return axes.pose(self._data.xpos[self._body], self._data.xmat[self._body])
+
+    def full_pose(self) -> FullPose:
+        """Where it really is, and how it moves."""
+        return self._truth.measure()
+
+    def set_full_pose(self, matrix: Matrix) -> None:
+        """The full pose goes on from `matrix`, shape (4, 4), in mm."""
+        self._truth.set(matrix)
 
     def state(self) -> MobileBaseState:
         """The state after the latest step."""

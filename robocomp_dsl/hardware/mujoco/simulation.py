@@ -26,6 +26,7 @@ from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
 from robocomp_dsl.hardware.mujoco.skin_stream import SkinStream
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.pace import Pace, pace_for
+from robocomp_dsl.hardware.pace.own import OwnPace
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port, serve
 from robocomp_dsl.hardware.skin import SkinSettings
@@ -207,6 +208,11 @@ class Simulation:
         return overlaps_of(self.world.model, self.world.data)
 
     # -- at any time --------------------------------------------------------------------------
+
+    @property
+    def in_step(self) -> bool:
+        """Whether its time is that of a deployment, where nothing may be left to chance."""
+        return not isinstance(self.pace, OwnPace)
 
     def serve(self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]) -> dict[str, Port]:
         """The ports of a component, answered by the devices that `chosen` lists for each."""

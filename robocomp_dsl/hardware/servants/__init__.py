@@ -8,15 +8,21 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from robocomp_dsl.hardware.servants.base import DifferentialRobotServant, OmniRobotServant
+from robocomp_dsl.hardware.servants.base import (
+    DifferentialRobotServant,
+    GenericBaseServant,
+    OmniRobotServant,
+)
 from robocomp_dsl.hardware.servants.battery import BatteryServant
 from robocomp_dsl.hardware.servants.camera import CameraServant, RgbdServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.full_pose import FullPoseServant
 from robocomp_dsl.hardware.servants.gps import GpsServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.inner_model import InnerModelServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
+from robocomp_dsl.hardware.servants.rgbd import SeenServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.hardware.servants.simulation import SimulationServant
 from robocomp_dsl.hardware.servants.skin import SkinServant
@@ -28,6 +34,8 @@ __all__ = ["SERVANTS"]
 SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompDifferentialRobot::DifferentialRobot": DifferentialRobotServant,
     "RoboCompOmniRobot::OmniRobot": OmniRobotServant,
+    "RoboCompGenericBase::GenericBase": GenericBaseServant,
+    "RoboCompFullPoseEstimation::FullPoseEstimation": FullPoseServant,
     "RoboCompLaser::Laser": LaserServant,
     "RoboCompJointMotor::JointMotor": JointMotorServant,
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
@@ -37,6 +45,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompCameraSimple::CameraSimple": CameraServant,
     "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,
+    "RoboCompRGBD::RGBD": SeenServant,
     "RoboCompGPS::GPS": GpsServant,
     "RoboCompUltrasound::Ultrasound": UltrasoundServant,
     "RoboCompBatteryStatus::BatteryStatus": BatteryServant,

@@ -1,4 +1,4 @@
-"""`DifferentialRobot` and `OmniRobot` over a mobile base."""
+"""`GenericBase`, `DifferentialRobot` and `OmniRobot` over a mobile base."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -27,8 +27,8 @@ def told_state(made: type[Any], state: Any) -> Any:
     )
 
 
-class _BaseServant(Servant):
-    """What both interfaces share."""
+class GenericBaseServant(Servant):
+    """What every base can tell."""
 
     @property
     def _base(self) -> MobileBaseDevice:
@@ -43,6 +43,10 @@ class _BaseServant(Servant):
         """The odometry pose alone, in whole millimetres."""
         pose = self._base.state().odometry
         return round(pose.x), round(pose.z), pose.alpha
+
+
+class _BaseServant(GenericBaseServant):
+    """What both interfaces share beyond that."""
 
     def stopBase(self) -> None:
         """Stop as fast as the base can."""
@@ -67,6 +71,11 @@ class _BaseServant(Servant):
 
 class DifferentialRobotServant(_BaseServant):
     """A base that goes ahead and turns."""
+
+    def news(self) -> list[tuple[Any, ...]]:
+        """The state and its time, as the topic has them."""
+        state = self._base.state()
+        return [(told_state(self.types.TBaseState, state), state.time)]
 
     def setSpeedBase(self, adv: float, rot: float) -> None:
         """Drive until the next command."""

@@ -4,15 +4,21 @@
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
 
 from robocomp_dsl.hardware.camera import CameraDevice, Picture, points
-from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.errors import CommandRefused, DeviceGone, HardwareError
+from robocomp_dsl.hardware.servants.exposure import Exposure
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.runtime import types as rt
 
 _MS = 1000.0
+
+log = logging.getLogger("robocomp.camera")
 
 
 class CameraServant(Servant):
@@ -33,6 +39,29 @@ class RgbdServant(Servant):
     """All cameras of the port by their names; an empty name is the only one there is."""
 
     TAKES_TURNS: ClassVar[bool] = False
+
+    def __init__(
+        self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
+    ) -> None:
+        super().__init__(interface, port, ids, devices)
+        self._exposures = {name: Exposure() for name in ids}
+
+    def news(self, wait: bool) -> list[tuple[Any, ...]]:
+        """Colour and depth of every camera that has a new picture; `wait`: that is to have one."""
+        made = []
+        for name, exposure in tuple(self._exposures.items()):
+            try:
+                camera = self._camera(name)
+                seen = exposure.next(camera, wait=wait)
+            except DeviceGone:
+                continue
+            except HardwareError as error:  # it will not be otherwise the next time
+                log.error("`%s` is not published: %s", name, error)  # noqa: TRY400
+                del self._exposures[name]
+                continue
+            if seen is not None:
+                made.append((self._image(name, camera, seen), self._depth(name, camera, seen)))
+        return made
 
     def getImage(self, camera: str) -> Any:
         """The latest colour image."""

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from robocomp_dsl.hardware.laser import LaserDevice
+from robocomp_dsl.hardware.laser import LaserDevice, Scan
 from robocomp_dsl.hardware.servants.base import told_state
 from robocomp_dsl.hardware.servants.servant import Servant
 
@@ -20,9 +20,21 @@ class LaserServant(Servant):
         found: LaserDevice = self.device()
         return found
 
+    _told: object = None
+
+    def news(self) -> list[tuple[Any, ...]]:
+        """The latest scan, if it has not been told yet."""
+        scan = self._laser.scan()
+        if scan is self._told:
+            return []
+        self._told = scan
+        return [(self._data(scan),)]
+
     def getLaserData(self) -> Any:
         """The latest scan."""
-        scan = self._laser.scan()
+        return self._data(self._laser.scan())
+
+    def _data(self, scan: Scan) -> Any:
         return self.types.TLaserData.from_columns(angle=scan.angles, dist=scan.distances)
 
     def getLaserAndBStateData(self) -> tuple[Any, Any]:

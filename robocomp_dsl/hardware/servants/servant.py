@@ -97,7 +97,7 @@ class Servant:
     def told(self, operation: str, error: HardwareError) -> Exception:
         """What the caller of `operation` gets: a declared exception where there is one."""
         for kind, name in self.FAILURES:
-            for declared in self._throws[operation]:
+            for declared in self._throws.get(operation, ()):
                 if isinstance(error, kind) and _plain_name(declared) == name:
                     made: Exception = self.failure(declared, error)
                     return made

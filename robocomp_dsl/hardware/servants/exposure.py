@@ -1,0 +1,41 @@
+"""Pictures of a camera one after the other, without anybody waiting for them.
+
+In: a camera. Out: its latest picture, once; the next one is taken meanwhile, in a thread of its
+own. Where time is simulated, somebody has to wait, so that every run has the same pictures.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import Future, ThreadPoolExecutor
+
+from robocomp_dsl.hardware.camera import CameraDevice, Picture
+
+
+class Exposure:
+    """Of one camera."""
+
+    def __init__(self) -> None:
+        self._thread: ThreadPoolExecutor | None = None
+        self._taken: Future[Picture] | None = None
+        self._told: Picture | None = None
+
+    def next(self, camera: CameraDevice, *, wait: bool) -> Picture | None:
+        """A picture that has not been told yet; None while there is none.
+
+        Raises what the camera raises.
+        """
+        if wait:
+            return self._fresh(camera.picture())
+        if self._taken is None:
+            self._thread = self._thread or ThreadPoolExecutor(1, thread_name_prefix="exposure")
+            self._taken = self._thread.submit(camera.picture)
+        if not self._taken.done():
+            return None
+        taken, self._taken = self._taken, None
+        return self._fresh(taken.result())
+
+    def _fresh(self, picture: Picture) -> Picture | None:
+        if picture is self._told:
+            return None
+        self._told = picture
+        return picture

@@ -1,0 +1,137 @@
+"""`RGBD` over a camera with depth: images with the states of the joints and of the base under it.
+
+Both images are seen by one eye, so that every registration is already true. What is nowhere has an
+infinite distance, and as a point w = 0: then x, y, z are the direction.
+"""
+
+# ruff: noqa: N802  called as in the interface
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import nullcontext
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.camera import CameraDevice, CameraSettings, Picture
+from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.runtime import types as rt
+
+Floats = NDArray[np.float32]
+_BYTES = {"color": 3, "depth": 4}
+"""Of a pixel."""
+
+_ANY_TIME = nullcontext()
+
+
+class SeenServant(Servant):
+    """The first device of the port is the camera, the second, if any, the base under it."""
+
+    TAKES_TURNS: ClassVar[bool] = False
+
+    def __init__(
+        self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
+    ) -> None:
+        super().__init__(interface, port, ids, devices)
+        self._motors = JointMotorServant(interface, port, ids, devices)
+        self._registration = self.types.Registration.DepthInColor
+
+    @property
+    def _camera(self) -> CameraDevice:
+        found: CameraDevice = self.device()
+        return found
+
+    def getRGBDParams(self) -> Any:
+        """How the camera is set up."""
+        it = self._camera.settings
+        made = {
+            name: self.types.CameraParameters(
+                focal=round(it.focal),
+                width=it.width,
+                height=it.height,
+                size=it.width * it.height * size,
+                FPS=round(1 / it.period),
+            )
+            for name, size in _BYTES.items()
+        }
+        return self.types.TRGBDParams(
+            **made,
+            timerPeriod=round(it.period * 1000),
+            talkToBase=len(self.ids) > 1,
+            talkToJointMotor=self._has_joints(),
+            driver="robocomp_dsl",
+            device=self.ids[0],
+        )
+
+    def setRegistration(self, value: Any) -> None:
+        """Keep what is asked for; the images are the same."""
+        self._registration = value
+
+    def getRegistration(self) -> Any:
+        """What was asked for last."""
+        return self._registration
+
+    def getData(self) -> tuple[Any, ...]:
+        """Colour bytes and distances."""
+        seen = self._camera.picture()
+        return seen.colour.ravel(), seen.depth.ravel(), *self._around()
+
+    def getDepthInIR(self) -> tuple[Any, ...]:
+        """Distances."""
+        return self._camera.picture().depth.ravel(), *self._around()
+
+    def getDepth(self) -> tuple[Any, ...]:
+        """Distances."""
+        return self.getDepthInIR()
+
+    def getImage(self) -> tuple[Any, ...]:
+        """Colours, distances and points of one moment."""
+        seen = self._camera.picture()
+        return self._colours(seen), seen.depth.ravel(), self._points(seen), *self._around()
+
+    def getRGB(self) -> tuple[Any, ...]:
+        """Colours."""
+        return self._colours(self._camera.picture()), *self._around()
+
+    def getXYZ(self) -> tuple[Any, ...]:
+        """A point for every pixel."""
+        return self._points(self._camera.picture()), *self._around()
+
+    def getXYZByteStream(self) -> tuple[Any, ...]:
+        """The points as bytes: x, y, z, w of each as 32-bit floats, little endian."""
+        found = homogeneous(self._camera.settings, self._camera.picture().depth)
+        return found.astype("<f4").view(np.uint8).ravel(), *self._around()
+
+    def _colours(self, seen: Picture) -> Any:
+        red, green, blue = seen.colour.reshape(-1, 3).T
+        return self.types.ColorSeq.from_columns(red=red, green=green, blue=blue)
+
+    def _points(self, seen: Picture) -> Any:
+        x, y, z, w = homogeneous(self._camera.settings, seen.depth).T
+        return self.types.PointSeq.from_columns(x=x, y=y, z=z, w=w)
+
+    def _has_joints(self) -> bool:
+        return any(hasattr(one, "board") for one in tuple(self._devices.values()))
+
+    def _around(self) -> tuple[Any, Any]:
+        """The states of the joints and of the base; empty and zero where there are none."""
+        state = self.types.TBaseState
+        with getattr(self._camera, "turns", _ANY_TIME):  # a driver's world does not wait
+            joints = self._motors.getAllMotorState() if self._has_joints() else {}
+            base = told_state(state, self.device(self.ids[1]).state()) if self.ids[1:] else state()
+        return joints, base
+
+
+def homogeneous(settings: CameraSettings, depth: Floats) -> Floats:
+    """A point for every pixel in the frame of the camera (mm), shape (number of pixels, 4)."""
+    height, width = depth.shape
+    x = (np.arange(width, dtype=np.float32) - (width - 1) / 2) / settings.focal
+    y = ((height - 1) / 2 - np.arange(height, dtype=np.float32)) / settings.focal
+    somewhere = np.isfinite(depth)
+    z = np.where(somewhere, depth, 1.0)
+    made: Floats = np.stack([x[None, :] * z, y[:, None] * z, z, somewhere], axis=-1)
+    return made.astype(np.float32).reshape(-1, 4)
