@@ -125,6 +125,7 @@ class Body:
         self.model.geom_matid[:] = -1
         self.model.geom_rgba[:] = np.where(planes[:, None], _FLOOR, _BODY)
         self.model.geom_rgba[self.finger_geom] = _FINGERTIP
+        self.model.light_active[:] = 0  # one light, whatever the world has
         light = self.model.vis.headlight
         light.ambient, light.diffuse, light.specular = [0.5] * 3, [0.5] * 3, [0.05] * 3
 

@@ -129,7 +129,7 @@ def watch_live(subject: Subject, port: int) -> None:
         part = load_robot(subject.tactile).part(PART)
         body = Body(subject.world, stage.skin, part)
         body.pose(rest)
-        with Live(Body(subject.world, stage.skin, part), stage.heard, rest, port) as live:
+        with Live(subject.name, stage.simulation(), stage.skin, stage.heard, port) as live:
             print(f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it")
             while True:
                 for place in places:

@@ -35,11 +35,11 @@ class Links:
 
     def component(self, name: str) -> ComponentProxy:
         """What the component called `name` tells of itself."""
-        return ComponentProxy(self._link(COMPONENT, name, "Component"))
+        return ComponentProxy(self.link(COMPONENT, name, "Component"))
 
     def calls(self, interface: Interface, component: str, port: str) -> Any:
         """The operations of a component's port, as functions of their names."""
-        link = self._link(interface, component, port)
+        link = self.link(interface, component, port)
         return SimpleNamespace(**{one.name: link.bind(one) for one in interface.operations})
 
     def hear(
@@ -53,7 +53,8 @@ class Links:
         at = Endpoint(interface, _ME, port, (component,))
         self._middleware.subscribe(at, handlers, self._execution)
 
-    def _link(self, interface: Interface, component: str, port: str) -> Link:
+    def link(self, interface: Interface, component: str, port: str) -> Link:
+        """What a proxy of that port stands on."""
         return self._middleware.proxy(Endpoint(interface, _ME, port, (f"{component}.{port}",)))
 
     def close(self) -> None:

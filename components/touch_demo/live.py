@@ -1,23 +1,21 @@
 """The robot in the browser while it is touched, each taxel in the colour of what it feels.
 
-In: the robot's body, what is heard of it, where its other joints are. Out: a page on this machine
-alone, until `close`. Needs the extra `view`.
+In: the running simulation, the skin, what is heard of it. Out: a page on this machine alone, until
+`close`. Needs the extra `view`.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
 from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
-from body import Body
 from colours import on_robot
 from failure import DemoFailed
 from heard import Heard
 from photograph import towards_camera
-from recording import Floats
+from recording import Floats, Ints, Skin
 
 HIGHEST = 2.0
 """N at the end of the colours."""
@@ -27,62 +25,53 @@ _DISTANCE = 0.45
 
 
 class Live:
-    """The page; a context manager. `body` belongs to it. Raises `DemoFailed` without viser."""
+    """The page; a context manager. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
 
-    def __init__(self, body: Body, heard: Heard, rest: Mapping[str, float], port: int) -> None:
+    def __init__(self, name: str, hand: Any, skin: Skin, heard: Heard, port: int) -> None:
         try:
-            from robocomp_dsl.hardware.view.browser import Page  # noqa: PLC0415 - an extra
+            from robocomp_dsl.hardware.view.live import LivePage  # noqa: PLC0415 - an extra
         except ImportError as missing:
             raise DemoFailed(str(missing)) from None
-        self._body, self._heard = body, heard
-        body.pose(rest)
+        self._skin, self._heard = skin, heard
         try:
-            self._page = Page("touch", body.model, body.data, port=port)
+            self._page = LivePage(name, hand, port=port)
         except OSError as error:
             raise DemoFailed(f"no page at port {port}: {error.strerror}") from None
-        self.url = self._page.url
+        self.url = self._page.page.url
+        self._shown: dict[str, Any] = {}
         self._look()
-        self._clouds = [self._cloud(i) for i in range(len(body.skin.limbs))]
+        self.show()
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="page", daemon=True)
 
     def _look(self) -> None:
         """From ahead and from the touched side, so near that taxels are seen."""
-        limb = self._body.skin.limbs.index(f"{self._heard.part}/lower_arm")
-        middle = self._body.data.body(self._body.skin.bodies[limb]).xpos
-        camera = self._page.stage.server.initial_camera
+        limb = self._skin.limbs.index(f"{self._heard.part}/lower_arm")
+        page = self._page.page
+        middle = page.data.body(self._skin.bodies[limb]).xpos
+        camera = page.stage.server.initial_camera
         camera.look_at = tuple(middle.tolist())
         camera.position = tuple((middle + _DISTANCE * towards_camera(middle)).tolist())
 
-    def _cloud(self, limb: int) -> tuple[Any, Any]:
-        """The taxels of a limb as points that move with its body."""
-        skin = self._body.skin
-        mine = np.flatnonzero(skin.limb == limb)
-        number = self._body.model.body(skin.bodies[limb]).id
-        name = skin.limbs[limb]
-        cloud = self._page.stage.server.scene.add_point_cloud(
-            f"{self._page.stage.paths[number]}/skin {name.replace('/', ' ')}",
-            points=skin.placed(name, skin.points[mine]).astype(np.float32),
-            colors=_bytes(np.zeros(len(mine))),
-            point_size=_DOT,
-            point_shape="circle",
-        )
-        return cloud, mine
-
     def _run(self) -> None:
         while not self._over.wait(1 / _PICTURES):
+            self._page.look()
             self.show()
 
     def show(self) -> None:
-        """Show the latest pose and forces."""
+        """Give the taxels the colours of the latest frame; what has not changed is not sent."""
         force = self._heard.force
-        with self._page.controls.lock:
-            self._body.pose(arm=self._heard.angles, finger=self._heard.finger)
-        self._page.refresh()
-        for cloud, mine in self._clouds:
+        for name in self._skin.limbs:
+            mine = self._skin.of(name)
             colours = _bytes(force[mine])
-            if not np.array_equal(cloud.colors, colours):
-                cloud.colors = colours
+            if name not in self._shown or not np.array_equal(self._shown[name], colours):
+                self._shown[name] = colours
+                self._points(name, mine, colours)
+
+    def _points(self, limb: str, mine: Ints, colours: Any) -> None:
+        body = self._skin.bodies[self._skin.limbs.index(limb)]
+        points = self._skin.placed(limb, self._skin.points[mine])
+        self._page.page.show_points(f"skin of {limb}", body, points, colours, _DOT)
 
     def __enter__(self) -> Self:
         self._thread.start()

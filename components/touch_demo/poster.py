@@ -19,10 +19,10 @@ from colours import FAINT, INK, JOINTS, PAPER, SOFT, TOUCH, pressures, scale
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
-from matplotlib.ticker import MultipleLocator
+from matplotlib.ticker import MaxNLocator, MultipleLocator
 from outcome import Outcome, words
 from photograph import Pixels
-from recording import Recording
+from recording import Floats, Recording
 
 WIDE, DOTS = 10.0, 160
 PHOTO = (2.17, 1.9)
@@ -35,6 +35,11 @@ _MM = 4.40 / 252
 """Inches per mm of skin."""
 _LINE = 0.165
 _ANGLES = 1.75
+_CAPTION = (
+    "The skin unrolled, across: the angle around the limb. Colours: the largest force on each taxel."
+    " Circles: receptive fields."
+)
+_SILENCE = 0.1  # s
 _BETWEEN = 0.46
 """From one map to the next."""
 
@@ -84,8 +89,8 @@ def draw(columns: Sequence[Column], title: str, facts: str, highest: float, file
     rows = max(len(one.outcomes) for one in columns)
     maps, span = _map_rows(columns), _span(columns)
     below_photos = 1.30 + PHOTO[1] + 0.36
-    below_table = below_photos + (rows + 1) * _LINE + 0.08
-    below_maps = below_table + sum(maps) + _BETWEEN * len(maps) + 0.35
+    below_table = below_photos + (rows + 1) * _LINE + 0.14
+    below_maps = below_table + sum(maps) + _BETWEEN * len(maps) + 0.55
     with mpl.rc_context({"font.family": "DejaVu Sans", "font.size": 7.5, "axes.labelsize": 7.5}):
         sheet = Sheet(below_maps + _ANGLES + 0.50)
         sheet.text(0.25, 0.36, title, size=16, weight="bold")
@@ -95,9 +100,10 @@ def draw(columns: Sequence[Column], title: str, facts: str, highest: float, file
             sheet.text(left, 1.06, column.recording.robot, size=12, weight="bold")
             _photos(sheet, column, left, 1.30)
             _table(sheet, column, left, below_photos)
-            _maps(sheet, column, left, below_table, maps, highest)
+            _maps(sheet, column, left, below_table + 0.16, maps, highest)
             _angles(sheet, column, left, below_maps, span)
-        _names(sheet, below_maps - 0.32)
+        sheet.text(_LEFT, below_table, _CAPTION, size=8, color=SOFT)
+        _names(sheet, below_maps - 0.34)
         _bar(sheet, highest)
         sheet.figure.savefig(file, facecolor=PAPER)
 
@@ -178,27 +184,35 @@ def _angles(
     it = column.recording
     axes = sheet.axes(left, top, _COLUMN, _ANGLES)
     start = it.presses[0].began - 1.0 if it.presses else 0.0
-    shown = it.arm_time >= start
-    for touch in column.outcomes:
-        if np.isnan(touch.contact):
-            continue
-        when = touch.contact - start
-        axes.axvline(when, color=TOUCH, linewidth=3.5, zorder=0)
-        axes.text(when, 1.03, str(column.numbers[touch.place]), color=INK, size=7.5, weight="bold",
-                  ha="center", transform=axes.get_xaxis_transform())  # fmt: skip
+    _touches(axes, column, start)
+    times, angles = _with_gaps(it.arm_time - start, it.arm)
     for joint, colour in enumerate(JOINTS):
-        axes.plot(it.arm_time[shown] - start, np.degrees(it.arm[shown, joint]), color=colour,
-                  linewidth=1.3, label=_JOINTS[joint])  # fmt: skip
+        axes.plot(times, np.degrees(angles[:, joint]), color=colour, linewidth=1.3)
     axes.set_xlabel("simulated time [s]", color=SOFT)
-    axes.set_xlim(0, float(it.arm_time[-1]) - start)
-    axes.set_ylim(*span)
+    axes.set(xlim=(0, float(it.arm_time[-1]) - start), ylim=span)
+    axes.xaxis.set_major_locator(MaxNLocator(8, integer=True))
     axes.yaxis.set_major_locator(MultipleLocator(30))
     axes.grid(axis="y", color=FAINT, linewidth=0.8)
     axes.set_axisbelow(True)
     axes.tick_params(length=2, colors=SOFT)
     for side in axes.spines.values():
         side.set(color=SOFT, linewidth=0.6)
-    axes.set_ylabel("joint angle [°]", color=SOFT)
+
+
+def _touches(axes: Axes, column: Column, start: float) -> None:
+    """When each touch began, with its number."""
+    above = axes.get_xaxis_transform()
+    for touch in column.outcomes:
+        if not np.isnan(touch.contact):
+            when, number = touch.contact - start, str(column.numbers[touch.place])
+            axes.axvline(when, color=TOUCH, linewidth=3.5, zorder=0)
+            axes.text(when, 1.03, number, transform=above, color=INK, weight="bold", ha="center")
+
+
+def _with_gaps(times: Floats, angles: Floats) -> tuple[Floats, Floats]:
+    """The same with NaN where nothing was heard for long, so that no line is drawn over it."""
+    after = np.flatnonzero(np.diff(times) > _SILENCE) + 1
+    return np.insert(times, after, np.nan), np.insert(angles, after, np.nan, axis=0)
 
 
 def _span(columns: Sequence[Column]) -> tuple[float, float]:
@@ -209,10 +223,10 @@ def _span(columns: Sequence[Column]) -> tuple[float, float]:
 
 def _names(sheet: Sheet, top: float) -> None:
     """Which curve is which joint."""
-    sheet.text(_LEFT, top, "generic arm:", size=8, color=SOFT)
+    sheet.text(_LEFT, top, "joint angles of the generic arm [°]", size=8, color=SOFT)
     for i, (name, colour) in enumerate(zip(_JOINTS, JOINTS, strict=True)):
         sheet.text(
-            _LEFT + 0.95 + i * 1.35, top, f"\u2014 {name}", size=8, color=colour, weight="bold"
+            _LEFT + 2.3 + i * 1.3, top, f"\u2014 {name}", size=8, color=colour, weight="bold"
         )
 
 

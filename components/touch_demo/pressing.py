@@ -30,7 +30,7 @@ class Manner:
     push: float = 0.1
     stay: float = 1.5
     free: float = 0.1
-    speed: float = 0.5
+    speed: float = 0.25
 
 
 PLAIN = Manner()

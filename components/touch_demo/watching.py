@@ -18,6 +18,7 @@ from heard import Heard
 from links import Links, interfaces
 from recording import Floats, Place, Skin
 
+from robocomp_dsl.hardware.simulation_interface import SIMULATION, SimulationProxy
 from robocomp_dsl.runtime.component_interface import LifeState
 from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
 from robocomp_dsl.runtime.middleware.zenoh.watch import Watch
@@ -93,6 +94,10 @@ class Watching:
             names = [one.name for one in self._asked(board.getJoints)]
             found |= zip(names, self._asked(board.getState).position.tolist(), strict=True)
         return found
+
+    def simulation(self) -> SimulationProxy:
+        """The robot's world as a whole."""
+        return SimulationProxy(self._links.link(SIMULATION, ROBOT, "Simulation"))
 
     # The stage.
 
