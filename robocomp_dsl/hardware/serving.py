@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from typing import Any
 
-from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
 from robocomp_dsl.hardware.servants import SERVANTS
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.runtime import ServedPort
@@ -24,6 +24,19 @@ class Port:
     def __init__(self, servant: Servant, turn: Turn) -> None:
         self._servant = servant
         self._turn = turn
+
+    def current(self, operation: str, *given: Any) -> list[Any]:
+        """The answer of an operation, to be published; none where its device has been removed."""
+        try:
+            with self._turn:
+                return [getattr(self._servant, operation)(*given)]
+        except DeviceGone:
+            return []
+
+    def news(self, *given: Any) -> list[tuple[Any, ...]]:
+        """What there is to publish since the last time, each as the inputs of the topic."""
+        told = self.current("news", *given)
+        return told[0] if told else []
 
     def __getattr__(self, operation: str) -> Callable[..., Any]:
         answer = getattr(self._servant, operation)

@@ -46,6 +46,12 @@ assert times[-1] > times[0]
 robot = proxy(i.DIFFERENTIALROBOT, "robot")
 robot.setSpeedBase(400.0, 0.0)
 until(lambda: any(pose.source == "robot" and pose.z > 50 and pose.vz > 100 for pose, in poses))
+nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
+for gone in ("imu", "laser", "eye", "other", "neck", "platform"):
+    nodes.removeNode(gone)
+del poses[:], scans[:], forces[:]
+until(lambda: len([pose for pose, in poses if pose.source == "robot"]) > 10)
+assert not any(pose.source == "platform" for pose, in poses[-5:])
 print("heard")
 """
 

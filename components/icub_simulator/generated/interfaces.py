@@ -1191,8 +1191,6 @@ class Poses(rt.StructArray[Pose]):
 
 Bytes = rt.UInt8Array
 _Bytes = rt.Array(rt.BYTE)
-Numbers = rt.Float32Array
-_Numbers = rt.Array(rt.FLOAT)
 
 
 class Model(rt.Struct):
@@ -1241,8 +1239,8 @@ class Sight(rt.Struct):
         ("paused", rt.BOOL),
         ("revision", rt.INT),
         ("positions", _RoboCompSimulation_Values),
-        ("poses", _Numbers),
-        ("contacts", _Numbers),
+        ("poses", _RoboCompSimulation_Values),
+        ("contacts", _RoboCompSimulation_Values),
     )
 
     def __init__(
@@ -1252,16 +1250,16 @@ class Sight(rt.Struct):
         paused: bool = False,
         revision: int = 0,
         positions: RoboCompSimulation_Values | None = None,
-        poses: Numbers | None = None,
-        contacts: Numbers | None = None,
+        poses: RoboCompSimulation_Values | None = None,
+        contacts: RoboCompSimulation_Values | None = None,
     ) -> None:
         self.time = time
         self.realTimeFactor = realTimeFactor
         self.paused = paused
         self.revision = revision
         self.positions = np.zeros(0, np.float64) if positions is None else positions
-        self.poses = np.zeros(0, np.float32) if poses is None else poses
-        self.contacts = np.zeros(0, np.float32) if contacts is None else contacts
+        self.poses = np.zeros(0, np.float64) if poses is None else poses
+        self.contacts = np.zeros(0, np.float64) if contacts is None else contacts
 
 
 class Tick(rt.Struct):

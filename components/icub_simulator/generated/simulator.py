@@ -85,15 +85,20 @@ class Simulator(GenericWorker):
         """Publish; a world that has stopped for good is an emergency."""
         self.simulation.pace.keep_up()
         self.simulation.judge()
-        self.jointmotorpub_proxy.motorStates(
-            self.ports["JointMotor"].getAllMotorState(),
-        )
-        self.torso_pub_proxy.boardState(self.ports["torso"].getState())
-        self.head_pub_proxy.boardState(self.ports["head"].getState())
-        self.left_arm_pub_proxy.boardState(self.ports["left_arm"].getState())
-        self.right_arm_pub_proxy.boardState(self.ports["right_arm"].getState())
-        self.finger_pub_proxy.boardState(self.ports["finger"].getState())
-        self.imu_pub_proxy.publish(self.ports["imu"].getDataImu())
+        for told in self.ports["JointMotor"].current("getAllMotorState"):
+            self.jointmotorpub_proxy.motorStates(told)
+        for told in self.ports["torso"].current("getState"):
+            self.torso_pub_proxy.boardState(told)
+        for told in self.ports["head"].current("getState"):
+            self.head_pub_proxy.boardState(told)
+        for told in self.ports["left_arm"].current("getState"):
+            self.left_arm_pub_proxy.boardState(told)
+        for told in self.ports["right_arm"].current("getState"):
+            self.right_arm_pub_proxy.boardState(told)
+        for told in self.ports["finger"].current("getState"):
+            self.finger_pub_proxy.boardState(told)
+        for told in self.ports["imu"].current("getDataImu"):
+            self.imu_pub_proxy.publish(told)
 
     def finalize(self) -> None:
         """The world rests."""

@@ -86,16 +86,22 @@ class Simulator(GenericWorker):
         """Publish; a world that has stopped for good is an emergency."""
         self.simulation.pace.keep_up()
         self.simulation.judge()
-        self.jointmotorpub_proxy.motorStates(
-            self.ports["JointMotor"].getAllMotorState(),
-        )
-        self.head_pub_proxy.boardState(self.ports["Head"].getState())
-        self.larm_pub_proxy.boardState(self.ports["LArm"].getState())
-        self.rarm_pub_proxy.boardState(self.ports["RArm"].getState())
-        self.lleg_pub_proxy.boardState(self.ports["LLeg"].getState())
-        self.rleg_pub_proxy.boardState(self.ports["RLeg"].getState())
-        self.finger_pub_proxy.boardState(self.ports["finger"].getState())
-        self.imu_pub_proxy.publish(self.ports["imu"].getDataImu())
+        for told in self.ports["JointMotor"].current("getAllMotorState"):
+            self.jointmotorpub_proxy.motorStates(told)
+        for told in self.ports["Head"].current("getState"):
+            self.head_pub_proxy.boardState(told)
+        for told in self.ports["LArm"].current("getState"):
+            self.larm_pub_proxy.boardState(told)
+        for told in self.ports["RArm"].current("getState"):
+            self.rarm_pub_proxy.boardState(told)
+        for told in self.ports["LLeg"].current("getState"):
+            self.lleg_pub_proxy.boardState(told)
+        for told in self.ports["RLeg"].current("getState"):
+            self.rleg_pub_proxy.boardState(told)
+        for told in self.ports["finger"].current("getState"):
+            self.finger_pub_proxy.boardState(told)
+        for told in self.ports["imu"].current("getDataImu"):
+            self.imu_pub_proxy.publish(told)
 
     def finalize(self) -> None:
         """The world rests."""

@@ -94,19 +94,20 @@ def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
 
 def _publication(one: Published, proxy: str) -> Iterator[str]:
     """The lines that publish what a port answers, or what its servant has to tell."""
-    port = f"self.ports[{literals.quoted(one.source)}]"
-    if not one.topic.news:
-        asked = f"{port}.{one.topic.asked}()"
-        yield layout.statement("", layout.call(f"{proxy}.{one.topic.operation}", asked), BODY)
-        return
-    indent, given = "", list[str]()
+    port, indent = f"self.ports[{literals.quoted(one.source)}]", ""
+    asking, told = (
+        layout.call(f"{port}.current", literals.quoted(one.topic.asked), tail="):"),
+        "told",
+    )
+    if one.topic.news:
+        given = ("self.simulation.in_step",) if one.topic.dear else ()
+        asking, told = layout.call(f"{port}.news", *given, tail="):"), "*told"
     if one.topic.dear:
-        indent, given = layout.STEP, ["self.simulation.in_step"]
         yield layout.statement("if ", layout.call(f"{proxy}.wait_for_server", "0", tail="):"), BODY)
-    asking = layout.call(f"{port}.news", *given, tail="):")
+        indent = layout.STEP
     yield indent + layout.statement("for told in ", asking, BODY + indent)
     indent += layout.STEP
-    telling = layout.call(f"{proxy}.{one.topic.operation}", "*told")
+    telling = layout.call(f"{proxy}.{one.topic.operation}", told)
     yield indent + layout.statement("", telling, BODY + indent)
 
 
