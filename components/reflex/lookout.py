@@ -20,24 +20,27 @@ from robocomp_dsl.tactile.skin.told import told_geometry
 
 SKIN_ANSWERS_S = 2.0
 """How long the skin may take for its geometry, which can be long."""
+AGAIN_S = 0.1
+"""What was refused, or not answered, is tried so often."""
 ASK_AGAIN_S = 1.0
 """While the reflex is blind it asks so often what is there: it may be another skin, another arm."""
 
 
 class Lookout(Served):
-    """`arm` is None while nothing is known of it; `stopped` whether it took the latest `stop`.
+    """`arm` is None while nothing is known of it; `away`: the reflex has sent it away.
 
-    `away`: the reflex has sent the arm away from its start pose.
+    `refusal` is why it did not take the latest `stop`, `ignorance` why arm and skin are not known.
     """
 
     arm: ArmFacts | None = None
-    stopped = True
     away = False
+    refusal = ignorance = ""
     reason = "skin and arm have not been heard of yet"
 
     def initialize(self) -> None:
         """Skin and arm need not be there yet."""
-        self.presence, self.epoch, self.asked = Presence(), self.clock.epoch, -inf
+        self.presence, self.epoch = Presence(), self.clock.epoch
+        self.asked = self.told = -inf
         self.skin_proxy.set_timeout(SKIN_ANSWERS_S)
         self.genericarm_proxy.set_timeout(self.params.arm_timeout)
 
@@ -56,7 +59,7 @@ class Lookout(Served):
     def emergency(self) -> None:
         """Look for what is missing, until all has been there for a while."""
         now = self._now()
-        reason = self.tried(lambda: self._prepare(now)) or self._missing(now)
+        reason = self._not_stopped(now) or self._not_known(now) or self._missing(now)
         if not reason:
             if self.presence.well_for(now) >= self.params.recovery:
                 self.end_emergency()
@@ -83,20 +86,21 @@ class Lookout(Served):
     def let_go(self) -> None:
         """Stop the arm, and believe nothing any more that was known of it and of the skin."""
         if self.arm is not None:
-            self.stopped = not self.tried(self.genericarm_proxy.stop)
-        self.arm, self.presence.well_since = None, inf
+            self._stop(self.clock.now())
+        self.arm, self.asked, self.presence.well_since = None, -inf, inf
 
     def tried(self, call: Callable[[], object]) -> str:
         """Why the call failed, in words; empty: it did not."""
         try:
             call()
         except (MiddlewareError, DeclaredError, TactileError, ValueError) as error:
-            return str(getattr(error, "what", error))
+            return str(getattr(error, "what", error)) or type(error).__name__
         return ""
 
     def begin_anew(self) -> None:
         """Time has begun anew: no moment that was kept means anything."""
-        self.presence, self.asked = Presence(), -inf
+        self.presence = Presence()
+        self.asked = self.told = -inf
 
     def _now(self) -> float:
         before, self.epoch = self.epoch, self.clock.epoch
@@ -111,15 +115,28 @@ class Lookout(Served):
     def _is_blind(self, now: float) -> bool:
         return self.presence.is_blind(now, self.params.frame_timeout)
 
-    def _prepare(self, now: float) -> None:
-        """Stop an arm that has not been stopped; ask what there is. Raises what `tried` takes."""
-        if not self.stopped:
-            self.genericarm_proxy.stop()
-            self.stopped = True
-        if self.arm is None or (self._is_blind(now) and now - self.asked >= ASK_AGAIN_S):
-            self.asked = now
-            self._learn_geometry()
-            self.arm = arm_facts(self.genericarm_proxy.getLimits(), self.size)
+    def _stop(self, now: float) -> None:
+        self.told, self.refusal = now, self.tried(self.genericarm_proxy.stop)
+
+    def _not_stopped(self, now: float) -> str:
+        """Why the arm may still be moving; it is told to stop now and then, until it does."""
+        if self.refusal and now - self.told >= AGAIN_S:
+            self._stop(now)
+        return self.refusal
+
+    def _not_known(self, now: float) -> str:
+        """Why arm or skin are not known; they are asked now and then."""
+        unknown = self.arm is None or self.ignorance
+        if (unknown and now - self.asked >= AGAIN_S) or (
+            self._is_blind(now) and now - self.asked >= ASK_AGAIN_S
+        ):
+            self.asked, self.ignorance = now, self.tried(self._learn)
+        return self.ignorance
+
+    def _learn(self) -> None:
+        """Ask arm and skin about themselves. Raises what `tried` takes."""
+        self._learn_geometry()
+        self.arm = arm_facts(self.genericarm_proxy.getLimits(), self.size)
 
     def _learn_geometry(self) -> None:
         self.sense.adopt(told_geometry(self.skin_proxy.getGeometry()))

@@ -67,6 +67,9 @@ def proxy_of(interface: rt.Interface) -> type[rt.Proxy]:
     return type(f"{interface.name}Proxy", (rt.Proxy,), {"INTERFACE": interface, "_bind": bind_all})
 
 
+ROBOTS = ("nao_h25", "icub_v2")
+
+
 class Robot(Stepped):
     """Serves an arm and a skin. What moves the arm and what the skin feels is up to subclasses.
 
@@ -91,6 +94,11 @@ class Robot(Stepped):
             CalledPort("GenericArmState", proxy_of(words.GENERICARMSTATE), "states_proxy"),
             CalledPort("Clock", ClockProxy, "clock_proxy"),
         ),
+        subscribes=(
+            ServedPort(
+                "ReflexEvents", words.REFLEXEVENTS, {"reflex": "hear", "stateChanged": "hear"}
+            ),
+        ),
     )
     frames_proxy: Any
     states_proxy: Any
@@ -110,6 +118,7 @@ class Robot(Stepped):
         self.spoil: Callable[[Any], Any] = lambda frame: frame
         self.moves: list[tuple[float, Floats, Floats]] = []
         self.poses: list[Floats] = []
+        self.heard: list[Any] = []
 
     def lives(self) -> Floats:
         """Let `TICK` pass; where the arm is then (5,)."""
@@ -132,6 +141,10 @@ class Robot(Stepped):
         frame = self.spoil(frame) if self.feels else None
         if frame is not None:
             self.frames_proxy.frame(frame)
+
+    def hear(self, told: Any) -> None:
+        """An event or a state of the reflex."""
+        self.heard.append(told)
 
     # What it serves.
 

@@ -11,12 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from puppet import Central, Touched, words
+from puppet import ROBOTS, Central, Touched, words
 
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 
-ROBOTS = ("nao_h25", "icub_v2")
 ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
 CENTRE = np.array([0.05, 0.0, 0.03])

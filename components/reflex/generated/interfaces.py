@@ -1077,7 +1077,7 @@ class GenericArmProxy(rt.Proxy):
         position: RoboCompGenericArm_Angles,
         speed: RoboCompGenericArm_Angles,
     ) -> Outcome:
-        """Go to angles, at these speeds or, without any, at the largest.
+        """Go to angles, at these mean speeds or, without any, as fast as the limits allow.
 
         May raise RoboCompGenericArm_NotPossible.
         """

@@ -1,0 +1,351 @@
+"""What the reflex does with input that cannot be right, and with none at all.
+
+Bad frames are rejected and counted; a silent skin or arm freezes the reflex, as an emergency that
+says why, and it recovers by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from puppet import ROBOTS, Puppet, Touched, words
+
+from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy, LifeState
+from robocomp_dsl.runtime.lifecycle import State
+
+COUNTERS = ("framesNotFinite", "framesWrongLength", "framesOutOfOrder", "framesOtherGeometry")
+
+
+@pytest.fixture
+def stage() -> Iterator[Callable[..., Touched]]:
+    made: list[Touched] = []
+
+    def make(*given: object, **said: object) -> Touched:
+        made.append(Touched(*given, **said))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()
+
+
+@pytest.fixture(params=ROBOTS)
+def touched(stage, request) -> Touched:
+    return stage(request.param).awake()
+
+
+def changed(frame: Any, **fields: object) -> Any:
+    for name, value in fields.items():
+        setattr(frame, name, value)
+    return frame
+
+
+def with_value(frame: Any, value: float) -> Any:
+    force = frame.force.copy()
+    force[3] = value
+    return changed(frame, force=force)
+
+
+BAD: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "NaN": ("framesNotFinite", lambda f: with_value(f, np.nan)),
+    "infinity": ("framesNotFinite", lambda f: with_value(f, np.inf)),
+    "minus infinity": ("framesNotFinite", lambda f: with_value(f, -np.inf)),
+    "no time": ("framesNotFinite", lambda f: changed(f, time=np.nan)),
+    "one taxel short": ("framesWrongLength", lambda f: changed(f, force=f.force[1:])),
+    "one taxel more": ("framesWrongLength", lambda f: changed(f, force=np.append(f.force, 1))),
+    "empty": ("framesWrongLength", lambda f: changed(f, force=f.force[:0])),
+    "again": ("framesOutOfOrder", lambda f: changed(f, sequence=35, time=0.68)),
+    "late": ("framesOutOfOrder", lambda f: changed(f, sequence=9, time=0.18)),
+    "older geometry": ("framesOtherGeometry", lambda f: changed(f, geometry=0)),
+    "newer geometry": ("framesOtherGeometry", lambda f: changed(f, geometry=2)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("counter", "spoil"), BAD.values(), ids=list(BAD))
+def test_a_bad_frame_is_rejected_counted_and_moves_nothing(touched, counter, spoil) -> None:
+    touched.press("lower_arm_under", 20.0)  # it would withdraw if it believed it
+    touched.robot.spoil = spoil
+    touched.run(0.1)
+    assert touched.robot.moves == []
+    seen = touched.reflex.getStatistics()
+    assert {name: getattr(seen, name) for name in COUNTERS} == {
+        n: 5 * (n == counter) for n in COUNTERS
+    }
+    assert touched.state == "Watching"  # 0.1 s without a good frame is not blind yet
+    touched.robot.spoil = lambda frame: frame
+    touched.run(0.02)
+    assert len(touched.robot.moves) == 1
+    assert touched.reflex.getStatistics().framesAccepted == seen.framesAccepted + 1
+
+
+@pytest.mark.parametrize(("counter", "spoil"), BAD.values(), ids=list(BAD))
+def test_only_bad_frames_are_as_good_as_none(stage, counter, spoil) -> None:
+    touched = stage().awake()
+    touched.robot.spoil = spoil
+    touched.run(0.3)
+    assert touched.state == "Frozen"
+    assert touched.runners[0].state is State.EMERGENCY
+    assert "no usable frame for 0.2 s" in touched.worker().reason
+    touched.press("lower_arm_under", 20.0)
+    touched.run(2.0)
+    assert touched.state == "Frozen"
+    assert touched.robot.moves == []
+    touched.robot.spoil = lambda frame: frame
+    touched.release()
+    touched.run(0.6)
+    assert touched.state == "Watching"
+    assert touched.runners[0].state is State.COMPUTE
+
+
+def test_frames_before_the_geometry_is_known_are_not_judged(stage) -> None:
+    touched = stage()
+    touched.run(0.7)
+    seen = touched.reflex.getStatistics()
+    assert [getattr(seen, name) for name in COUNTERS] == [0, 0, 0, 0]
+
+
+def test_those_who_count_anew_are_believed_after_a_while(touched) -> None:
+    touched.robot.spoil = lambda f: changed(f, sequence=f.sequence - 1000, time=f.time - 100)
+    touched.run(0.3)
+    assert touched.state == "Frozen"
+    touched.until("Watching", 1.0)
+    touched.press("lower_arm_under", 20.0)
+    touched.run(0.02)
+    assert touched.state == "Withdrawing"
+
+
+def test_a_newer_geometry_is_fetched(touched) -> None:
+    asked = touched.robot.asked
+    geometry = touched.robot.geometry
+    keep = np.arange(geometry.size) >= 10  # ten taxels are gone
+    touched.robot.geometry = replace(
+        geometry, version=2, ids=geometry.ids[keep], patch=geometry.patch[keep],
+        limb=geometry.limb[keep], points=geometry.points[keep], normals=geometry.normals[keep],
+    )  # fmt: skip
+    touched.press("upper_arm_front", 5.0)
+    touched.run(0.1)
+    assert touched.robot.asked == asked + 1
+    assert touched.state in ("Withdrawing", "Holding")
+    assert set(touched.worker().withdrawal.strongest) == {"upper_arm_front"}
+    assert touched.reflex.getStatistics().framesOtherGeometry <= 2
+
+
+def test_a_skin_that_was_started_anew_with_an_older_version_is_found(touched) -> None:
+    touched.robot.geometry = replace(touched.robot.geometry, version=5)
+    touched.run(0.2)
+    touched.robot.geometry = replace(touched.robot.geometry, version=1)
+    touched.run(0.3)
+    assert touched.state == "Frozen"
+    touched.run(1.5)
+    assert touched.state == "Watching"
+
+
+class Confused(Puppet):
+    """Its skin contradicts itself as long as `confused`."""
+
+    confused = True
+
+    def get_geometry(self) -> Any:
+        told = super().get_geometry()
+        if self.confused:
+            told.limb = told.limb + 100
+        return told
+
+
+def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(stage) -> None:
+    touched = stage("nao_h25", "left_arm", Confused)
+    touched.run(1.0)
+    assert touched.state == "Frozen"
+    assert "`limb` refers to entry" in touched.worker().reason
+    touched.robot.confused = False
+    touched.run(1.0)
+    assert touched.state == "Watching"
+
+
+def test_a_skin_without_the_limbs_of_the_fields_is_told(stage) -> None:
+    class Bare(Puppet):
+        def get_geometry(self) -> Any:
+            told = super().get_geometry()
+            for one in told.limbs:
+                one.name = one.name.replace("lower_arm", "tail")
+            return told
+
+    touched = stage("nao_h25", "left_arm", Bare)
+    touched.run(1.0)
+    assert touched.state == "Frozen"
+    assert "no limb `left_arm/lower_arm` for the field" in touched.worker().reason
+    assert "left_arm/tail" in touched.worker().reason
+
+
+WRONG_LIMITS = {
+    "4 joints": {name: np.zeros(4) for name in ("low", "high", "speed", "start")},
+    "NaN": {"start": np.full(5, np.nan)},
+    "differ in length": {"speed": np.ones(4)},
+    "above its upper": {"low": np.full(5, 9.0)},
+    "no speed": {"speed": np.zeros(5)},
+}
+
+
+@pytest.mark.parametrize(("said", "wrong"), WRONG_LIMITS.items(), ids=list(WRONG_LIMITS))
+def test_limits_that_no_arm_has_keep_it_frozen(stage, said, wrong) -> None:
+    class Odd(Puppet):
+        def limits(self) -> Any:
+            return changed(super().limits(), **wrong)
+
+    touched = stage("nao_h25", "left_arm", Odd)
+    touched.run(1.0)
+    assert touched.state == "Frozen"
+    assert said in touched.worker().reason
+
+
+@pytest.mark.parametrize("pose", [np.full(5, np.nan), np.zeros(4), np.zeros(0)])
+def test_a_state_of_the_arm_that_makes_no_sense_counts_as_none(touched, pose) -> None:
+    publish = touched.robot.states_proxy.armState
+    touched.robot.states_proxy.armState = lambda state: publish(changed(state, position=pose))
+    touched.run(0.4)
+    assert touched.state == "Watching"
+    touched.run(0.2)
+    assert touched.state == "Frozen"
+    assert "the arm has told no state" in touched.worker().reason
+
+
+@pytest.mark.parametrize("lost", ["feels", "tells"])
+def test_while_nothing_happens_it_freezes_and_goes_on_watching(touched, lost) -> None:
+    setattr(touched.robot, lost, False)
+    touched.run(0.6)
+    assert touched.state == "Frozen"
+    assert touched.robot.stops == 1
+    setattr(touched.robot, lost, True)
+    touched.run(0.4)
+    assert touched.state == "Frozen"  # it must have been there for a while
+    touched.run(0.3)
+    assert touched.state == "Watching"
+    assert touched.robot.moves == []  # the arm was where it belongs
+
+
+@pytest.mark.parametrize("lost", ["feels", "tells"])
+def test_an_arm_on_its_way_is_stopped_and_comes_back_later(touched, lost) -> None:
+    touched.press("lower_arm_outer", 20.0)
+    touched.run(0.06)
+    touched.release()
+    assert touched.state == "Withdrawing"
+    setattr(touched.robot, lost, False)
+    touched.until("Frozen", 0.6)
+    there, moves = touched.robot.pose, len(touched.robot.moves)
+    assert touched.robot.stops == 1
+    touched.press("lower_arm_outer", 20.0)
+    touched.run(1.0)
+    assert len(touched.robot.moves) == moves
+    assert (touched.robot.pose == there).all()
+    touched.release()
+    setattr(touched.robot, lost, True)
+    touched.until("Returning", 1.0)
+    touched.until("Watching")
+    assert touched.robot.pose == pytest.approx(touched.robot.part.start, abs=0.03)
+
+
+def test_an_arm_that_refuses_freezes_it_and_is_stopped_as_soon_as_it_listens(touched) -> None:
+    touched.robot.answers = False
+    touched.press("lower_arm_under", 20.0)
+    touched.run(0.1)
+    assert touched.state == "Frozen"
+    assert "the arm does not move" in touched.worker().reason or "cable" in touched.worker().reason
+    assert touched.robot.stops == 0
+    touched.release()
+    touched.run(2.0)
+    assert touched.state == "Frozen"
+    assert "the cable is out" in touched.worker().reason
+    touched.robot.answers = True
+    touched.run(0.2)
+    assert touched.robot.stops == 1
+    assert touched.state == "Frozen"
+    touched.until("Watching")
+    assert touched.robot.stops == 1
+
+
+def test_an_arm_that_cannot_go_back_freezes_it_again(touched) -> None:
+    touched.press("lower_arm_under", 20.0)
+    touched.run(0.04)
+    touched.release()
+    touched.until("Holding")
+    touched.robot.answers = False
+    touched.run(1.0)
+    assert touched.state == "Frozen"
+    touched.robot.answers = True
+    touched.until("Watching")
+
+
+def test_the_emergency_can_be_seen_from_outside_with_its_reason(touched) -> None:
+    about = touched.proxy(ComponentProxy, "reflex", "Component")
+    assert COMPONENT is ComponentProxy.INTERFACE
+    assert about.getInfo().state == LifeState.Compute
+    touched.robot.tells = False
+    touched.run(0.7)
+    info = about.getInfo()
+    assert info.state == LifeState.Emergency
+    assert info.reason == "the arm has told no state for 0.5 s"
+    assert info.states == ["Frozen"]
+    touched.robot.tells, touched.robot.feels = True, False
+    touched.run(0.3)
+    assert about.getInfo().reason == "the skin has sent no usable frame for 0.2 s"
+    touched.robot.feels = True
+    touched.until("Watching")
+    assert about.getInfo().reason == ""
+
+
+def test_time_that_begins_anew_is_an_interruption_and_no_more(touched) -> None:
+    touched.press("lower_arm_under", 20.0)
+    touched.run(0.04)
+    touched.release()
+    touched.run(1.0)
+    touched.robot.clock.reset()
+    touched.until("Frozen", 1.0)
+    touched.until("Watching", 5.0)
+    touched.press("lower_arm_under", 20.0)
+    touched.run(0.04)
+    assert touched.state == "Withdrawing"
+    assert touched.reflex.getStatistics().withdrawals == 2
+
+
+FIELD = {"name": "f", "limb": "left_arm/lower_arm", "x": 0.05, "y": 0.0, "z": 0.03,
+         "radius": 0.03, "motion": np.full(5, 0.1)}  # fmt: skip
+WRONG_FIELDS = {
+    "no limb `left_arm/tail`": {"limb": "left_arm/tail"},
+    "write the limb as `left_arm/LIMB`": {"limb": "lower_arm"},
+    "is on `right_arm/lower_arm`": {"limb": "right_arm/lower_arm"},
+    "NaN or infinity": {"x": np.nan},
+    "holds NaN": {"motion": np.full(5, np.inf)},
+    "must be positive": {"radius": 0.0},
+    "has 3 angles, the arm 5": {"motion": np.zeros(3)},
+}
+
+
+@pytest.mark.parametrize(("said", "wrong"), WRONG_FIELDS.items(), ids=list(WRONG_FIELDS))
+def test_fields_that_cannot_be_are_refused_and_nothing_changes(stage, said, wrong) -> None:
+    touched = stage("icub_v2").awake()
+    before = [one.name for one in touched.reflex.getFields()]
+    with pytest.raises(words.RoboCompReflex_NotPossible) as caught:
+        touched.reflex.setFields(
+            [words.Field(**FIELD), words.Field(**{**FIELD, "name": "g", **wrong})]
+        )
+    assert said in caught.value.what
+    assert [one.name for one in touched.reflex.getFields()] == before
+
+
+def test_two_fields_of_one_name_are_refused(touched) -> None:
+    with pytest.raises(words.RoboCompReflex_NotPossible, match="two fields of the name `f`"):
+        touched.reflex.setFields([words.Field(**FIELD), words.Field(**FIELD)])
+
+
+@pytest.mark.parametrize(
+    ("threshold", "full"), [(1.0, 1.0), (2.0, 1.0), (-1.0, 1.0), (np.nan, 1.0), (0.1, np.inf)]
+)
+def test_forces_that_cannot_be_are_refused_and_nothing_changes(touched, threshold, full) -> None:
+    law = touched.worker().sense.law
+    with pytest.raises(words.RoboCompReflex_NotPossible):
+        touched.reflex.setForces(threshold, full)
+    assert touched.worker().sense.law is law
