@@ -138,7 +138,7 @@ class SpecificWorker(GenericWorker):
             return told_pose(self.arm.hand())
 
     def GenericArm_move(self, position: Angles, speed: Angles) -> Outcome:
-        """Go to angles, at these speeds or, without any, at the largest."""
+        """Go to angles, at these mean speeds or, without any, as fast as the limits allow."""
         with self.in_words():
             return self.outcome(self.arm.move(position, given(speed)))
 

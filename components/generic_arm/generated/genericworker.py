@@ -97,7 +97,7 @@ class GenericWorker(Component):
         raise rt.NotImplementedOperation("GenericArm_getHand")
 
     def GenericArm_move(self, position: Angles, speed: Angles) -> Outcome:
-        """Go to angles, at these speeds or, without any, at the largest.
+        """Go to angles, at these mean speeds or, without any, as fast as the limits allow.
 
         May raise NotPossible.
         """
