@@ -36,7 +36,7 @@ _MM = 4.40 / 252
 _LINE = 0.165
 _ANGLES = 1.75
 _CAPTION = (
-    "The skin unrolled, across: the angle around the limb. Colours: the largest force on each taxel."
+    "The skin unrolled, across: the angle around the limb. Colours: largest force on each taxel."
     " Circles: receptive fields."
 )
 _SILENCE = 0.1  # s
