@@ -60,12 +60,18 @@ def judge_part(source: Source, report: Report) -> None:
 def judge_model(robot: Robot, source: Source, workspace: Workspace, report: Report) -> None:
     """Against the model that it names."""
     try:
-        compare(robot, _facts(robot, workspace))
-    except DescriptionError as error:
-        _tell(error, source, report)
+        judge_facts(robot, _facts(robot, workspace), source, report)
     except _NoModel as error:
         place = Finding("", robot.model_place.line, robot.model_place.column, "")
         report.add(codes.TACTILE_MODEL, _span(place, source), str(error))
+
+
+def judge_facts(robot: Robot, facts: Facts, source: Source, report: Report) -> None:
+    """Against the joints and bodies that are there."""
+    try:
+        compare(robot, facts)
+    except DescriptionError as error:
+        _tell(error, source, report)
 
 
 class _NoModel(Exception):

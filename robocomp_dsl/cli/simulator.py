@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
@@ -23,9 +23,13 @@ from robocomp_dsl.hardware.model_kind import MODELS, outermost
 from robocomp_dsl.source import Source, Span
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from robocomp_dsl.generate.output import OutputFile
     from robocomp_dsl.generate.simulator import Simulator
     from robocomp_dsl.model.body import Body
+
+    Complete: TypeAlias = Callable[[Simulator], Simulator]
 
 
 @click.command()
@@ -39,6 +43,12 @@ if TYPE_CHECKING:
 )
 @click.option("--dry-run", is_flag=True, help="Write nothing; list what would be served.")
 @options.packages
+@click.option(
+    "--tactile",
+    type=click.Path(readable=False, path_type=Path),
+    metavar="FILE.yaml",
+    help="Skin on the bodies of the world, as this description of touch has it.",
+)
 @click.option("--strict", is_flag=True, help="Make nothing of an InnerModel file with errors.")
 @options.output_format
 @options.folders
@@ -48,6 +58,7 @@ def command(
     output: Path | None,
     dry_run: bool,
     packages: tuple[Path, ...],
+    tactile: Path | None,
     strict: bool,
     form: str,
     folders: tuple[Path, ...],
@@ -63,7 +74,11 @@ def command(
     """
     told, report = Report(), Report()
     workspace = Workspace(folders)
-    made = simulated(file, packages, workspace, told, report, strict=strict)
+
+    def complete(made: Simulator) -> Simulator:
+        return _touched(made, tactile, workspace, report) if tactile else made
+
+    made = simulated(file, packages, workspace, told, report, strict=strict, complete=complete)
     folder = output or file.parent / (made.name if made else "")
     files = _files(made, folder, workspace, report) if made and not report.failed else []
     told.extend(report)
@@ -84,15 +99,21 @@ def simulated(
     report: Report,
     *,
     strict: bool,
+    complete: Complete = lambda made: made,
 ) -> Simulator | None:
     """The simulator of a file. What the file says wrongly is `told`; `report` is of its world."""
     if _kind(file) in MODELS:
-        return _model(file, packages, report)
-    return _world(file, workspace, told, report, strict=strict)
+        return _model(file, packages, report, complete)
+    return _world(file, workspace, told, report, strict, complete)
 
 
 def _world(
-    file: Path, workspace: Workspace, told: Report, report: Report, *, strict: bool
+    file: Path,
+    workspace: Workspace,
+    told: Report,
+    report: Report,
+    strict: bool,
+    complete: Complete,
 ) -> Simulator | None:
     """The simulator of a body in InnerModel."""
     body = check_innermodel(file, workspace, told)
@@ -100,7 +121,7 @@ def _world(
         return None
     from robocomp_dsl.generate.simulator import simulator  # noqa: PLC0415 - not for --help
 
-    made = simulator(body)
+    made = complete(simulator(body))
     _build(made, body, report)
     if told.failed and not report.failed:
         said = f"this is simulated as far as it is understood: {consequences(told)}"
@@ -116,13 +137,21 @@ def _kind(file: Path) -> str:
         return ""
 
 
-def _model(file: Path, packages: tuple[Path, ...], report: Report) -> Simulator | None:
+def _touched(made: Simulator, path: Path, workspace: Workspace, report: Report) -> Simulator:
+    from robocomp_dsl.cli.simulator_skin import touched  # noqa: PLC0415 - slow: numpy and YAML
+
+    return touched(made, path, workspace, report)
+
+
+def _model(
+    file: Path, packages: tuple[Path, ...], report: Report, complete: Complete
+) -> Simulator | None:
     try:
         from robocomp_dsl.cli.simulator_model import model_world  # noqa: PLC0415 - slow: MuJoCo
     except ImportError as missing:
         report.add(codes.NO_SIMULATION, Source(file, "").whole, str(missing))
         return None
-    return model_world(file, packages, report)
+    return model_world(file, packages, report, complete)
 
 
 def _build(made: Simulator, body: Body, report: Report) -> None:

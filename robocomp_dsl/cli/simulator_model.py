@@ -6,7 +6,7 @@ In: its path. Out: what is simulated and served, built once to see that it can b
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from robocomp_dsl.cli.model_findings import read_source, tell, tell_faults
@@ -23,8 +23,13 @@ from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.source import Source
 
 
-def model_world(path: Path, packages: Sequence[Path], report: Report) -> Simulator | None:
-    """The simulator of the model at `path`; None after errors."""
+def model_world(
+    path: Path,
+    packages: Sequence[Path],
+    report: Report,
+    complete: Callable[[Simulator], Simulator],
+) -> Simulator | None:
+    """The simulator of the model at `path`, as `complete` makes it whole; None after errors."""
     source = read_source(path)
     try:
         file = f"model{MODELS[outermost(path.read_bytes())]}"
@@ -38,7 +43,7 @@ def model_world(path: Path, packages: Sequence[Path], report: Report) -> Simulat
         report.add(codes.IMPOSSIBLE_WORLD, source.whole, said)
         return None
     tell(described.findings, source, report)
-    made = simulator_of_model(path, described.scene, text, step=described.step)
+    made = complete(simulator_of_model(path, described.scene, text, step=described.step))
     _build(made, file, source, report)
     return made
 

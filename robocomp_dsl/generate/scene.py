@@ -122,7 +122,8 @@ def _mesh(node: body.Mesh, parent: body.Node) -> Data:
     }
 
 
-def _free(wanted: str, taken: set[str]) -> str:
+def free(wanted: str, taken: set[str]) -> str:
+    """A name like `wanted` that is not taken."""
     while wanted in taken:
         wanted += "'"
     return wanted
@@ -139,7 +140,7 @@ def _sticks(node: body.Axes, parent: body.Node, taken: set[str]) -> list[Data]:
         # with this normal a box stands along the axes of its frame
         stick = {"size": size, "place": place, "normal": [0.0, 0.0, -1.0], "colour": colour}
         made.append(
-            {"id": _free(f"{node.id}.{axis}", taken), "frame": parent.id, "collide": False} | stick
+            {"id": free(f"{node.id}.{axis}", taken), "frame": parent.id, "collide": False} | stick
         )
     return made
 

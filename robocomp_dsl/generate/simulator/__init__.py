@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,10 +17,11 @@ from robocomp_dsl.generate import plan
 from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.names import camel
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.generate.simulator.handlers import simulator_code
+from robocomp_dsl.generate.scene import free, lower
+from robocomp_dsl.generate.simulator.handlers import SKIN, simulator_code
 from robocomp_dsl.generate.simulator.offers import (
     CLOCK,
+    USUAL_RATE,
     Published,
     ServedAs,
     identifier,
@@ -86,6 +87,30 @@ def simulator_of_model(
 ) -> Simulator:
     """The simulator of the model file at `path`, whose text is to be `model`; `step` is in s."""
     return _simulator(path, scene, model, min(max(round(step * 1000, 6), LEAST_STEP), MOST_STEP))
+
+
+def with_skin(made: Simulator, skin: dict[str, Any]) -> Simulator:
+    """The same world with one more skin, lowered by `generate.skin`; its nodes get free names."""
+    taken = {
+        one["id"] for nodes in ("frames", "boxes", "meshes", "devices") for one in made.scene[nodes]
+    }
+    patches = [one | {"name": free(one["name"], taken)} for one in skin["patches"]]
+    skin = skin | {"id": free(skin["id"], taken), "patches": patches}
+    body = skin["limbs"][0]["body"]
+    device = {"id": skin["id"], "kind": SKIN, "frame": body, "settings": {"rate": USUAL_RATE}}
+    scene = made.scene | {
+        "devices": [*made.scene["devices"], device],
+        "skins": [*made.scene.get("skins", ()), skin],
+    }
+    ports = served(scene)
+    return replace(
+        made,
+        scene=scene,
+        ports=ports,
+        topics=published(ports),
+        unserved=tuple(not_served(scene)),
+        skin_rate=skin_rate(scene),
+    )
 
 
 def _simulator(path: Path, scene: dict[str, Any], model: str = "", step: float = 2.0) -> Simulator:

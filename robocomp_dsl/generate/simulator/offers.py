@@ -66,6 +66,9 @@ OF_THE_WORLD = ("InnerModelManager", "Simulation")
 COMPONENT = "Component"
 """What every component serves of itself."""
 
+USUAL_RATE = 50.0
+"""Of a skin that does not tell its rate [Hz]."""
+
 CLOCK = "Clock"
 """The topic on which it tells the time, where it makes that of a deployment."""
 
@@ -222,7 +225,7 @@ def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
 
 def skin_rate(scene: dict[str, Any]) -> float:
     """The rate of the fastest skin [Hz]; 0 without one: they tell their frames together."""
-    rates = [d["settings"].get("rate", 50.0) for d in scene["devices"] if d["kind"] == "skin"]
+    rates = [d["settings"].get("rate", USUAL_RATE) for d in scene["devices"] if d["kind"] == "skin"]
     return float(max(rates, default=0.0))
 
 
