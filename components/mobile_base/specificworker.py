@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -13,6 +12,7 @@ from simulation import Simulation, simulate
 from robocomp_dsl.hardware.errors import HardwareError
 from robocomp_dsl.hardware.planar import ORIGIN, Pose
 from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.servants.laser import told_settings
 from robocomp_dsl.runtime.clock_source import ClockSource
 from robocomp_dsl.runtime.parameters import Refused
 
@@ -121,23 +121,9 @@ class SpecificWorker(GenericWorker):
 
     def Laser_getLaserConfData(self) -> LaserConfData:
         """How the laser is set up."""
-        it = self.simulation.laser.settings
-        half = it.degrees / 2
-        return LaserConfData(
-            driver="MuJoCo",
-            device=self.simulation.laser.name,
-            staticConf=1,
-            maxMeasures=it.measures,
-            maxDegrees=math.ceil(it.degrees),
-            maxRange=round(it.max_range),
-            minRange=round(it.min_range),
-            iniRange=-math.ceil(half),
-            endRange=math.ceil(half),
-            cluster=1,
-            sampleRate=round(it.period * 1000),
-            angleRes=it.degrees / max(it.measures - 1, 1),
-            angleIni=-half,
-        )
+        laser = self.simulation.laser
+        told: LaserConfData = told_settings(LaserConfData, laser.name, laser.settings)
+        return told
 
 
 @contextmanager

@@ -101,3 +101,10 @@ def test_a_base_tells_its_state_with_the_time(world: Served) -> None:
     ((state, time),) = world.ports["robot"].news()
     assert time == pytest.approx(0.1)
     assert state.correctedX == pytest.approx(400, abs=1)
+
+
+def test_a_laser_tells_how_it_is_set_up(world: Served) -> None:
+    it = world.ports["laser"].getLaserConfData()
+    assert (it.device, it.maxMeasures, it.minRange, it.maxRange) == ("laser", 11, 0, 4000)
+    assert (it.maxDegrees, it.iniRange, it.endRange, it.sampleRate) == (58, -29, 29, 50)
+    assert (it.angleRes, it.angleIni) == pytest.approx((5.7296, -28.648), abs=1e-3)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from robocomp_dsl.hardware.laser import LaserDevice, Scan
+from robocomp_dsl.hardware.laser import LaserDevice, LaserSettings, Scan
 from robocomp_dsl.hardware.servants.base import told_state
 from robocomp_dsl.hardware.servants.servant import Servant
 
@@ -45,20 +45,24 @@ class LaserServant(Servant):
 
     def getLaserConfData(self) -> Any:
         """How the laser is set up."""
-        it = self._laser.settings
-        half = it.degrees / 2
-        return self.types.LaserConfData(
-            driver="robocomp_dsl",
-            device=self.ids[0],
-            staticConf=1,
-            maxMeasures=it.measures,
-            maxDegrees=math.ceil(it.degrees),
-            maxRange=round(it.max_range),
-            minRange=round(it.min_range),
-            iniRange=-math.ceil(half),
-            endRange=math.ceil(half),
-            cluster=1,
-            sampleRate=round(it.period * 1000),
-            angleRes=it.degrees / max(it.measures - 1, 1),
-            angleIni=-half,
-        )
+        return told_settings(self.types.LaserConfData, self.ids[0], self._laser.settings)
+
+
+def told_settings(made: type[Any], name: str, settings: LaserSettings) -> Any:
+    """The settings of the laser `name` as the struct `made`."""
+    half = settings.degrees / 2
+    return made(
+        driver="robocomp_dsl",
+        device=name,
+        staticConf=1,
+        maxMeasures=settings.measures,
+        maxDegrees=math.ceil(settings.degrees),
+        maxRange=round(settings.max_range),
+        minRange=round(settings.min_range),
+        iniRange=-math.ceil(half),
+        endRange=math.ceil(half),
+        cluster=1,
+        sampleRate=round(settings.period * 1000),
+        angleRes=settings.degrees / max(settings.measures - 1, 1),
+        angleIni=-half,
+    )
