@@ -12,14 +12,18 @@ from generated.interfaces import (
     INNERMODELMANAGER,
     JOINTMOTOR,
     SIMULATION,
+    SKIN,
     Acceleration,
     BoardState,
     BusParams,
     ClockProxy,
+    ContactList,
     ControlBoardStateProxy,
     ControlMode,
     DataImu,
     Flags,
+    Frame,
+    Geometry,
     Gyroscope,
     Impedance,
     IMUPubProxy,
@@ -52,6 +56,8 @@ from generated.interfaces import (
     RoboCompSimulation_Names,
     RoboCompSimulation_Values,
     Sight,
+    SkinContactsProxy,
+    SkinFrameProxy,
     State,
     Targets,
     coord3D,
@@ -331,6 +337,16 @@ class GenericWorker(Component):
                 },
             ),
             ServedPort(
+                "Skin",
+                SKIN,
+                {
+                    "getGeometry": "Skin_getGeometry",
+                    "getFrame": "Skin_getFrame",
+                    "getContacts": "Skin_getContacts",
+                    "calibrate": "Skin_calibrate",
+                },
+            ),
+            ServedPort(
                 "InnerModelManager",
                 INNERMODELMANAGER,
                 {
@@ -394,6 +410,8 @@ class GenericWorker(Component):
             CalledPort("right_arm_pub", ControlBoardStateProxy, "right_arm_pub_proxy"),
             CalledPort("finger_pub", ControlBoardStateProxy, "finger_pub_proxy"),
             CalledPort("imu_pub", IMUPubProxy, "imu_pub_proxy"),
+            CalledPort("SkinFrame", SkinFrameProxy, "skinframe_proxy"),
+            CalledPort("SkinContacts", SkinContactsProxy, "skincontacts_proxy"),
             CalledPort("Clock", ClockProxy, "clock_proxy"),
         ),
         subscribes=(),
@@ -407,47 +425,49 @@ class GenericWorker(Component):
     right_arm_pub_proxy: ControlBoardStateProxy
     finger_pub_proxy: ControlBoardStateProxy
     imu_pub_proxy: IMUPubProxy
+    skinframe_proxy: SkinFrameProxy
+    skincontacts_proxy: SkinContactsProxy
     clock_proxy: ClockProxy
 
     def JointMotor_setPosition(self, goal: MotorGoalPosition) -> None:
         """Send one motor to a position.
 
-        May raise UnknownMotorException, HardwareFailedException, CollisionException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException, CollisionException.
         """
         raise rt.NotImplementedOperation("JointMotor_setPosition")
 
     def JointMotor_setVelocity(self, goal: MotorGoalVelocity) -> None:
         """Turn one motor at a velocity.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         raise rt.NotImplementedOperation("JointMotor_setVelocity")
 
     def JointMotor_setZeroPos(self, name: str) -> None:
         """Send one motor to its zero position.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         raise rt.NotImplementedOperation("JointMotor_setZeroPos")
 
     def JointMotor_setSyncPosition(self, listGoals: MotorGoalPositionList) -> None:
         """Send several motors to positions at once.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         raise rt.NotImplementedOperation("JointMotor_setSyncPosition")
 
     def JointMotor_setSyncVelocity(self, listGoals: MotorGoalVelocityList) -> None:
         """Turn several motors at velocities at once.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         raise rt.NotImplementedOperation("JointMotor_setSyncVelocity")
 
     def JointMotor_setSyncZeroPos(self) -> None:
         """Send all motors to their zero positions.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         raise rt.NotImplementedOperation("JointMotor_setSyncZeroPos")
 
@@ -2193,6 +2213,32 @@ class GenericWorker(Component):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         raise rt.NotImplementedOperation("imu_resetImu")
+
+    def Skin_getGeometry(self) -> Geometry:
+        """Where the taxels are."""
+        raise rt.NotImplementedOperation("Skin_getGeometry")
+
+    def Skin_getFrame(self) -> Frame:
+        """The latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_getFrame")
+
+    def Skin_getContacts(self) -> ContactList:
+        """The touches of the latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_getContacts")
+
+    def Skin_calibrate(self, seconds: float) -> None:
+        """Take the baseline from the next `seconds`; nothing may touch the skin meanwhile.
+
+        Units: seconds in s.
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_calibrate")
 
     def InnerModelManager_addTransform(
         self,

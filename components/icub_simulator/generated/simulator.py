@@ -7,15 +7,19 @@ from pathlib import Path
 
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation, read_data
 from robocomp_dsl.hardware.serving import Port
+from robocomp_dsl.hardware.skin_parameters import known_taxels, skin_settings
 
 from generated.genericworker import GenericWorker
 from generated.interfaces import (
     Acceleration,
     BoardState,
     BusParams,
+    ContactList,
     ControlMode,
     DataImu,
     Flags,
+    Frame,
+    Geometry,
     Gyroscope,
     Impedance,
     InteractionMode,
@@ -73,12 +77,17 @@ class Simulator(GenericWorker):
                 speed=given.speed,
                 noise=given.noise,
                 diverged=given.diverged,
+                skin=skin_settings(given.skin),
             ),
         )
         for note in self.simulation.notes:
             self.log.warning("%s", note)
         chosen = read_data(SCENE)["ports"]
         self.ports = self.simulation.serve(self.SPEC.implements, chosen)
+        self.ports["Skin"].publish(
+            self.skinframe_proxy.frame,
+            self.skincontacts_proxy.contacts,
+        )
         self.simulation.start(self.clock)
 
     def compute(self) -> None:
@@ -115,45 +124,94 @@ class Simulator(GenericWorker):
         with self.simulation.turns:
             self.simulation.noise.set(self.params.noise)
 
+    def will_set_skin_dead(self, value: str) -> None:
+        """Only taxels that are there can be dead."""
+        known_taxels(value, self.simulation.skin.geometry)
+
+    def _adjust_skin(self) -> None:
+        """The skin is set up by other parameters from now on."""
+        with self.simulation.turns:
+            self.simulation.set_skin(skin_settings(self.params.skin))
+
+    def did_set_skin_rate(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_sigma(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_shear(self, old: bool) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_raw(self, old: bool) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_compensation(self, old: bool) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_noise(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_drift(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_threshold(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_saturation(self, old: float) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
+    def did_set_skin_dead(self, old: str) -> None:
+        """The skin is set up anew."""
+        self._adjust_skin()
+
     def JointMotor_setPosition(self, goal: MotorGoalPosition) -> None:
         """Send one motor to a position.
 
-        May raise UnknownMotorException, HardwareFailedException, CollisionException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException, CollisionException.
         """
         self.ports["JointMotor"].setPosition(goal)
 
     def JointMotor_setVelocity(self, goal: MotorGoalVelocity) -> None:
         """Turn one motor at a velocity.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setVelocity(goal)
 
     def JointMotor_setZeroPos(self, name: str) -> None:
         """Send one motor to its zero position.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setZeroPos(name)
 
     def JointMotor_setSyncPosition(self, listGoals: MotorGoalPositionList) -> None:
         """Send several motors to positions at once.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setSyncPosition(listGoals)
 
     def JointMotor_setSyncVelocity(self, listGoals: MotorGoalVelocityList) -> None:
         """Turn several motors at velocities at once.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setSyncVelocity(listGoals)
 
     def JointMotor_setSyncZeroPos(self) -> None:
         """Send all motors to their zero positions.
 
-        May raise UnknownMotorException, HardwareFailedException.
+        May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setSyncZeroPos()
 
@@ -2121,6 +2179,38 @@ class Simulator(GenericWorker):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         self.ports["imu"].resetImu()
+
+    def Skin_getGeometry(self) -> Geometry:
+        """Where the taxels are."""
+        ask = self.ports["Skin"].getGeometry
+        answer: Geometry = ask()
+        return answer
+
+    def Skin_getFrame(self) -> Frame:
+        """The latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        ask = self.ports["Skin"].getFrame
+        answer: Frame = ask()
+        return answer
+
+    def Skin_getContacts(self) -> ContactList:
+        """The touches of the latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        ask = self.ports["Skin"].getContacts
+        answer: ContactList = ask()
+        return answer
+
+    def Skin_calibrate(self, seconds: float) -> None:
+        """Take the baseline from the next `seconds`; nothing may touch the skin meanwhile.
+
+        Units: seconds in s.
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        self.ports["Skin"].calibrate(seconds)
 
     def InnerModelManager_addTransform(
         self,

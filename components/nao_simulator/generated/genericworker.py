@@ -13,14 +13,18 @@ from generated.interfaces import (
     INNERMODELMANAGER,
     JOINTMOTOR,
     SIMULATION,
+    SKIN,
     Acceleration,
     BoardState,
     BusParams,
     ClockProxy,
+    ContactList,
     ControlBoardStateProxy,
     ControlMode,
     DataImu,
     Flags,
+    Frame,
+    Geometry,
     Gyroscope,
     Impedance,
     IMUPubProxy,
@@ -53,6 +57,8 @@ from generated.interfaces import (
     RoboCompSimulation_Names,
     RoboCompSimulation_Values,
     Sight,
+    SkinContactsProxy,
+    SkinFrameProxy,
     State,
     Targets,
     TImage,
@@ -385,6 +391,16 @@ class GenericWorker(Component):
                 },
             ),
             ServedPort(
+                "Skin",
+                SKIN,
+                {
+                    "getGeometry": "Skin_getGeometry",
+                    "getFrame": "Skin_getFrame",
+                    "getContacts": "Skin_getContacts",
+                    "calibrate": "Skin_calibrate",
+                },
+            ),
+            ServedPort(
                 "InnerModelManager",
                 INNERMODELMANAGER,
                 {
@@ -449,6 +465,8 @@ class GenericWorker(Component):
             CalledPort("RLeg_pub", ControlBoardStateProxy, "rleg_pub_proxy"),
             CalledPort("finger_pub", ControlBoardStateProxy, "finger_pub_proxy"),
             CalledPort("imu_pub", IMUPubProxy, "imu_pub_proxy"),
+            CalledPort("SkinFrame", SkinFrameProxy, "skinframe_proxy"),
+            CalledPort("SkinContacts", SkinContactsProxy, "skincontacts_proxy"),
             CalledPort("Clock", ClockProxy, "clock_proxy"),
         ),
         subscribes=(),
@@ -463,6 +481,8 @@ class GenericWorker(Component):
     rleg_pub_proxy: ControlBoardStateProxy
     finger_pub_proxy: ControlBoardStateProxy
     imu_pub_proxy: IMUPubProxy
+    skinframe_proxy: SkinFrameProxy
+    skincontacts_proxy: SkinContactsProxy
     clock_proxy: ClockProxy
 
     def JointMotor_setPosition(self, goal: MotorGoalPosition) -> None:
@@ -2590,6 +2610,32 @@ class GenericWorker(Component):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         raise rt.NotImplementedOperation("imu_resetImu")
+
+    def Skin_getGeometry(self) -> Geometry:
+        """Where the taxels are."""
+        raise rt.NotImplementedOperation("Skin_getGeometry")
+
+    def Skin_getFrame(self) -> Frame:
+        """The latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_getFrame")
+
+    def Skin_getContacts(self) -> ContactList:
+        """The touches of the latest frame.
+
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_getContacts")
+
+    def Skin_calibrate(self, seconds: float) -> None:
+        """Take the baseline from the next `seconds`; nothing may touch the skin meanwhile.
+
+        Units: seconds in s.
+        May raise RoboCompSkin_HardwareFailedException.
+        """
+        raise rt.NotImplementedOperation("Skin_calibrate")
 
     def InnerModelManager_addTransform(
         self,

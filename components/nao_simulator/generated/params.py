@@ -5,7 +5,122 @@ from __future__ import annotations
 
 from typing import Literal
 
-from robocomp_dsl.runtime.parameters import Parameter, Parameters
+from robocomp_dsl.runtime.parameters import Group, Parameter, ParameterGroup, Parameters
+
+
+class SkinGroup(ParameterGroup):
+    """How all skin is set up; compensation works forces out from raw values, as on robots."""
+
+    SCHEMA = (
+        Parameter(
+            "rate",
+            "float",
+            default=50.0,
+            low=1.0,
+            high=1000.0,
+            unit="Hz",
+            live=True,
+            doc="Frames per simulated second.",
+        ),
+        Parameter(
+            "sigma",
+            "float",
+            default=5.0,
+            low=1.0,
+            high=30.0,
+            unit="mm",
+            live=True,
+            doc="Width of the kernel that spreads a force over taxels.",
+        ),
+        Parameter(
+            "shear",
+            "bool",
+            default=True,
+            live=True,
+            doc="Whether frames tell the forces along the skin.",
+        ),
+        Parameter(
+            "raw",
+            "bool",
+            default=False,
+            live=True,
+            doc="Whether frames tell what the electronics send, 0 to 255.",
+        ),
+        Parameter(
+            "compensation",
+            "bool",
+            default=False,
+            live=True,
+            doc="Once it is on, a calibration of 5 s begins by itself: nothing may touch the skin.",
+        ),
+        Parameter(
+            "noise",
+            "float",
+            default=0.0,
+            low=0.0,
+            high=100.0,
+            unit="N",
+            live=True,
+            doc="Standard deviation of every reading.",
+        ),
+        Parameter(
+            "drift",
+            "float",
+            default=0.0,
+            low=0.0,
+            high=100.0,
+            unit="counts",
+            live=True,
+            doc="How the baseline of raw values wanders, per root of a second.",
+        ),
+        Parameter(
+            "threshold",
+            "float",
+            default=0.0,
+            low=0.0,
+            high=1000.0,
+            unit="N",
+            live=True,
+            doc="What is below is not felt.",
+        ),
+        Parameter(
+            "saturation",
+            "float",
+            default=12.0,
+            low=0.001,
+            high=100000.0,
+            unit="N",
+            live=True,
+            doc="What is above is felt as this.",
+        ),
+        Parameter(
+            "dead",
+            "string",
+            default="",
+            live=True,
+            doc="Ids of taxels that feel nothing, as in `3, 10-20`.",
+        ),
+    )
+    # Frames per simulated second.
+    rate: float
+    # Width of the kernel that spreads a force over taxels.
+    sigma: float
+    # Whether frames tell the forces along the skin.
+    shear: bool
+    # Whether frames tell what the electronics send, 0 to 255.
+    raw: bool
+    # Once it is on, a calibration of 5 s begins by itself: nothing may touch the skin.
+    compensation: bool
+    # Standard deviation of every reading.
+    noise: float
+    # How the baseline of raw values wanders, per root of a second.
+    drift: float
+    # What is below is not felt.
+    threshold: float
+    # What is above is felt as this.
+    saturation: float
+    # Ids of taxels that feel nothing, as in `3, 10-20`.
+    dead: str
 
 
 class NaoSimulatorParams(Parameters):
@@ -54,6 +169,12 @@ class NaoSimulatorParams(Parameters):
             choices=("reset", "stop"),
             doc="What happens when the physics leaves the range of finite numbers.",
         ),
+        Group(
+            "skin",
+            SkinGroup,
+            single=True,
+            doc="How all skin is set up; compensation works forces out from raw values, as on robots.",
+        ),
     )
     # Simulated seconds per second; 0: as fast as it can.
     speed: float
@@ -65,3 +186,5 @@ class NaoSimulatorParams(Parameters):
     noise: float
     # What happens when the physics leaves the range of finite numbers.
     diverged: Literal["reset", "stop"]
+    # How all skin is set up; compensation works forces out from raw values, as on robots.
+    skin: SkinGroup

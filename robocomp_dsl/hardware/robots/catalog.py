@@ -23,13 +23,18 @@ ROBOTS: dict[str, Callable[[], Robot]] = {
 _DESCRIPTIONS = Path(__file__).parent / "descriptions"
 
 
+def description_file(name: str) -> Path:
+    """The description of generic arms and skin of the robot `name`."""
+    return _DESCRIPTIONS / f"{name}.yaml"
+
+
 def description(name: str) -> model.Robot:
     """Generic arms and skin of the robot `name`; `KeyError` for a name that is not here.
 
     Raises `DescriptionError` when the file does not fit the robot.
     """
     body = ROBOTS[name]()
-    read = load_robot(_DESCRIPTIONS / f"{name}.yaml")
+    read = load_robot(description_file(name))
     compare(read, facts(body))
     return read
 

@@ -1,13 +1,15 @@
 """The robots as worlds in MuJoCo's own format, for `rcgen simulator`: `python -m …robots.export`.
 
-In: robots that ship. Out: an MJCF file for each beside its simulator in `components/`. A world has
-a floor, the robot with its root held in the air, its control boards as tuples, its speed limits as
-numbers, and a finger to touch it with: a ball that is carried along three axes, by a force of 20 N
-at most, whose joints tell its place in the world in m. The start is the key frame `start`.
+In: robots that ship. Out: an MJCF file for each beside its simulator in `components/`, and with it
+the description of its touch, for `--tactile`. A world has a floor, the robot with its root held in
+the air, its control boards as tuples, its speed limits as numbers, and a finger to touch it with: a
+ball that is carried along three axes, by a force of 20 N at most, whose joints tell its place in
+the world in m. The start is the key frame `start`.
 """
 
 from __future__ import annotations
 
+import shutil
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -19,10 +21,11 @@ import numpy as np
 
 from robocomp_dsl.hardware.robots.boards import board_names, robot_board
 from robocomp_dsl.hardware.robots.build import add_robot, new_world, quaternion
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.robots.catalog import ROBOTS, description_file
 from robocomp_dsl.hardware.robots.links import Floats, Robot, Vector
 
 FINGER = "finger"
+TACTILE = "tactile.yaml"
 RADIUS = 0.008
 FORCE = 20.0
 _MASS = 0.1
@@ -84,6 +87,7 @@ def main(folder: Path = Path("components")) -> None:
         path = folder / world.file
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text(world), "utf-8")
+        shutil.copyfile(description_file(world.robot), path.with_name(TACTILE))
         sys.stdout.write(f"{path}\n")
 
 
