@@ -161,7 +161,7 @@ def _is_changeable(scene: Scene, id: str, done: str) -> None:
     if id in FIXED:
         raise NodeError(Mistake.WRONG_NODE, f"`{id}` cannot be {done}")
     given = {one.id for one in scene.frames if one.given}
-    own = {one.id for one in scene.devices if one.frame in given}
+    own = {one.id for one in scene.devices if one.frame in given or one.kind.startswith("model_")}
     if id in given | own:
         raise NodeError(Mistake.WRONG_NODE, f"`{id}` is of the model file and cannot be {done}")
 

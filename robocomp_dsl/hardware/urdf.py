@@ -63,7 +63,10 @@ class Link:
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """`parent` to `child`; `leader` and what follows it are those of a mimic joint."""
+    """`parent` to `child`; `leader` and what follows it are those of a mimic joint.
+
+    `effort` and `speed` are the largest ones, 0 where none is given.
+    """
 
     name: str
     kind: str
@@ -74,6 +77,7 @@ class Joint:
     low: float
     high: float
     effort: float
+    speed: float
     damping: float
     friction: float
     leader: str
@@ -271,6 +275,7 @@ class _Robot:
             low,
             high,
             number(limit, "effort", 0.0),
+            number(limit, "velocity", 0.0),
             number(dynamics, "damping", 0.0),
             number(dynamics, "friction", 0.0),
             mimic.get("joint"),

@@ -15,9 +15,10 @@ from typing import Any
 
 from robocomp_dsl.check import check_cdsl, check_innermodel
 from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.cli.simulator_model import model_world
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.generate.simulator import descriptions, files, simulator
+from robocomp_dsl.generate.simulator import Simulator, descriptions, files, simulator
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port
@@ -183,7 +184,23 @@ def served(folder: Path, text: str, options: Options | None = None) -> Served:
     report = Report()
     body = check_innermodel(path, Workspace(environ={}), report)
     assert body is not None
-    made = simulator(body)
+    assert [one.message for one in report] == []
+    return _served(folder, simulator(body), options)
+
+
+def served_model(folder: Path, text: str, name: str = "robot.xml") -> Served:
+    """The same of a model in URDF or MJCF."""
+    path = folder / name
+    path.write_text(text)
+    report = Report()
+    made = model_world(path, (), report)
+    assert [one.message for one in report] == []
+    assert made is not None
+    return _served(folder, made, Options(step=made.step / 1000))
+
+
+def _served(folder: Path, made: Simulator, options: Options | None) -> Served:
+    report = Report()
     workspace = Workspace(environ={})
     for one in descriptions(made):
         workspace.files.open_buffer(folder / one.path, one.text)
@@ -194,6 +211,10 @@ def served(folder: Path, text: str, options: Options | None = None) -> Served:
     data = json.loads(written["generated/scene.json"])
     module = types.ModuleType("interfaces")
     exec(compile(written["generated/interfaces.py"], "interfaces.py", "exec"), module.__dict__)
-    simulation = Simulation(Scene.of_data(data["scene"]), options or Options())
+    generated = folder / "generated"
+    if made.model:
+        generated.mkdir()
+        (generated / made.scene["model"]["file"]).write_text(made.model)
+    simulation = Simulation(Scene.of_data(data["scene"], generated), options or Options())
     ports = [ServedPort(p.port, getattr(module, p.interface.upper())) for p in made.ports]
     return Served(simulation, simulation.serve(ports, data["ports"]), module)

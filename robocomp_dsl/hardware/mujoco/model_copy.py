@@ -28,9 +28,10 @@ _WHOLE = re.compile(r"\A.*?<\s*(mujocoinclude|mujoco)\b[^>]*>(.*)</\s*\1\s*>.*\Z
 def copy_of(path: Path, packages: Sequence[Path] = ()) -> str:
     """The text that means the same anywhere. Raises `ModelFileError`, `OSError`."""
     text = _read(path)
-    text = _included(text, path, path, ())
-    folders = _folders(text)
     kind = outermost(text.encode())
+    if kind == "mujoco":
+        text = _included(text, path, path, ())
+    folders = _folders(text)
 
     def moved(name: str, attribute: str, value: str) -> str | None:
         if name == "compiler" and attribute == "strippath":
@@ -72,8 +73,6 @@ def _included(text: str, main: Path, here: Path, above: tuple[Path, ...]) -> str
             raise ModelFileError(f"`{wanted}` holds no `<mujoco>` that could be included")
         return _included(inner[2], main, file, (*above, file))
 
-    if outermost(_read(main)[:4096].encode()) != "mujoco":
-        return text
     return re.sub(r"</\s*include\s*>", "", _TAGS.sub(written, text))
 
 

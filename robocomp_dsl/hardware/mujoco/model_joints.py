@@ -132,7 +132,8 @@ def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
 
 def _force(model: Any, joint: int, motors: list[int]) -> float:
     """The largest torque [N·m] or force [N] that the file gives its motors; 0: none."""
-    force = max((_most(model, one) for one in motors), default=math.inf)
+    known = [most for one in motors if (most := _most(model, one)) < math.inf]
+    force = max(known, default=math.inf)
     if model.jnt_actfrclimited[joint]:
         force = min(force, float(np.abs(model.jnt_actfrcrange[joint]).max()))
     return force if 0 < force < math.inf else 0.0
@@ -171,14 +172,20 @@ def _reach(model: Any, body: int) -> float:
 
 
 def _armature(model: Any, joint: int, force: float, findings: list[Finding]) -> float:
-    """The motor's inertia, with what a regulator of so much force needs to stay calm."""
+    """The motor's inertia, with what a regulator of so much force needs to stay calm.
+
+    A file that tells none leaves it open, one that tells too little hears of it.
+    """
     dof = int(model.jnt_dofadr[joint])
     there = float(model.dof_armature[dof])
     inertia = 1.0 / max(float(model.dof_invweight0[dof]), 1e-12)
     missing = force * max(_SLOWEST, _SLOWNESS * float(model.opt.timestep)) - inertia
     if missing <= 0:
         return there
-    name = model.joint(joint).name
-    said = f"`{name}` is too light for its motor of {force:g}: it gets {missing:.2g} of armature"
-    findings.append(Finding("joint", name, said))
+    if there:
+        name = model.joint(joint).name
+        said = (
+            f"`{name}` is too light for its motor of {force:g}: it gets {missing:.2g} of armature"
+        )
+        findings.append(Finding("joint", name, said))
     return there + missing

@@ -57,6 +57,9 @@ def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -
     frame = frame_of(simulation.branch.scene, item)
     if frame.id == ROOT:
         raise NodeError(Mistake.WRONG_NODE, "the root stays where it is")
+    if frame.given:
+        _place_given(simulation, frame, between(simulation, ROOT, base) @ matrix_of(pose))
+        return
     in_parent = between(simulation, frame.parent, base) @ matrix_of(pose)
     told = pose_of(in_parent)
     x, y, z, rx, ry, rz = told
@@ -65,6 +68,28 @@ def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -
         _place_joint(simulation, changed)
     else:
         _place_body(simulation, changed, in_parent)
+
+
+def _place_given(simulation: Simulation, frame: Frame, in_root: Matrix) -> None:
+    """What a model file says can be moved: bodies of `mocap`, and those that are free."""
+    if frame.given == "joint":
+        said = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
+        raise NodeError(Mistake.WRONG_NODE, said)
+    branch = simulation.branch
+    model, data = branch.world.model, branch.world.data
+    position = axes.point(*in_root[:3, 3].tolist())
+    turned = axes.quaternion(in_root[:3, :3])
+    body = branch.body(frame.id) if frame.given == "body" else 0
+    joint, mocap = int(model.body_jntadr[body]), int(model.body_mocapid[body])
+    if mocap >= 0:
+        data.mocap_pos[mocap], data.mocap_quat[mocap] = position, turned
+    elif joint >= 0 and int(model.jnt_type[joint]) == int(mujoco.mjtJoint.mjJNT_FREE):
+        state = data.joint(joint)
+        state.qpos[:], state.qvel[:] = [*position, *turned], 0.0
+    else:
+        said = f"`{frame.id}` is held by the model file: only free bodies and those of `mocap` move"
+        raise NodeError(Mistake.WRONG_NODE, said)
+    mujoco.mj_forward(model, data)
 
 
 def _place_joint(simulation: Simulation, frame: Frame) -> None:
@@ -114,7 +139,8 @@ def _geoms(simulation: Simulation, id: str) -> Any:
     below = subtree(simulation.branch.scene, id)
     branch = simulation.branch
     model = branch.world.model
-    bodies = {branch.body(one.id) for one in branch.scene.frames if one.id in below}
+    held = (one for one in branch.scene.frames if one.given in {"", "body"})
+    bodies = {branch.body(one.id) for one in held if one.id in below}
     chosen = [
         geom
         for geom in range(model.ngeom)

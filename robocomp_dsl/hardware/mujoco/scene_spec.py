@@ -8,6 +8,7 @@ and what had to be simplified, in words. Bodies are where `TransformTree` has th
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -35,11 +36,13 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     """The model of `scene`, and notes on what is not as described. Raises `SceneError`."""
     spec, notes = _begun(scene.model)
     bodies = {body.name: body for body in spec.bodies} | {ROOT: spec.worldbody}
-    degrees = math.degrees(1.0) if spec.compiler.degree else 1.0
+    into = _Into(
+        bodies, math.degrees(1.0) if spec.compiler.degree else 1.0, scene.model is not None
+    )
     try:
         for frame in scene.frames:
             if frame.id != ROOT and not frame.given:
-                bodies[frame.id] = _add_frame(bodies, frame, degrees, notes)
+                bodies[frame.id] = _add_frame(into, frame, notes)
         for box in scene.boxes:
             add_box(spec, bodies[box.frame], box, notes)
         for mesh in scene.meshes:
@@ -48,6 +51,15 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
         raise SceneError(f"MuJoCo cannot build the world: {error}") from None
     make_room(spec)
     return spec, notes
+
+
+@dataclass(frozen=True, slots=True)
+class _Into:
+    """What frames are added to. Hinges are told in rad, `degrees` times; `weigh` what moves."""
+
+    bodies: dict[str, Any]
+    degrees: float
+    weigh: bool
 
 
 def _begun(model: Model | None) -> tuple[Any, list[str]]:
@@ -69,20 +81,17 @@ def _begun(model: Model | None) -> tuple[Any, list[str]]:
     return spec, notes
 
 
-def _add_frame(bodies: dict[str, Any], frame: Frame, degrees: float, notes: list[str]) -> Any:
-    """The body of a frame; ranges of hinges are told in rad, `degrees` times."""
-    if frame.parent not in bodies:
+def _add_frame(into: _Into, frame: Frame, notes: list[str]) -> Any:
+    if frame.parent not in into.bodies:
         raise SceneError(f"`{frame.id}` stands in `{frame.parent}`, which is no frame before it")
-    body = bodies[frame.parent].add_body(
+    body = into.bodies[frame.parent].add_body(
         name=body_name(frame.id),
         pos=axes.point(*frame.place),
         quat=axes.quaternion(rotation(*frame.turn)),
     )
-    if frame.mass > 0:
-        body.explicitinertial = True
-        body.mass = frame.mass
-        body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
-        body.inertia = [0.4 * frame.mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
+    moves = frame.motion or frame.drives or frame.physics
+    if frame.mass > 0 or (moves and into.weigh):
+        _weigh(body, frame.mass if frame.mass > 0 else _LIGHTEST)
     if frame.physics and frame.parent == ROOT and frame.mass <= 0:
         notes.append(f"`{frame.id}` falls and has no mass: it gets {_LIGHTEST:g} kg")
     if frame.physics and frame.parent == ROOT:
@@ -92,10 +101,17 @@ def _add_frame(bodies: dict[str, Any], frame: Frame, degrees: float, notes: list
     if frame.physics:
         notes.append(f"`{frame.id}` stands in another frame and is moved by that, not by physics")
     if frame.motion:
-        _add_joint(body, frame, frame.motion, degrees)
+        _add_joint(body, frame, frame.motion, into.degrees)
     elif frame.drives:
         _add_wheels(body, frame)
     return body
+
+
+def _weigh(body: Any, mass: float) -> None:
+    body.explicitinertial = True
+    body.mass = mass
+    body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
+    body.inertia = [0.4 * mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
 
 
 def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:

@@ -65,6 +65,9 @@ class _Builder:
             body = above.add_body(name=link.name, pos=pose.xyz, quat=quaternion(turned(pose)))
             if joint:
                 _move(body, joint, above is self.spec.worldbody)
+                if joint.speed > 0:  # as `model_joints` reads it
+                    name = f"speed_{joint.name}"
+                    self.spec.add_numeric(name=name, data=[joint.speed], size=1)
             self._weigh(body, link, moves=joint is not None and joint.kind != "fixed")
         self.bodies[link.name] = body
         for shape in link.visuals:

@@ -45,6 +45,8 @@ _TYPES = {
     "omnirobot": "OmniRobot",
     "joint": "Joint",
     "prismaticjoint": "Joint",
+    "passivejoint": "Joint",
+    "followingjoint": "Joint",
     "touchsensor": "TouchSensor",
     "camera": "Camera",
     "rgbd": "RGBD",
@@ -52,6 +54,10 @@ _TYPES = {
     "laser": "Laser",
     "pointcloud": "PointCloud",
     "display": "DisplayII",
+    "model_camera": "Camera",
+    "model_rgbd": "RGBD",
+    "model_imu": "IMU",
+    "model_touch": "TouchSensor",
 }
 _AXES: dict[str, Axis] = {"x": "x", "y": "y", "z": "z"}
 _FALLING = 1.0
@@ -139,7 +145,11 @@ class InnerModelServant(Servant):
         kinds = {box.id: "Plane" for box in scene.boxes}
         kinds |= {mesh.id: "Mesh" for mesh in scene.meshes}
         kinds |= {frame.id: "Joint" for frame in scene.frames if frame.motion}
-        kinds |= {one.id: _TYPES[one.kind] for one in scene.devices if one.kind in _TYPES}
+        kinds |= {  # a joint of a model file may be called as another node: its frame is not
+            one.frame if one.kind.endswith("joint") else one.id: _TYPES[one.kind]
+            for one in scene.devices
+            if one.kind in _TYPES
+        }
         return [
             self.types.NodeInformation(
                 id=node,

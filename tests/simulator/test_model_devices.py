@@ -1,0 +1,149 @@
+"""What of a model file is served, and with which limits."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from model_worlds import ARM, BOT
+
+from robocomp_dsl.generate.simulator.offers import not_served, served
+from robocomp_dsl.hardware.findings import ModelFileError
+from robocomp_dsl.hardware.mujoco.model_scene import Described, describe
+
+
+def described(folder: Path, text: str, name: str = "robot.xml") -> Described:
+    (folder / name).write_text(text)
+    return describe(folder / name, "model.xml")
+
+
+def settings(folder: Path, text: str, name: str = "robot.xml") -> dict[str, dict[str, Any]]:
+    made = described(folder, text, name)
+    return {one["id"]: one["settings"] for one in made.scene["devices"]}
+
+
+def test_ports(tmp_path: Path) -> None:
+    made = described(tmp_path, ARM)
+    assert made.findings == []
+    ports = [(one.port, one.interface, one.ids) for one in served(made.scene)]
+    assert ports == [
+        ("JointMotor", "JointMotor", ["elbow", "shoulder", "grip"]),
+        ("arm", "ControlBoard", ["elbow", "shoulder"]),
+        ("ControlBoard", "ControlBoard", ["grip"]),
+        ("eye", "CameraSimple", ["eye"]),
+        ("far", "CameraSimple", ["far"]),
+        ("CameraRGBDSimple", "CameraRGBDSimple", ["eye"]),
+        ("wrist", "IMU", ["wrist"]),
+        ("TouchSensor", "TouchSensor", ["palm"]),
+        ("InnerModelManager", "InnerModelManager", [""]),
+        ("Simulation", "Simulation", [""]),
+    ]
+    assert not_served(made.scene) == [("follower", "followingjoint"), ("hinge", "passivejoint")]
+
+
+def test_limits_come_from_joints_actuators_and_numbers(tmp_path: Path) -> None:
+    found = settings(tmp_path, ARM)
+    shoulder, elbow, grip = (found[name] for name in ("shoulder", "elbow", "grip"))
+    assert shoulder["force"] == 20.0
+    assert elbow["force"] == 12.0
+    assert grip["force"] == 40.0
+    assert elbow["speed"] == 3.5
+    assert elbow["home"] == -1.0
+    assert (elbow["low"], elbow["high"]) == pytest.approx((-2.0944, 0.0), abs=1e-4)
+    assert (grip["low"], grip["high"], grip["home"]) == (0.0, 0.05, 0.01)
+    assert elbow["armature"] == 0.02
+    assert (elbow["board"], grip["board"]) == ("arm", "")
+
+
+def test_a_robot_in_urdf_is_driven_whole(tmp_path: Path) -> None:
+    found = settings(tmp_path, BOT, "bot.urdf")
+    assert (found["lift"]["force"], found["turn"]["force"]) == (200.0, 40.0)
+    assert (found["lift"]["speed"], found["turn"]["speed"]) == (0.25, 2.0)
+    assert (found["lift"]["low"], found["lift"]["high"]) == (0.0, 0.5)
+
+
+def model(joints: str, more: str = "") -> str:
+    body = '<geom size="0.1" mass="1"/>'
+    return f"<mujoco><worldbody><body>{joints}{body}</body></worldbody>{more}</mujoco>"
+
+
+HINGE = '<joint name="j" armature="1" actuatorfrcrange="-7 7"/>'
+MOTOR = '<actuator><motor joint="j" ctrlrange="-{0} {0}"/></actuator>'
+FORCES = [
+    (model(HINGE), 7.0),
+    (model(HINGE, MOTOR.format(9)), 7.0),
+    (model(HINGE, MOTOR.format(3)), 3.0),
+    (model('<joint name="j" armature="1"/>'), 50.0),
+    (model('<joint name="j" armature="1" type="slide"/>'), 500.0),
+    (
+        model('<joint name="j" armature="1" type="slide"/>').replace('mass="1"', 'mass="100"'),
+        1962.0,
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "force"), FORCES)
+def test_forces(tmp_path: Path, text: str, force: float) -> None:
+    """What is not given holds twice the weight, and 50 N·m or 500 N at least."""
+    assert settings(tmp_path, text)["j"]["force"] == pytest.approx(force)
+
+
+def test_what_has_no_name_gets_one(tmp_path: Path) -> None:
+    text = model('<joint/><joint axis="1 0 0"/>').replace("<body>", "<camera/><body>")
+    made = described(tmp_path, text)
+    assert [one["id"] for one in made.scene["devices"]] == [
+        "body1.joint0",
+        "body1.joint1",
+        "camera0",
+    ]
+
+
+def test_a_joint_in_two_tuples_stays_in_the_first(tmp_path: Path) -> None:
+    tuples = "".join(
+        f'<tuple name="{name}"><element objtype="joint" objname="j"/></tuple>' for name in "ab"
+    )
+    made = described(tmp_path, model(HINGE, f"<custom>{tuples}</custom>"))
+    assert made.scene["devices"][0]["settings"]["board"] == "a"
+    assert [one.said for one in made.findings] == ["`j` is in `b` and stays on the board `a`"]
+
+
+def test_a_speed_that_is_none_is_told(tmp_path: Path) -> None:
+    text = model(HINGE, '<custom><numeric name="speed_j" data="-1"/></custom>')
+    made = described(tmp_path, text)
+    assert made.scene["devices"][0]["settings"]["speed"] == pytest.approx(6.2832, abs=1e-4)
+    assert "speed_j" in made.findings[0].said
+
+
+@pytest.mark.parametrize(("given", "told"), [("", []), ('armature="0.1"', ["too light"])])
+def test_a_motor_too_strong_for_its_joint_gets_inertia(
+    tmp_path: Path, given: str, told: list[str]
+) -> None:
+    """Else no regulator could hold it at that step; told where the file says otherwise."""
+    made = described(tmp_path, model(f'<joint name="j" {given}/>', MOTOR.format(900)))
+    assert made.scene["devices"][0]["settings"]["armature"] == pytest.approx(1.8, abs=0.01)
+    assert [one.said[7:16] for one in made.findings] == told
+
+
+def test_names_that_things_share(tmp_path: Path) -> None:
+    """Joints are called as in the file, whatever else is; all nodes have names of their own."""
+    text = model('<joint name="a" armature="1"/><site name="a"/><camera name="a"/>').replace(
+        "<body>", '<body name="a">'
+    )
+    made = described(tmp_path, text)
+    frames = [one["id"] for one in made.scene["frames"]]
+    assert frames == ["root", "a#2.at", "a#2", "a", "a#3"]
+    assert [(one["id"], one["frame"]) for one in made.scene["devices"]] == [
+        ("a", "a#2"),
+        ("a#4", "a"),
+    ]
+
+
+BAD_KEYS = ('qpos="1 2"', 'ctrl="1 2 3"')
+
+
+@pytest.mark.parametrize("key", BAD_KEYS)
+def test_a_key_frame_that_does_not_fit(tmp_path: Path, key: str) -> None:
+    text = model(HINGE, f'<keyframe><key name="k" {key}/></keyframe>')
+    with pytest.raises(ModelFileError, match="key"):
+        described(tmp_path, text)
