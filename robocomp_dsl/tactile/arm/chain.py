@@ -8,10 +8,11 @@ rad/s], three of rotation. Metres and radians.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
-from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +24,19 @@ class Row:
     alpha: float
     offset: float
     joint: int | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Steps:
+    """A chain with everything fixed taken together: `before` (4, 4), then per moving row.
+
+    `joints` (m,) and `offsets` (m,) turn it, `behind` (m, 4, 4) leads to the next.
+    """
+
+    joints: Ints
+    offsets: Floats
+    before: Floats
+    behind: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,36 +53,63 @@ class Chain:
         if len(set(used)) != len(used) or not all(0 <= joint < self.size for joint in used):
             raise ValueError(f"each joint index lies in 0..{self.size - 1} and occurs at most once")
 
-    def frames(self, angles: Floats) -> Floats:
-        """Pose before each row and of the tool last, shape (rows + 1, 4, 4), for angles (n,)."""
-        poses = np.empty((len(self.rows) + 1, 4, 4))
-        pose = self.base
-        for i, row in enumerate(self.rows):
-            poses[i] = pose
-            turn = row.offset + (angles[row.joint] if row.joint is not None else 0.0)
-            pose = pose @ link(row.a, row.d, row.alpha, float(turn))
-        poses[-1] = pose @ self.tool
-        return poses
-
     def pose(self, angles: Floats) -> Floats:
-        """Pose of the tool, 4 x 4."""
-        last: Floats = self.frames(angles)[-1]
+        """Pose of the tool, 4 x 4, for angles (n,)."""
+        last: Floats = self._frames(angles)[-1]
         return last
 
     def jacobian(self, angles: Floats) -> Floats:
         """Velocity and rotation of the tool per joint speed, (6, n); zero for unused joints."""
-        return self.jacobian_of(self.frames(angles))
+        return self.reach(angles)[1]
 
-    def jacobian_of(self, frames: Floats) -> Floats:
-        """The Jacobian where the frames are known already."""
+    def reach(self, angles: Floats) -> tuple[Floats, Floats]:
+        """Pose of the tool and Jacobian at once."""
+        frames, used = self._frames(angles), self._steps.joints
+        x, y, z = frames[:-1, :3, 2].T
+        along, up, out = (frames[-1, :3, 3] - frames[:-1, :3, 3]).T
         jacobian = np.zeros((6, self.size))
-        tool = frames[-1, :3, 3]
-        for i, row in enumerate(self.rows):
+        # the axis of each joint, crossed with the way from it to the tool
+        jacobian[:3, used] = (y * out - z * up, z * along - x * out, x * up - y * along)
+        jacobian[3:, used] = x, y, z
+        return frames[-1], jacobian
+
+    def _frames(self, angles: Floats) -> Floats:
+        """Poses in which the moving rows begin, and that of the tool last."""
+        steps = self._steps
+        turns = angles[steps.joints] + steps.offsets
+        c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
+        behind = steps.behind.copy()
+        behind[:, 0] = c * steps.behind[:, 0] - s * steps.behind[:, 1]
+        behind[:, 1] = s * steps.behind[:, 0] + c * steps.behind[:, 1]
+        poses = np.empty((len(turns) + 1, 4, 4))
+        poses[0] = steps.before
+        for i, one in enumerate(behind):
+            np.matmul(poses[i], one, out=poses[i + 1])
+        return poses
+
+    @cached_property
+    def _steps(self) -> _Steps:
+        """What does not change with the angles, worked out once."""
+        before, behind = self.base, list[Floats]()
+        for row in self.rows:
+            one = link(row.a, row.d, row.alpha, row.offset if row.joint is None else 0.0)
             if row.joint is not None:
-                axis = frames[i, :3, 2]
-                jacobian[:3, row.joint] = _cross(axis, tool - frames[i, :3, 3])
-                jacobian[3:, row.joint] = axis
-        return jacobian
+                behind.append(one)
+            elif behind:
+                behind[-1] = behind[-1] @ one
+            else:
+                before = before @ one
+        if behind:
+            behind[-1] = behind[-1] @ self.tool
+        else:
+            before = before @ self.tool
+        moving = [row for row in self.rows if row.joint is not None]
+        return _Steps(
+            joints=np.array([row.joint for row in moving], np.int64),
+            offsets=np.array([row.offset for row in moving]),
+            before=before,
+            behind=np.array(behind).reshape(-1, 4, 4),
+        )
 
 
 def link(a: float, d: float, alpha: float, turn: float) -> Floats:
@@ -116,9 +157,3 @@ def _half_turn(rows: list[Row], base: Floats) -> Floats:
     last = rows[-1]
     rows[-1] = Row(last.a, last.d, last.alpha + np.pi, last.offset, last.joint)
     return base
-
-
-def _cross(one: Floats, other: Floats) -> Floats:
-    """The cross product of two vectors; numpy's is ten times slower for a single pair."""
-    (a, b, c), (x, y, z) = one, other
-    return np.array([b * z - c * y, c * x - a * z, a * y - b * x])

@@ -18,6 +18,9 @@ from robocomp_dsl.tactile.errors import Unreachable
 
 _STARTS = 8
 
+STANDSTILL = 1e-4
+"""A step that brings the pose nearer by less than this share is the last from its start."""
+
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
@@ -71,12 +74,15 @@ class Solver:
             step = _damped_step(jacobian, error, damping, self._free(angles, jacobian.T @ error))
             trial = np.clip(angles + step, self.low, self.high)
             found, turned = self._task(trial, position, rotation, weight)
-            if float(found @ found) < cost:
+            gained = cost - float(found @ found)
+            if gained > 0.0:
                 angles, error, jacobian = trial, found, turned
-                cost, damping = float(error @ error), max(damping * 0.25, 1e-7)
+                cost, damping = cost - gained, max(damping * 0.25, 1e-7)
             else:
                 damping *= 4.0
             if cost < (0.1 * self.tolerance.position) ** 2 or damping > 1e4:
+                break
+            if 0.0 < gained < STANDSTILL * cost:
                 break
         return angles
 
@@ -89,12 +95,11 @@ class Solver:
         self, angles: Floats, position: Floats, rotation: Floats | None, weight: float
     ) -> tuple[Floats, Floats]:
         """What is missing (3 or 6,) and how the joints change it."""
-        frames = self.chain.frames(angles)
-        jacobian = self.chain.jacobian_of(frames)
-        away = position - frames[-1, :3, 3]
+        pose, jacobian = self.chain.reach(angles)
+        away = position - pose[:3, 3]
         if rotation is None:
             return away, jacobian[:3]
-        turn = weight * rotation_vector(rotation @ frames[-1, :3, :3].T)
+        turn = weight * rotation_vector(rotation @ pose[:3, :3].T)
         return np.concatenate((away, turn)), np.vstack((jacobian[:3], weight * jacobian[3:]))
 
     def _missing(
