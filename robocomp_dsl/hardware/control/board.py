@@ -11,6 +11,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from robocomp_dsl.hardware.control.acceleration import Acceleration
+from robocomp_dsl.hardware.control.ease import Ease
 from robocomp_dsl.hardware.control.faults import Fault, Faults, overloaded, too_hot
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
@@ -22,9 +24,6 @@ from robocomp_dsl.hardware.control.motors import Motors
 from robocomp_dsl.hardware.control.pid import PidBank, default_gains
 from robocomp_dsl.hardware.control.references import References
 from robocomp_dsl.hardware.control.state import BoardState
-
-SMOOTHING = 0.02
-"""Time constant of the measured acceleration [s]."""
 
 
 class Board:
@@ -39,14 +38,21 @@ class Board:
         self.impedance = Impedance(bounds)
         self.references = References(spec, self.limits)
         self.law = Law(self.pid, self.impedance, self.motors)
+        self.ease = Ease(self.limits, self.pid)
         self.table = ModeTable(spec)
         self.leaders: list[Callable[[float], None]] = []
         self.time, self.dt = 0.0, 0.001
         self.offset = np.zeros(n)
-        self.position, self.velocity, self.acceleration = (np.zeros(n) for _ in range(3))
+        self.position, self.velocity = np.zeros(n), np.zeros(n)
+        self._acceleration = Acceleration(self.velocity)
         self.torque = np.zeros(n)
         self._started = False
         self.refresh()
+
+    @property
+    def acceleration(self) -> Floats:
+        """Accelerations (n,) of the joints [rad/s²], smoothed."""
+        return self._acceleration.now()
 
     @property
     def current(self) -> Floats:
@@ -58,6 +64,7 @@ class Board:
         self._started = True
         self.position = position + self.offset
         self.velocity = velocity
+        self._acceleration.begin(velocity)
         self.references.reset(np.arange(len(position)), self.position)
 
     def step(
@@ -75,8 +82,11 @@ class Board:
         self.references.step(self.position, dt)
         error = self.references.position - self.position
         late = self.references.velocity - self.velocity
-        wished = self.law.step(error, late, self.velocity, feedforward, dt)
-        torque = self.limits.guard(self.position, self.velocity, wished)
+        torque = self.law.step(error, late, self.velocity, feedforward, dt)
+        ahead = self.limits.ahead(self.position, self.velocity)
+        if not self.ease.holds(ahead, self.velocity, torque):
+            torque = self.law.bounded(error, late, self.velocity, feedforward)
+            torque = self.limits.guard(self.position, self.velocity, torque)
         self.torque = self.law.of_driven(torque)
         self._watch(error)
         return self.torque
@@ -123,7 +133,7 @@ class Board:
             time=self.time,
             position=self.position.copy(),
             velocity=self.velocity.copy(),
-            acceleration=self.acceleration.copy(),
+            acceleration=self.acceleration,
             torque=self.torque.copy(),
             reference=self.references.position.copy(),
             motor_counts=self.motors.encoder(self.position),
@@ -151,10 +161,7 @@ class Board:
         self.position = position + self.offset
         if not self._started:
             self.begin(position, velocity)
-        change = velocity - self.velocity
-        change *= 1.0 / (dt + SMOOTHING)
-        self.acceleration *= SMOOTHING / (dt + SMOOTHING)
-        self.acceleration += change
+        self._acceleration.add(velocity, dt)
         self.velocity = velocity
 
     def _without_broken(self, position: Floats, velocity: Floats) -> tuple[Floats, Floats]:

@@ -70,10 +70,30 @@ class Law:
         feedforward: Floats | None,
         dt: float,
     ) -> Floats:
-        """Wished torques. `feedforward` (n,) is added where a position is held: weight, mostly."""
+        """Wished torques, as if regulators had no bounds; where they pass one, `bounded` is due.
+
+        `feedforward` (n,) is added where a position is held: weight, mostly.
+        """
+        held = self._pid.propose(error, velocity_error, dt) if self._stiff else None
+        return self._sum(held, error, velocity_error, velocity, feedforward)
+
+    def bounded(
+        self, error: Floats, velocity_error: Floats, velocity: Floats, feedforward: Floats | None
+    ) -> Floats:
+        """The torques that `step` gave last, with the bounds of all regulators."""
+        held = self._pid.bounded() if self._stiff else None
+        return self._sum(held, error, velocity_error, velocity, feedforward)
+
+    def _sum(
+        self,
+        held: Floats | None,
+        error: Floats,
+        velocity_error: Floats,
+        velocity: Floats,
+        feedforward: Floats | None,
+    ) -> Floats:
         wished = self._direct
-        if self._stiff:
-            held = self._pid.step(error, velocity_error, dt)
+        if held is not None:
             wished = held + wished if self._commanded else held
         if self._comply:
             wished = wished + self._spring * self._impedance.torque(error, velocity_error)

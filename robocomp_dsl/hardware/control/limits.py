@@ -23,11 +23,15 @@ _FAST = 0.5
 
 
 class Limits:
-    """All arrays (n,): `low`, `high` [rad], `speed` [rad/s], `torque` [N m]."""
+    """All arrays (n,): `low`, `high` [rad], `speed` [rad/s], `torque` [N m].
+
+    `stops` are `low` and `high` where the encoders can be trusted; `version` counts changes.
+    """
 
     def __init__(self, spec: BoardSpec) -> None:
         self.low, self.high = spec.column("low"), spec.column("high")
         self.speed, self.torque = spec.column("speed_limit"), spec.column("torque_limit")
+        self.version = 0
         self._widest = self.low.copy(), self.high.copy()
         self._trusted = np.ones(len(self.low), bool)
         self._check(self.low, self.high)
@@ -51,27 +55,23 @@ class Limits:
         if (speed <= 0.0).any():
             raise BadValue("a speed limit must be positive")
         self.speed[joints] = speed
-        self._bound()
+        self.version += 1
 
     def clip(self, joints: Ints, position: Floats) -> tuple[Floats, Bools]:
         """Positions within the limits, and where they had to be moved."""
         kept = np.clip(position, self.low[joints], self.high[joints])
         return kept, kept != position
 
+    def ahead(self, q: Floats, dq: Floats) -> Floats:
+        """Where joints at `q` with speed `dq` will be when it is too late to brake."""
+        soon = _AHEAD * dq
+        soon += q
+        return soon
+
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
         """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
-        ahead = _AHEAD * dq
-        ahead += q
-        all_ = np.concatenate((ahead, dq, torque))
-        kept = np.maximum(all_, self._lowest)
-        np.minimum(kept, self._highest, out=kept)
-        if np.count_nonzero(kept == all_) == len(all_):
-            return torque
-        return self._held_back(q, dq, torque, ahead)
-
-    def _held_back(self, q: Floats, dq: Floats, torque: Floats, ahead: Floats) -> Floats:
-        """Torques where some joint is near a limit; `ahead` (n,) is where joints will be soon."""
-        low, high = self._stops
+        low, high = self.stops
+        ahead = self.ahead(q, dq)
         past = ahead - np.minimum(np.maximum(ahead, low), high)
         fast = np.abs(dq) > self.speed
         if np.count_nonzero(past):
@@ -88,14 +88,8 @@ class Limits:
     def _place_stops(self) -> None:
         low = np.where(self._trusted, self.low, -np.inf)
         high = np.where(self._trusted, self.high, np.inf)
-        self._stops = low, high
-        self._bound()
-
-    def _bound(self) -> None:
-        """What places soon, speeds and torques, one after the other, (3 n,), may be at ease."""
-        low, high = self._stops
-        self._lowest = np.concatenate((low, -self.speed, -self.torque))
-        self._highest = np.concatenate((high, self.speed, self.torque))
+        self.stops = low, high
+        self.version += 1
 
     @staticmethod
     def _check(low: Floats, high: Floats) -> None:

@@ -96,7 +96,8 @@ class MinimumJerk:
             return
         if self._next == len(self._rows) or dt != self._dt:
             self._look_ahead(dt)
-        self.position, self.velocity = self._rows[self._next]
+        row = self._rows[self._next]
+        self.position, self.velocity = row[0], row[1]
         self._next += 1
         self._clock += dt
         if self._clock >= self._next_end - 0.5 * dt:

@@ -47,7 +47,8 @@ def default_gains(spec: BoardSpec) -> tuple[Gains, ...]:
 class PidBank:
     """The regulators; each works where it is both enabled by the user and in use by the law.
 
-    `tracks` tells whether any error counts as a fault.
+    `tracks` tells whether any error counts as a fault; `bounds` are those of outputs and of
+    integrals, (n,) each, and `version` counts their changes.
     """
 
     def __init__(self, gains: tuple[Gains, ...]) -> None:
@@ -56,6 +57,9 @@ class PidBank:
         self.integral, self.output, self.error = np.zeros(n), np.zeros(n), np.zeros(n)
         self.error_limit = np.full(n, np.inf)
         self.tracks = False
+        self._before = self.integral
+        self._dt = 0.001
+        self.version = 0
         self.enabled: Bools = np.ones(n, bool)
         self._in_use: Bools = np.ones(n, bool)
         self._prepare()
@@ -92,29 +96,44 @@ class PidBank:
 
     def step(self, error: Floats, derivative: Floats, dt: float) -> Floats:
         """Outputs (n,); 0 where a regulator does not work."""
-        kp, ki, kd, offset, bound, most = self._columns
-        grown = (ki * dt) * error
+        self.propose(error, derivative, dt)
+        return self.bounded()
+
+    def propose(self, error: Floats, derivative: Floats, dt: float) -> Floats:
+        """Outputs (n,) as if there were no bounds; `bounded` is due where one is passed."""
+        kp, ki, kd, offset = self._columns
+        if dt != self._dt:
+            self._dt, self._growth = dt, ki * dt
+        grown = self._growth * error
         grown += self.integral
         wanted: Floats = kp * error
         wanted += kd * derivative
         if self._shifted:
             wanted += offset
-        if np.count_nonzero(np.abs(grown) > most):
-            grown = np.maximum(np.minimum(grown, most), -most)
         wanted += grown
-        at_bound = np.abs(wanted) > bound
-        if np.count_nonzero(at_bound):
-            # an output at its bound must not wind the integral up
-            grown = np.where(at_bound & (grown * error > 0.0), self.integral, grown)
-            wanted = np.maximum(np.minimum(wanted, bound), -bound)
-        self.integral, self.output, self.error = grown, wanted, error
+        self._before, self.integral, self.output, self.error = self.integral, grown, wanted, error
         return wanted
+
+    def bounded(self) -> Floats:
+        """The outputs just proposed, with all bounds."""
+        bound, most = self.bounds
+        grown = np.minimum(np.maximum(self.integral, -most), most)
+        wanted = self.output - self.integral + grown
+        output: Floats = np.minimum(np.maximum(wanted, -bound), bound)
+        # an output at its bound must not wind the integral up
+        held = (wanted != output) & (grown * self.error > 0.0)
+        self.integral = np.where(held, self._before, grown)
+        self.output = output
+        return output
 
     def _prepare(self) -> None:
         """Gains as columns, zero where a regulator does not work."""
         table = np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
         works = self.enabled & self._in_use
         table[:, ~works] = 0.0
-        self._columns = tuple(table)
+        self._columns = tuple(table[:4])
+        self.bounds: tuple[Floats, Floats] = (table[4], table[5])
         self._shifted = bool(table[3].any())
+        self._growth = self._columns[1] * self._dt
+        self.version += 1
         self.integral = np.where(works, self.integral, 0.0)

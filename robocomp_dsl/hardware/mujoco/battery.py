@@ -35,9 +35,6 @@ class Battery:
         """The same battery in another model."""
         self._data = data
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
     def after_step(self, dt: float) -> None:
         """Take away what was used."""
         self._left = max(self._left - self._power() * dt, 0.0)

@@ -72,12 +72,6 @@ class Camera:
         """The same camera in another model."""
         self._model, self._data = model, data
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
-    def after_step(self, dt: float) -> None:
-        """Pictures are taken when they are asked for."""
-
     # -- as a device --------------------------------------------------------------------------
 
     @property

@@ -50,7 +50,7 @@ class SimulatedBoard:
         self._motors = self._joints
         self._hold_weight = hold_weight
         self._unheated = 0.0
-        self._zero = np.zeros(n) if encoder_zero is None else encoder_zero
+        self._zero = encoder_zero
         self._plain = bool(np.array_equal(robot_board.transmission, np.eye(n)))
         self._to_joint = np.linalg.inv(robot_board.transmission)
         self._from_board = robot_board.transmission
@@ -87,7 +87,7 @@ class SimulatedBoard:
         q, dq = self._data.qpos[self._where], self._data.qvel[self._speed]
         if not self._plain:
             q, dq = self._to_joint @ q, self._to_joint @ dq
-        return q + self._zero, dq
+        return (q if self._zero is None else q + self._zero), dq
 
     def _weight(self) -> Floats:
         """Torques that hold the arm against gravity, its own swing and the drag of its joints."""

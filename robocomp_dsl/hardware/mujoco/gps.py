@@ -44,9 +44,6 @@ class Gps:
         self._data = data
         self._body = int(model.body(self._at).id)
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
     def after_step(self, dt: float) -> None:
         """Take a fix when it is due."""
         if self._data.time >= self._due - dt / 2:

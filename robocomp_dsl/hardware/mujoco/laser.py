@@ -99,9 +99,6 @@ class Laser:
             top = int(model.body_rootid[self._body])
         self._own = carried(model, top)[model.geom_bodyid]
 
-    def before_step(self, dt: float) -> None:
-        """Nothing: a laser has no motor that matters."""
-
     def after_step(self, dt: float) -> None:
         """Take a scan when it is due."""
         if self._data.time >= self._due - dt / 2:

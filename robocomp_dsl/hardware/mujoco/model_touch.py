@@ -28,12 +28,6 @@ class ModelTouch:
         self._data = data
         self._at = int(model.sensor(self._sensor).adr[0])
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
-    def after_step(self, dt: float) -> None:
-        """Nothing to sum up."""
-
     # -- as a device --------------------------------------------------------------------------
 
     def value(self) -> float:

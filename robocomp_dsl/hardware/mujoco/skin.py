@@ -128,9 +128,6 @@ class SimulatedSkin:
         """The touches of a frame of this geometry."""
         return touches(self.geometry, self.neighbours, frame.force, frame.shear)
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
     def after_step(self, dt: float) -> None:
         """Take in the contacts of this step, and tell a frame when its time has come."""
         self._recorder.record(self._data)

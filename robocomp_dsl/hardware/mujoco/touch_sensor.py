@@ -56,12 +56,6 @@ class TouchSensor:
         self._body = int(model.body(self._at).id)
         self._own = carried(model, self._body)[model.geom_bodyid]
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
-    def after_step(self, dt: float) -> None:
-        """Nothing to sum up."""
-
     # -- as a device --------------------------------------------------------------------------
 
     def value(self) -> float:

@@ -24,19 +24,17 @@ _BAD = (
 
 
 class Part(Protocol):
-    """A device as the world sees it: first `build`, then `bind`, then the two for every step."""
+    """A device as the world sees it: first `build`, then `bind`.
+
+    One that has something to do at every step has `before_step(dt)`, which drives its motors for
+    the next `dt` seconds, or `after_step(dt)`, which reads its sensors when these have passed.
+    """
 
     def build(self, spec: Any) -> None:
         """Put bodies, joints and motors into `spec` (an `MjSpec`)."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find them again in the compiled `MjModel` and `MjData`, at rest at time 0."""
-
-    def before_step(self, dt: float) -> None:
-        """Drive the motors for the next `dt` seconds."""
-
-    def after_step(self, dt: float) -> None:
-        """Read the sensors; `dt` seconds have passed."""
 
 
 class World:
@@ -113,12 +111,15 @@ class World:
         self._check()
 
     def _steps(self, count: int, dt: float) -> None:
+        before = [part.before_step for part in self._parts if hasattr(part, "before_step")]
+        after = [part.after_step for part in self._parts if hasattr(part, "after_step")]
+        model, data = self.model, self.data
         for _ in range(count):
-            for part in self._parts:
-                part.before_step(dt)
-            mujoco.mj_step(self.model, self.data)
-            for part in self._parts:
-                part.after_step(dt)
+            for drive in before:
+                drive(dt)
+            mujoco.mj_step(model, data)
+            for read in after:
+                read(dt)
 
     def _begin(self, start: Model) -> None:
         """Joints and motors as the first key frame of a model file has them."""
