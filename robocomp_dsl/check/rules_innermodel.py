@@ -34,6 +34,10 @@ def judge_innermodel(body: Body, report: Report) -> None:
     for node, parent in body.nodes():
         for said in _complaints(node, parent):
             report.add(codes.BODY_RULE, _place(node), said)
+    if any(isinstance(node, Patch) for node, _ in body.nodes()):
+        from robocomp_dsl.check.skins import judge_skins  # noqa: PLC0415 - numpy
+
+        judge_skins(body, report)
 
 
 def _place(node: Node) -> Span:

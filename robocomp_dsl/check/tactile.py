@@ -15,7 +15,7 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model import body as nouns
 from robocomp_dsl.model.body import Body
-from robocomp_dsl.source import Source, Span
+from robocomp_dsl.source import Source, Span, UnreadableSource
 from robocomp_dsl.tactile.description.check import Facts, compare
 from robocomp_dsl.tactile.description.listing import read_listing
 from robocomp_dsl.tactile.description.model import Robot
@@ -45,7 +45,7 @@ def judge_robot(source: Source, report: Report) -> Robot | None:
     try:
         return read_robot(source.text, source.path)
     except DescriptionError as error:
-        _tell(error, source, report)
+        tell(error, source, report)
         return None
 
 
@@ -54,7 +54,7 @@ def judge_part(source: Source, report: Report) -> None:
     try:
         read_listing(source.text, source.path)
     except DescriptionError as error:
-        _tell(error, source, report)
+        tell(error, source, report)
 
 
 def judge_model(robot: Robot, source: Source, workspace: Workspace, report: Report) -> None:
@@ -71,7 +71,7 @@ def judge_facts(robot: Robot, facts: Facts, source: Source, report: Report) -> N
     try:
         compare(robot, facts)
     except DescriptionError as error:
-        _tell(error, source, report)
+        tell(error, source, report)
 
 
 class _NoModel(Exception):
@@ -119,19 +119,24 @@ def _simulated(path: Path, name: str) -> Facts:
     return Facts(joints, frozenset(model.body(i).name for i in range(1, model.nbody)))
 
 
-def _tell(error: DescriptionError, source: Source, report: Report) -> None:
+def tell(error: DescriptionError, source: Source, report: Report) -> None:
+    """Report what is wrong with `source`, and with the files of positions that it names."""
     for one in error.findings:
-        if one.file == str(source.path):
-            report.add(CODES[one.fault], _span(one, source), one.message, help=one.help)
-        else:  # a file of taxel positions
-            other = Source(Path(one.file), "")
-            report.add(CODES[one.fault], other.whole, str(one), help=one.help)
+        at = source if one.file == str(source.path) else _opened(Path(one.file))
+        report.add(CODES[one.fault], _span(one, at), one.message, help=one.help)
+
+
+def _opened(path: Path) -> Source:
+    try:
+        return Source.read(path)
+    except UnreadableSource:  # it was there a moment ago
+        return Source(path, "")
 
 
 def _span(found: Finding, source: Source) -> Span:
     """The word at a place, or the rest of its line."""
     lines = source.line_starts
-    start = lines[min(found.line, len(lines)) - 1] + found.column - 1
+    start = min(lines[min(found.line, len(lines)) - 1] + found.column - 1, len(source.text))
     word = _WORD.match(source.text, start)
     end = word.end() if word and word.end() > start else _end_of_line(source.text, start)
     return source.span(start, max(end, start))

@@ -141,6 +141,8 @@ GOOD: dict[str, Callable[[Clock], Device]] = {
     "battery": lambda _: SimpleNamespace(charge=lambda: Charge(0.5, 24.0, 10.0, 3600.0)),
     "touchsensor": lambda _: SimpleNamespace(value=lambda: 0.0),
 }
+GOOD |= {f"model_{kind}": GOOD[kind] for kind in ("camera", "rgbd", "imu")}
+GOOD["model_touch"] = GOOD["touchsensor"]
 
 
 @pytest.mark.parametrize("kind", RULES)

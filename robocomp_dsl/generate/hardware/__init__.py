@@ -33,11 +33,15 @@ PROTOCOLS: Mapping[str, tuple[str, str]] = {
     "prismaticjoint": ("motor_bus", "MotorBus"),
     "camera": ("camera", "CameraDevice"),
     "rgbd": ("camera", "CameraDevice"),
+    "model_camera": ("camera", "CameraDevice"),
+    "model_rgbd": ("camera", "CameraDevice"),
     "imu": ("imu", "ImuDevice"),
+    "model_imu": ("imu", "ImuDevice"),
     "gps": ("gps", "GpsDevice"),
     "ultrasound": ("ultrasound", "UltrasoundDevice"),
     "battery": ("battery", "BatteryDevice"),
     "touchsensor": ("touch_sensor", "TouchSensorDevice"),
+    "model_touch": ("touch_sensor", "TouchSensorDevice"),
 }
 """Module of `robocomp_dsl.hardware` and Protocol that a driver of each kind keeps to."""
 

@@ -22,7 +22,11 @@ RULES: dict[str, tuple[Rule, ...]] = {
     "touchsensor": sensors.TOUCH,
     "camera": pictures.CAMERA,
     "rgbd": pictures.RGBD,
+    "model_camera": pictures.CAMERA,
+    "model_rgbd": pictures.RGBD,
+    "model_imu": sensors.IMU,
+    "model_touch": sensors.TOUCH,
     "joint": joints.JOINTS,
     "prismaticjoint": joints.JOINTS,
 }
-"""The rules of each kind of device, by the tag of InnerModel."""
+"""The rules of each kind of device, by the tag of InnerModel, or as MJCF has it (`model_`)."""
