@@ -132,9 +132,10 @@ TAGS: Mapping[str, Tag] = {
         body.Laser,
         _ID
         | {"min": WHOLE, "max": WHOLE, "angle": ANGLE, "measures": WHOLE, "ifconfig": TEXT}
+        | {"noise": NUMBER}
         | _PORT,
     ),
-    "imu": Tag(body.Imu, _ID | _PORT),
+    "imu": Tag(body.Imu, _ID | _each(NUMBER, "noise", "gyronoise") | _PORT),
     "gps": Tag(
         body.Gps,
         _ID | _each(NUMBER, "latitude", "longitude", "noise") | {"altitude": LENGTH} | _PORT,

@@ -54,6 +54,7 @@ MEANINGS: Mapping[str, str] = {
     "width": "width of the image in pixels",
     "height": "height of the image in pixels",
     "focal": "focal length in pixels",
+    "gyronoise": "standard deviation of each rate of turning, in rad/s",
     "ifconfig": "configuration of the interface; kept from older files",
     "angle": "width of the scan",
     "measures": "number of beams",
@@ -81,6 +82,8 @@ MEANINGS: Mapping[str, str] = {
 }
 OF_TAG: Mapping[tuple[str, str], str] = {
     ("axes", "width"): "thickness of the sticks",
+    ("imu", "noise"): "standard deviation of each acceleration, in m/s²",
+    ("laser", "noise"): "standard deviation of a distance, in mm",
     ("laser", "min"): "the nearest that it sees, in mm",
     ("laser", "max"): "the farthest that it sees, in mm",
 }

@@ -223,20 +223,30 @@ class Camera(Node):
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Laser(Node):
-    """A planar range finder that looks along z; `angle` is the width of its scan in rad."""
+    """A planar range finder that looks along z; `angle` is the width of its scan in rad.
+
+    `noise` is the standard deviation of a distance in mm.
+    """
 
     min: int = 0
     max: int = 0
     angle: float = 0.0
     measures: int = 0
+    noise: float = 0.0
     port: int = 0
     ifconfig: str = ""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Imu(Node):
-    """An inertial measurement unit."""
+    """An inertial measurement unit.
 
+    `noise` is the standard deviation of each acceleration in m/s², `gyronoise` that of each rate
+    of turning in rad/s.
+    """
+
+    noise: float = 0.0
+    gyronoise: float = 0.0
     port: int = 0
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from worlds import Served, served
 
@@ -17,6 +18,44 @@ ROBOT = """\
 </innerModel>
 """
 G = 9.81
+
+
+NOISY = """\
+<innerModel>
+  <imu id="quiet"/>
+  <imu id="rough" noise="0.5" gyronoise="0.02"/>
+</innerModel>
+"""
+
+
+def readings(world: Served, port: str) -> np.ndarray:
+    """200 measurements at 200 Hz: accelerations and rates of turning, shape (200, 6)."""
+    made = []
+    for _ in range(200):
+        world.simulation.advance(0.005)
+        told = world.ports[port].getDataImu()
+        acc, gyro = told.acc, told.gyro
+        made.append([acc.XAcc, acc.YAcc, acc.ZAcc, gyro.XGyr, gyro.YGyr, gyro.ZGyr])
+    return np.array(made)
+
+
+def test_noise_is_as_declared(tmp_path: Path) -> None:
+    world = served(tmp_path, NOISY)
+    seen = readings(world, "rough")
+    assert seen[:, :3].std(axis=0) == pytest.approx(0.5, rel=0.2)
+    assert seen[:, 3:].std(axis=0) == pytest.approx(0.02, rel=0.2)
+    assert seen.mean(axis=0) == pytest.approx([0, G, 0, 0, 0, 0], abs=0.15)
+    assert readings(world, "quiet").std(axis=0) == pytest.approx(0, abs=1e-6)
+    world.ports["Simulation"].setNoise(0.0)
+    assert readings(world, "rough").std(axis=0) == pytest.approx(0, abs=1e-6)
+
+
+def test_noise_does_not_depend_on_who_asks(tmp_path: Path) -> None:
+    one, other = served(tmp_path, NOISY), served(tmp_path, NOISY)
+    for world, asked in ((one, 50), (other, 1)):
+        for _ in range(asked):
+            world.ports["rough"].getDataImu()
+    assert (readings(one, "rough") == readings(other, "rough")).all()
 
 
 @pytest.fixture

@@ -1,8 +1,13 @@
-"""A simulated inertial measurement unit on a frame: MuJoCo's sensors, in RoboComp's axes."""
+"""A simulated inertial measurement unit on a frame: MuJoCo's sensors, in RoboComp's axes.
+
+In: where it is, and its noise. Out: measurements. The errors are others 200 times a second, whoever
+asks for them.
+"""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -11,15 +16,26 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.imu import Inertial
 from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.rotations import angles
 from robocomp_dsl.hardware.scene import Triple
 
 _TEMPERATURE = 25.0  # °C
+_PERIOD = 0.005  # s
+_STILL = (0.0, 0.0, 0.0)
 _SENSORS = {
     "acceleration": mujoco.mjtSensor.mjSENS_ACCELEROMETER,
     "turning": mujoco.mjtSensor.mjSENS_GYRO,
     "field": mujoco.mjtSensor.mjSENS_MAGNETOMETER,
 }
+
+
+@dataclass(frozen=True, slots=True)
+class ImuNoise:
+    """Standard deviations of each acceleration (m/s²) and of each rate of turning (rad/s)."""
+
+    acceleration: float = 0.0
+    turning: float = 0.0
 
 
 class Imu:
@@ -28,9 +44,20 @@ class Imu:
     It sits in the frame of the body, or at a `site` that is there.
     """
 
-    def __init__(self, body: str, *, name: str, site: str = "") -> None:
+    def __init__(
+        self,
+        body: str,
+        *,
+        name: str,
+        site: str = "",
+        noise: ImuNoise = ImuNoise(),
+        level: NoiseLevel | None = None,
+    ) -> None:
         self._at = body
         self.name = name
+        self._noise = noise if noise != ImuNoise() else None
+        self._level = level or NoiseLevel()
+        self._errors = (_STILL, _STILL)
         self._given = bool(site)
         self._site_name = site or name
         self._reference = np.eye(3)
@@ -49,9 +76,11 @@ class Imu:
                 objname=self._site_name,
             )
 
-    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
+    def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find the sensors."""
+        self._random, self._due = random, 0.0
         self.find(model, data)
+        self.after_step(0.0)
 
     def find(self, model: Any, data: Any) -> None:
         """The same sensors in another model."""
@@ -63,7 +92,11 @@ class Imu:
         """Nothing to drive."""
 
     def after_step(self, dt: float) -> None:
-        """Nothing to sum up."""
+        """Draw other errors when they are due."""
+        if self._noise is not None and self._data.time >= self._due - dt / 2:
+            self._due += _PERIOD
+            one, two, three, four, five, six = self._random.standard_normal(6).tolist()
+            self._errors = ((one, two, three), (four, five, six))
 
     # -- as a device --------------------------------------------------------------------------
 
@@ -71,6 +104,14 @@ class Imu:
         """What the sensors say after the latest step."""
         (ax, ay, az), (tx, ty, tz), (fx, fy, fz) = (self._read(what) for what in _SENSORS)
         length = math.hypot(fx, fy, fz) or 1.0
+        if self._noise is not None:
+            pushed, turned = self._errors
+            push, turn = (
+                self._noise.acceleration * self._level.factor,
+                self._noise.turning * self._level.factor,
+            )
+            ax, ay, az = ax + push * pushed[0], ay + push * pushed[1], az + push * pushed[2]
+            tx, ty, tz = tx + turn * turned[0], ty + turn * turned[1], tz + turn * turned[2]
         return Inertial(
             time=float(self._data.time),
             # y and z are exchanged; an axis of rotation changes its sign in a mirror

@@ -65,8 +65,19 @@ def _unit(model: Any, seen: Mirror, site: int, taken: set[str]) -> Data:
         "id": _claim(name, seen.sites[site], taken),
         "kind": "model_imu",
         "frame": seen.bodies[model.site_bodyid[site]],
-        "settings": {"site": name},
+        "settings": {"site": name} | _noise(model, site),
     }
+
+
+def _noise(model: Any, site: int) -> dict[str, float]:
+    """What the sensors of an inertial unit declare; nothing where they are exact."""
+    kinds = {"noise": _SENSOR.mjSENS_ACCELEROMETER, "gyronoise": _SENSOR.mjSENS_GYRO}
+    here = model.sensor_objid == site
+    found = {
+        name: float(model.sensor_noise[here & (model.sensor_type == int(kind))].max())
+        for name, kind in kinds.items()
+    }
+    return {name: value for name, value in found.items() if value > 0}
 
 
 def _touch(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:

@@ -19,7 +19,7 @@ from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.battery import Battery
 from robocomp_dsl.hardware.mujoco.camera import Camera
 from robocomp_dsl.hardware.mujoco.gps import Gps
-from robocomp_dsl.hardware.mujoco.imu import Imu
+from robocomp_dsl.hardware.mujoco.imu import Imu, ImuNoise
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
 from robocomp_dsl.hardware.mujoco.model_touch import ModelTouch
@@ -70,8 +70,14 @@ def _base(site: Site, device: Device) -> MobileBase:
     return MobileBase(limits, site.noise, name=device.id, noise=noise)
 
 
-def _imu(site: Site, device: Device) -> Imu:  # noqa: ARG001 - as all of them
-    return Imu(body_name(device.frame), name=device.id)
+def _imu(site: Site, device: Device) -> Imu:
+    body, noise = body_name(device.frame), _imu_noise(device)
+    return Imu(body, name=device.id, noise=noise, level=site.noise)
+
+
+def _imu_noise(device: Device) -> ImuNoise:
+    given = device.settings
+    return ImuNoise(float(given.get("noise", 0.0)), float(given.get("gyronoise", 0.0)))
 
 
 def _touch(site: Site, device: Device) -> TouchSensor:  # noqa: ARG001
@@ -140,8 +146,9 @@ def _model_camera(site: Site, device: Device) -> Camera:
     return Camera(settings, device.frame, site.noise, name=device.id, given=named)
 
 
-def _model_imu(site: Site, device: Device) -> Imu:  # noqa: ARG001
-    return Imu(device.frame, name=device.id, site=str(device.settings["site"]))
+def _model_imu(site: Site, device: Device) -> Imu:
+    at, noise = str(device.settings["site"]), _imu_noise(device)
+    return Imu(device.frame, name=device.id, site=at, noise=noise, level=site.noise)
 
 
 def _model_touch(site: Site, device: Device) -> ModelTouch:  # noqa: ARG001

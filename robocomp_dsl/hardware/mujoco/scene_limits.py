@@ -42,16 +42,16 @@ _TURN = Limits(-1e4, 1e4)  # rad
 _WAY = Limits(-1e9, 1e9, endless=True)
 
 _CAMERA = {"width": _PIXELS, "height": _PIXELS, "focal": Limits(1, 1e6), "noise": _NOISE}
-_LASER = {"min": _RANGE, "max": _RANGE, "angle": _ROUND}
+_LASER = {"min": _RANGE, "max": _RANGE, "angle": _ROUND, "noise": _NOISE}
 
 DEVICES: Mapping[str, Mapping[str, Limits]] = {
     "camera": _CAMERA,
     "rgbd": _CAMERA,
     "laser": _LASER | {"measures": Limits(1, 100_000)},
-    "ultrasound": _LASER | {"noise": _NOISE},
+    "ultrasound": _LASER,
     "differentialrobot": {"noise": _NOISE},
     "omnirobot": {"noise": _NOISE},
-    "imu": {},
+    "imu": {"noise": _NOISE, "gyronoise": _NOISE},
     "touchsensor": dict.fromkeys(("nx", "ny", "nz"), _FAR),
     "gps": {
         "latitude": Limits(-84, 84),
