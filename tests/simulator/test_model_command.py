@@ -127,7 +127,7 @@ def test_a_file_without_others_is_copied_as_it_is(tmp_path: Path) -> None:
     assert copy_of(tmp_path / "arm.xml") == ARM
 
 
-# -- what cannot be ---------------------------------------------------------------------------------
+# -- what cannot be ------------------------------------------------------------------------------
 
 BAD = {
     "<mujoco><worldbody><bodyy/></worldbody></mujoco>": ("robot.xml:1:", "bodyy"),

@@ -193,7 +193,7 @@ def served_model(folder: Path, text: str, name: str = "robot.xml") -> Served:
     path = folder / name
     path.write_text(text)
     report = Report()
-    made = model_world(path, (), report)
+    made = model_world(path, (), report, lambda made: made)
     assert [one.message for one in report] == []
     assert made is not None
     return _served(folder, made, Options(step=made.step / 1000))

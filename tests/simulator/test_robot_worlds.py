@@ -1,0 +1,156 @@
+"""The worlds of the robots that ship: they are the robots, and their simulators are fresh."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+from worlds import rcgen
+
+from robocomp_dsl.hardware.control.joints import BoardSpec
+from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
+from robocomp_dsl.hardware.robots.boards import board_names, robot_board
+from robocomp_dsl.hardware.robots.build import add_robot, new_world
+from robocomp_dsl.hardware.robots.catalog import ROBOTS, description_file
+from robocomp_dsl.hardware.robots.export import FORCE, WORLDS, World, text
+from robocomp_dsl.resources import INTERFACES
+
+COMPONENTS = Path(INTERFACES).parent / "components"
+EXPORT = "run `python -m robocomp_dsl.hardware.robots.export` and commit what it changes"
+RCGEN = "run `rcgen simulator {} --tactile tactile.yaml -o .` there and commit what it changes"
+
+worlds = pytest.mark.parametrize("world", WORLDS, ids=lambda world: world.robot)
+
+
+@cache
+def simulation(world: World) -> Simulation:
+    """The world as its simulator reads it; each test sets it to its start."""
+    scene = (COMPONENTS / world.file).parent / "generated" / "scene.json"
+    return Simulation.read(scene, Options(step=0.001))
+
+
+@worlds
+def test_the_file_is_what_the_exporter_writes(world: World) -> None:
+    path = COMPONENTS / world.file
+    assert path.read_text("utf-8") == text(world), EXPORT
+    described = description_file(world.robot).read_bytes()
+    assert path.with_name("tactile.yaml").read_bytes() == described, EXPORT
+
+
+@worlds
+def test_the_simulator_is_fresh(world: World, tmp_path: Path) -> None:
+    file = COMPONENTS / world.file
+    for one in (file, file.with_name("tactile.yaml")):
+        (tmp_path / one.name).write_bytes(one.read_bytes())
+    given = ("simulator", file.name, "--tactile", "tactile.yaml", "-o", "made")
+    done = rcgen(*given, cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    kept = {"README.md", "specificworker.py", "etc/config.yaml"}
+    made = {
+        str(one.relative_to(tmp_path / "made")): one.read_text("utf-8")
+        for one in (tmp_path / "made").rglob("*")
+        if one.is_file()
+    }
+    assert len(made) > 10
+    for name in made.keys() - kept:
+        assert (file.parent / name).read_text("utf-8") == made[name], (
+            f"{file.parent.name}/{name}: {RCGEN.format(file.name)}"
+        )
+
+
+@worlds
+def test_forward_kinematics_are_the_robots_own(world: World) -> None:
+    """The file has six digits: bodies and points are where the robot has them to 0.01 mm."""
+    robot = ROBOTS[world.robot]()
+    spec = new_world()
+    add_robot(spec, robot)
+    own, file = spec.compile(), mujoco.MjModel.from_xml_path(str(COMPONENTS / world.file))
+    here, there = mujoco.MjData(own), mujoco.MjData(file)
+    random = np.random.default_rng(7)
+    for _ in range(20):
+        for joint in robot.joints.values():
+            angle = random.uniform(joint.low, joint.high)
+            here.joint(joint.name).qpos[0] = there.joint(joint.name).qpos[0] = angle
+        mujoco.mj_forward(own, here)
+        mujoco.mj_forward(file, there)
+        for link in robot.links:
+            one, other = here.body(link.name), there.body(link.name)
+            assert np.abs(one.xpos - other.xpos).max() < 1e-5
+            assert np.abs(one.xmat - other.xmat).max() < 1e-5
+            for point in link.points:
+                apart = here.site(point).xpos - there.site(point).xpos
+                assert np.abs(apart).max() < 1e-5
+
+
+def limits(spec: BoardSpec) -> dict[str, tuple[float, ...]]:
+    """Of all joints."""
+    return {
+        joint.name: (joint.low, joint.high, joint.speed_limit, joint.torque_limit)
+        for joint in spec.joints
+    }
+
+
+@worlds
+def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: World) -> None:
+    """The eyes are joints of their own here: version and vergence are the real board's."""
+    robot, board = ROBOTS[world.robot](), simulation(world).devices["finger_x"]
+    here = limits(board.board.spec)
+    for name in board_names(robot):
+        wanted = robot_board(robot, name)
+        group = [joint for joint in board.names if board.groups[joint] == name]
+        assert group == list(wanted.joints)
+        for joint, told in limits(wanted.spec).items():
+            assert here.get(joint, told) == pytest.approx(told, rel=1e-5), joint
+    assert set(board.groups.values()) == {*board_names(robot), "finger"}
+
+
+@worlds
+def test_it_stands_at_its_start_touching_nothing(world: World) -> None:
+    """And it stays there, with all boards in position mode."""
+    robot, it = ROBOTS[world.robot](), simulation(world)
+    it.reset()
+    assert it.overlaps() == []
+    start = {name: robot.start.get(name, 0.0) for name in robot.joints}
+    assert it.world.data.ncon == 0
+    it.advance(1.0)
+    for name, angle in start.items():
+        assert it.branch.joint(name) == pytest.approx(angle, abs=1e-3), name
+    assert it.world.data.body("finger").xpos == pytest.approx(world.parked, abs=1e-5)
+
+
+def move(it: Simulation, joints: list[str], goal: list[float], seconds: float) -> Any:
+    board = it.devices[joints[0]].board
+    chosen = board.select.indices(joints)
+    board.references.move(chosen, np.array(goal), board.dt, np.full(len(joints), 0.3))
+    it.advance(seconds)
+    return board
+
+
+@worlds
+def test_the_finger_goes_where_its_joints_say(world: World) -> None:
+    it = simulation(world)
+    it.reset()
+    goal = [world.parked[0] + 0.05, 0.3, 0.2]
+    move(it, ["finger_x", "finger_y", "finger_z"], goal, 3.0)
+    assert it.world.data.body("finger").xpos == pytest.approx(goal, abs=2e-3)
+
+
+@worlds
+def test_the_finger_pushes_with_no_more_than_its_force(world: World) -> None:
+    """Driven through the robot's root, which is fixed, it presses on it with 20 N."""
+    it = simulation(world)
+    it.reset()
+    root = ROBOTS[world.robot]().links[0].name
+    middle = it.world.data.geom(root).xpos.copy()
+    move(it, ["finger_x", "finger_y", "finger_z"], [world.parked[0], *middle[1:]], 4.0)
+    move(it, ["finger_x"], [middle[0] - 0.5], 8.0)
+    data, pressed = it.world.data, np.zeros(6)
+    total = 0.0
+    for i in range(data.ncon):
+        mujoco.mj_contactForce(it.world.model, data, i, pressed)
+        total += pressed[0]
+    assert total == pytest.approx(FORCE, rel=0.05)
