@@ -65,7 +65,7 @@ class Board:
         self.port, self.joints = port, joints
         self.rows: Ints = np.zeros(0, np.int64)
         self._proxy, self._names = proxy, list(joints.names)
-        self._fastest: Floats = np.zeros(0)
+        self._count, self._fastest = 0, np.zeros(0)
         self._modes: list[ControlMode] = []  # empty: not known
         self._changes = 0
 
@@ -80,14 +80,22 @@ class Board:
                 f" expects on `{self.joints.part}`; it has {', '.join(found)}: is the port wired"
                 " to another board?"
             )
+        self._count = len(joints)
         self.rows = np.array([found[name] for name in self._names], np.int64)
         fastest = [joints[found[name]].speedLimit for name in self.joints.held]
         self._fastest = np.array(fastest, np.float64)
 
     def read(self) -> BoardState:
-        """Everything it measured last."""
+        """Everything it measured last. Raises `WrongBoard`, and `Refusal` for what is no number."""
         changes = self._changes
         state = self._proxy.getState()
+        told = (state.position, state.velocity, state.torque)
+        if any(len(one) != self._count for one in told) or len(state.modes) != self._count:
+            raise WrongBoard(f"the board at `{self.port}` has other joints than before")
+        wrong = ~np.isfinite([one[self.rows] for one in told]).all(axis=0)
+        if wrong.any():
+            name = self._names[int(np.argmax(wrong))]
+            raise Refusal(f"`{self.port}` tells no numbers for `{name}`")
         if self._changes == changes:  # else a command changed them while this answer was on its way
             self._modes = [state.modes[row] for row in self.rows]
         return state

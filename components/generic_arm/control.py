@@ -6,11 +6,12 @@ that fails makes the whole arm fail, until `update` has gone well again.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from board import Refusal, WrongBoard
+from board import Overtaken, Refusal, WrongBoard
 from boards import Boards
 
 from robocomp_dsl.runtime.clock import Clock
@@ -48,7 +49,7 @@ class ArmControl:
         self.trouble = "its boards have not been reached yet"
         self._boards, self._clock, self._begin = boards, clock, begin
         self._reached = self._known = False
-        self._aiming, self._sent = False, 0
+        self._aiming, self._sent, self._sending = False, 0, 0
         self._glide: Floats | None = None
         self._ends = np.inf
 
@@ -61,8 +62,9 @@ class ArmControl:
             warning = "" if self._reached else self._reach()
             self._read()
             self._go_on()
-        except AWAY as error:
-            self.trouble, self._reached, self._glide, self._ends = str(error), False, None, np.inf
+        except Exception as error:
+            self.trouble = str(error) or type(error).__name__
+            self._reached, self._glide, self._ends = False, None, np.inf
             raise
         self.trouble = ""
         return warning
@@ -75,7 +77,11 @@ class ArmControl:
         lasts = orders.control in LASTING and self.hold > 0
         self._glide = glide
         self._ends = self._clock.now() + self.hold if lasts else np.inf
-        cut = self._boards.send(orders, self.hold)
+        self._sending += 1
+        try:
+            cut = self._boards.send(orders, self.hold)
+        finally:
+            self._sending -= 1
         self._sent += 1
         self._aiming = orders.control is Control.POSITION
         self.moving |= self._aiming
@@ -133,5 +139,6 @@ class ArmControl:
         """Turn a glide into new joint speeds; end what has lasted long enough."""
         if self._clock.now() >= self._ends:
             self.stop()
-        elif self._glide is not None:
-            self._boards.send(self.arm.glide(self._glide), self.hold)
+        elif self._glide is not None and not self._sending:
+            with suppress(Overtaken):
+                self._boards.send(self.arm.glide(self._glide), self.hold)

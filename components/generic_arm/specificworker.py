@@ -38,6 +38,7 @@ class SpecificWorker(GenericWorker):
 
     arm: GenericArm
     control: ArmControl
+    told: str = ""
 
     def initialize(self) -> None:
         """Read the description; the boards are reached in `compute`, whenever they are there."""
@@ -108,7 +109,11 @@ class SpecificWorker(GenericWorker):
             with self.in_words():
                 yield
         except NotPossible as error:
-            self.log.warning("`%s` is not carried out: %s", what, error.what)
+            if error.what != self.told:  # a stream of commands fails in the same way each time
+                self.log.warning("`%s` is not carried out: %s", what, error.what)
+            self.told = error.what
+        else:
+            self.told = ""
 
     def outcome(self, orders: Orders) -> Outcome:
         """Carry out orders; what of them was not possible."""

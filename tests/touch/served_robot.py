@@ -32,7 +32,7 @@ class ServedRobot:
     """The robot `name`; every board is a port of the component `robot`, named as the board.
 
     `calls` are the operations that boards were asked for; `before` is called in front of one,
-    `failing` is what one raises.
+    `after` with its answer; `failing` is what one raises.
     """
 
     def __init__(
@@ -51,6 +51,7 @@ class ServedRobot:
         self.ticking = True
         self.calls: list[tuple[str, str]] = []
         self.before: dict[tuple[str, str], Callable[[], None]] = {}
+        self.after: dict[tuple[str, str], Callable[[Any], Any]] = {}
         self.failing: dict[tuple[str, str], Exception] = {}
         self._interfaces, self._domain = interfaces, domain
         self._turn = threading.RLock()
@@ -84,7 +85,9 @@ class ServedRobot:
             self.calls.append((board, operation))
             if (board, operation) in self.failing:
                 raise self.failing[board, operation]
-            return call(*given)
+            said = call(*given)
+            self.after.get((board, operation), lambda _: None)(said)
+            return said
 
         return answer
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -83,6 +84,44 @@ def test_a_joint_at_fault_is_told_in_the_words_of_its_board() -> None:
         assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
 
 
+@pytest.mark.parametrize("wrong", ["position", "velocity", "torque"])
+def test_a_board_that_tells_no_numbers_is_an_emergency(wrong: str) -> None:
+    with arm_on("nao_h25") as (arm, served):
+
+        def broken(state: Any) -> None:
+            getattr(state, wrong)[served.joints["LArm"].index("LElbowRoll")] = np.nan
+
+        served.after["LArm", "getState"] = broken
+        until(lambda: arm.runner.lifecycle.state is State.EMERGENCY)
+        assert "`board` tells no numbers for `LElbowRoll`" in refused(arm.getState)
+        served.after.clear()
+        until(lambda: arm.runner.lifecycle.state is State.COMPUTE)
+        assert arm.getState().position.shape == (5,)
+
+
+def test_a_board_that_has_become_another_is_looked_at_again() -> None:
+    with arm_on("nao_h25") as (arm, served):
+
+        def short(state: Any) -> None:
+            state.position = state.position[:2]
+
+        served.after["LArm", "getState"] = short
+        until(lambda: arm.runner.lifecycle.state is State.EMERGENCY)
+        assert "other joints than before" in refused(arm.stop)
+        served.after.clear()
+        until(lambda: arm.runner.lifecycle.state is State.COMPUTE)
+
+
+def test_what_fails_in_a_stream_is_told_once(caplog: pytest.LogCaptureFixture) -> None:
+    with arm_on("nao_h25") as (arm, _):
+        for _ in range(30):
+            arm.follow(np.zeros(3))
+        arm.drive(np.zeros(0))
+        arm.getLimits()
+        until(lambda: "5 finite velocities" in caplog.text)
+        assert caplog.text.count("5 values are needed, 3 were given") == 1
+
+
 # -- several boards -------------------------------------------------------------------------------
 
 
@@ -136,6 +175,21 @@ def test_a_mode_that_somebody_else_changed_is_changed_back() -> None:
         assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
 
 
+def test_a_glide_that_is_renewed_and_other_commands_do_not_disturb_each_other(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with arm_on("icub_v2") as (arm, _):
+        for number in range(40):
+            arm.glide(0.0, 0.0, 0.01)
+            seen = len(arm.states)
+            until(lambda seen=seen: len(arm.states) > seen + 1)
+            if number % 4 == 0:
+                arm.move(arm.getLimits().start, NONE)
+        assert "came first" not in caplog.text
+        assert "failed" not in caplog.text
+        assert arm.runner.statistics.failures == 0
+
+
 def test_the_later_command_wins() -> None:
     """`stop` comes while the board still changes its mode for `drive`: it must not drive then."""
     with arm_on("nao_h25") as (arm, served):
@@ -175,7 +229,7 @@ def written(folder: Path) -> dict[str, Path]:
     (folder / "bytes.yaml").write_bytes(b"\xff\xfe\x00")
     spread, number = "", 0
     for line in text.splitlines(keepends=True):
-        number += "part: LArm" in line
+        number += "gamma" in line and "part: LArm" in line
         spread += line.replace("part: LArm", f"part: piece{number}")
     (folder / "spread.yaml").write_text(spread)
     return {name.upper(): folder / f"{name}.yaml" for name in ("faulty", "bytes", "spread")}
