@@ -1,4 +1,4 @@
-# make demo   see it work: a simulated robot wanders through a room, deployed from one file
+# make demo   see it work: a finger touches two robots, and one reflex withdraws their arms
 # make test   run the tests
 # Both set up everything they need in .venv; only Python (3.11 or newer) and make must be there.
 
@@ -13,10 +13,14 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: test-tools fuzz highlight demo test test-slow lint format bench golden clean test-editors vsix
+.PHONY: test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix
 
 demo: $(READY)
-	$(BIN)/python components/wander/demo.py
+	$(BIN)/python components/touch_demo/demo.py $(ARGS)
+
+# A simulated robot wanders through a room.
+demo-wander: $(READY)
+	$(BIN)/python components/wander/demo.py $(ARGS)
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal $(TESTS)

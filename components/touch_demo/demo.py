@@ -28,6 +28,7 @@ from watching import Watching
 from way import NoWay
 
 from robocomp_dsl.hardware.view.screenless import NoRendering
+from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.description.read import load_robot
 
 HERE = Path(__file__).parent
@@ -35,16 +36,21 @@ KEPT = HERE.parents[1] / "build" / "touch_demo"
 PART = "left_arm"
 TITLE = "A finger touches, the arm withdraws: one reflex, two robots"
 LIVE_FRAMES = 500
+_LEAST_SCALE = 0.1  # N
 
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """A robot that can be touched: its name, deployment, world and description of touch."""
+    """A robot that can be touched: its name, its deployment and its world."""
 
     name: str
     ddsl: Path
     world: Path
-    tactile: Path
+
+    @property
+    def part(self) -> Part:
+        """The arm that is touched, by the description beside the world."""
+        return load_robot(self.world.with_name("tactile.yaml")).part(PART)
 
     @property
     def kept(self) -> Path:
@@ -53,12 +59,7 @@ class Subject:
 
 
 SUBJECTS = {
-    key: Subject(
-        name,
-        HERE / f"{key}.ddsl",
-        HERE.parent / f"{key}_simulator" / f"{key}.xml",
-        HERE.parent / f"{key}_simulator" / f"{key}.yaml",
-    )
+    key: Subject(name, HERE / f"{key}.ddsl", HERE.parent / f"{key}_simulator" / f"{key}.xml")
     for key, name in (("nao", "NAO"), ("icub", "iCub"))
 }
 
@@ -107,7 +108,7 @@ def touched(subject: Subject, touches: int) -> Recording:
         Watching(_name(subject), PART, alive, None) as stage,
     ):
         rest, places = stage.joints(), stage.places()
-        body = Body(subject.world, stage.skin, load_robot(subject.tactile).part(PART))
+        body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
         home, presses = body.finger_point, list[Press]()
         for place in places[:touches]:
@@ -126,11 +127,11 @@ def watch_live(subject: Subject, port: int) -> None:
         Watching(_name(subject), PART, alive, LIVE_FRAMES) as stage,
     ):
         rest, places = stage.joints(), stage.places()
-        part = load_robot(subject.tactile).part(PART)
-        body = Body(subject.world, stage.skin, part)
+        body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
         with Live(subject.name, stage.simulation(), stage.skin, stage.heard, port) as live:
-            print(f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it")
+            said = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
+            print(said, flush=True)
             while True:
                 for place in places:
                     press(stage, body, place)
@@ -144,7 +145,7 @@ def report(
     subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
 ) -> list[str]:
     """Print the table, draw the picture; returns what went wrong."""
-    highest = max(float(one.force.max()) for one in recordings)
+    highest = max(_LEAST_SCALE, *(float(one.force.max(initial=0.0)) for one in recordings))
     columns = [
         _column(subject, recording, highest)
         for subject, recording in zip(subjects, recordings, strict=True)
@@ -162,10 +163,11 @@ def report(
 
 
 def _column(subject: Subject, recording: Recording, highest: float) -> Column:
-    part = load_robot(subject.tactile).part(PART)
-    body = Body(subject.world, recording.skin, part)
+    body = Body(subject.world, recording.skin, subject.part)
     found = outcomes(recording, body)
     shown = best_seen(recording, body, found)
+    if shown.trouble:
+        return Column(recording, found, shown, None, f"no arm of {subject.name} withdrew")
     try:
         photos = before_and_after(recording, body, shown, highest, PHOTO_PIXELS)
     except NoRendering as error:

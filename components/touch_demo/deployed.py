@@ -15,7 +15,7 @@ from pathlib import Path
 
 from failure import DemoFailed
 
-_LAST_LINES = 8
+_LAST_LINES = 16
 
 
 @contextmanager

@@ -117,3 +117,18 @@ class Heard:
             finger=np.array([joints for _, joints in fingers]),
             **others,
         )
+
+
+def skin_of(geometry: Any) -> Skin:
+    """The geometry that a skin tells, in arrays."""
+    limbs = geometry.limbs
+    turns = [[getattr(one, f"r{i}{j}") for i in range(3) for j in range(3)] for one in limbs]
+    return Skin(
+        points=np.column_stack((geometry.x, geometry.y, geometry.z)).astype(np.float64),
+        normals=np.column_stack((geometry.nx, geometry.ny, geometry.nz)).astype(np.float64),
+        limb=np.array(geometry.limb, dtype=np.int64),
+        limbs=tuple(one.name for one in limbs),
+        bodies=tuple(one.body for one in limbs),
+        origins=np.array([(one.x, one.y, one.z) for one in limbs]).reshape(-1, 3),
+        axes=np.array(turns).reshape(-1, 3, 3),
+    )

@@ -6,6 +6,7 @@ In: the running simulation, the skin, what is heard of it. Out: a page on this m
 
 from __future__ import annotations
 
+import logging
 import threading
 from types import TracebackType
 from typing import Any, Self
@@ -17,11 +18,16 @@ from heard import Heard
 from photograph import towards_camera
 from recording import Floats, Ints, Skin
 
+from robocomp_dsl.hardware.view.running import CannotFollow
+from robocomp_dsl.runtime.errors import MiddlewareError
+
 HIGHEST = 2.0
 """N at the end of the colours."""
 _PICTURES = 20.0  # per second
 _DOT = 0.006
 _DISTANCE = 0.45
+
+log = logging.getLogger("touch_demo")
 
 
 class Live:
@@ -37,6 +43,8 @@ class Live:
             self._page = LivePage(name, hand, port=port)
         except OSError as error:
             raise DemoFailed(f"no page at port {port}: {error.strerror}") from None
+        except (CannotFollow, MiddlewareError) as error:
+            raise DemoFailed(f"the simulation cannot be shown: {error}") from None
         self.url = self._page.page.url
         self._shown: dict[str, Any] = {}
         self._look()
@@ -55,7 +63,11 @@ class Live:
 
     def _run(self) -> None:
         while not self._over.wait(1 / _PICTURES):
-            self._page.look()
+            try:
+                self._page.look()
+            except CannotFollow as error:
+                log.warning("the page stands still: %s", error)
+                return
             self.show()
 
     def show(self) -> None:

@@ -14,9 +14,9 @@ from typing import Any, Self
 
 import numpy as np
 from failure import DemoFailed
-from heard import Heard
+from heard import Heard, skin_of
 from links import Links, interfaces
-from recording import Floats, Place, Skin
+from recording import Floats, Place
 
 from robocomp_dsl.hardware.simulation_interface import SIMULATION, SimulationProxy
 from robocomp_dsl.runtime.component_interface import LifeState
@@ -31,6 +31,8 @@ STIFF = {"kp": 2000.0, "ki": 0.0, "kd": 40.0, "maxOutput": 20.0, "maxIntegral": 
 PATIENCE_S = 45.0
 """Wall time that a start, and anything that is waited for afterwards, may take."""
 _LOOKS_S = 0.02
+_NEWS_S = 1.0
+"""Within so long it is known that a component has ended."""
 _CALM_S, _STILL = 0.15, 0.004
 """The arm stands when it has moved by at most so many rad within so many s."""
 
@@ -171,8 +173,15 @@ class Watching:
         except DeclaredError as refused:
             raise DemoFailed(f"a component refuses: {refused}") from None
         except MiddlewareError as error:
-            self._check()
+            self._blame()
             raise DemoFailed(f"a component does not answer: {error}") from None
+
+    def _blame(self) -> None:
+        """Something does not answer: it may be because its component has just ended."""
+        deadline = time.monotonic() + _NEWS_S
+        while time.monotonic() < deadline:
+            self._check()
+            time.sleep(_LOOKS_S)
 
     def _until(self, done: Callable[[], bool], what: str) -> None:
         deadline = time.monotonic() + PATIENCE_S
@@ -207,18 +216,3 @@ class Watching:
         """Leave the domain."""
         self._watch.close()
         self._links.close()
-
-
-def skin_of(geometry: Any) -> Skin:
-    """The geometry that a skin tells, in arrays."""
-    limbs = geometry.limbs
-    turns = [[getattr(one, f"r{i}{j}") for i in range(3) for j in range(3)] for one in limbs]
-    return Skin(
-        points=np.column_stack((geometry.x, geometry.y, geometry.z)).astype(np.float64),
-        normals=np.column_stack((geometry.nx, geometry.ny, geometry.nz)).astype(np.float64),
-        limb=np.array(geometry.limb, dtype=np.int64),
-        limbs=tuple(one.name for one in limbs),
-        bodies=tuple(one.body for one in limbs),
-        origins=np.array([(one.x, one.y, one.z) for one in limbs]).reshape(-1, 3),
-        axes=np.array(turns).reshape(-1, 3, 3),
-    )

@@ -1,0 +1,137 @@
+"""The touch demo as a real process: simulator, arm and reflex deployed, touched, told and drawn."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+from parts import COMPONENTS
+from touched import demo
+
+from robocomp_dsl.runtime.errors import MiddlewareError
+
+DEADLINE = 150.0
+COMPONENT_NAMES = ("robot", "arm", "reflex")
+
+pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themselves
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    """The folder `components`, where it may be written to."""
+    leave = shutil.ignore_patterns("__pycache__")
+    return Path(shutil.copytree(COMPONENTS, tmp_path / "components", ignore=leave))
+
+
+def command(components: Path, *options: str) -> list[str]:
+    program = components / "touch_demo" / "demo.py"
+    picture = components.parent / "demo.png"
+    return [sys.executable, str(program), "--touches", "1", "--picture", str(picture), *options]
+
+
+def run(components: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        command(components, *options),
+        capture_output=True,
+        text=True,
+        timeout=2 * DEADLINE,
+        check=False,
+    )
+
+
+def log(components: Path, name: str) -> str:
+    return (components.parent / "build" / "touch_demo" / f"{name}.log").read_text()
+
+
+@pytest.mark.parametrize(("key", "name"), [("nao", "NAO"), ("icub", "iCub")])
+def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, name: str) -> None:
+    ran = run(copy, "--robot", key)
+    assert ran.returncode == 0, ran.stdout + ran.stderr + log(copy, key)
+    said = ran.stdout.splitlines()
+    assert said[0] == f"{name}: starting simulator, arm and reflex ..."
+    assert said[1] == f"{name}: touching the lower arm outer"
+    row = next(line for line in said if re.match(rf"{name} +lower arm outer +\d", line))
+    force, withdrawn, moved, cleared = (float(one) for one in re.findall(r"[\d.]+", row))
+    assert row.count("lower arm outer") == 2  # the place, and the field that answered
+    assert 0.2 < force < 20
+    assert withdrawn > 10
+    assert 0 <= moved < 2000
+    assert 0 < cleared < 2000
+    picture = imread(copy.parent / "demo.png")
+    assert picture.shape[1] == 1600
+
+    kept = demo().recording.load(copy.parent / "build" / "touch_demo" / f"{key}.npz")
+    assert (np.diff(kept.frame_time) > 0).all()
+    assert np.median(np.diff(kept.frame_time)) == pytest.approx(0.02, abs=2e-3)
+    assert kept.presses[0].place == "lower_arm_outer"
+    assert kept.force.max() > 0
+    assert {one.field for one in kept.answers} >= {"lower_arm_outer"}
+
+
+def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
+    ddsl = copy / "touch_demo" / "nao.ddsl"
+    ddsl.write_text(ddsl.read_text().replace("set full", "set enabled = false;\n        set full"))
+    ran = run(copy, "--robot", "nao")
+    assert ran.returncode == 1, ran.stdout + ran.stderr
+    assert re.search(r"^demo: NAO, lower arm outer: (no field|the arm)", ran.stderr, re.MULTILINE)
+    assert "Traceback" not in ran.stderr
+    assert imread(copy.parent / "demo.png").shape[1] == 1600
+
+
+def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
+    process = subprocess.Popen(
+        command(copy, "--robot", "nao"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        pids = running(f"touch-nao-{process.pid}")
+        assert process.stdout
+        while "touching" not in process.stdout.readline():
+            assert process.poll() is None
+        os.kill(pids["reflex"], signal.SIGKILL)
+        _, complaint = process.communicate(timeout=DEADLINE)
+    finally:
+        process.kill()
+    assert process.returncode == 1
+    assert "`reflex` ended in the middle of the demo" in complaint
+    assert "Traceback" not in complaint
+    assert not [pid for pid in pids.values() if is_alive(pid)]
+
+
+def running(domain: str) -> dict[str, int]:
+    """The process ids of the components, once all of them run."""
+    links = demo().links.Links(domain)
+    deadline = time.monotonic() + DEADLINE
+    try:
+        while time.monotonic() < deadline:
+            try:
+                return {name: links.component(name).getInfo().pid for name in COMPONENT_NAMES}
+            except MiddlewareError:
+                time.sleep(0.05)  # not there yet
+    finally:
+        links.close()
+    pytest.fail("the components did not start")
+
+
+def is_alive(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_deployment_that_does_not_start_is_told_with_its_words(copy: Path) -> None:
+    ddsl = copy / "touch_demo" / "nao.ddsl"
+    ddsl.write_text(ddsl.read_text().replace("robot.LArm", "robot.LeftArm"))
+    ran = run(copy, "--robot", "nao")
+    assert ran.returncode == 1
+    assert ran.stderr.startswith("demo: rcdeploy ended early, with exit code")
+    assert "`robot` has no port `LeftArm`" in ran.stderr
+    assert "Traceback" not in ran.stderr
