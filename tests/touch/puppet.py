@@ -119,6 +119,7 @@ class Robot(Stepped):
         self.moves: list[tuple[float, Floats, Floats]] = []
         self.poses: list[Floats] = []
         self.heard: list[Any] = []
+        self.frames: dict[float, Floats] = {}
 
     def lives(self) -> Floats:
         """Let `TICK` pass; where the arm is then (5,)."""
@@ -137,6 +138,7 @@ class Robot(Stepped):
             self.states_proxy.armState(words.ArmState(now, pose, none, none, moving=False))
         self.sequence += 1
         forces = self.felt().astype(np.float32)
+        self.frames[now] = forces
         frame = words.Frame(self.sequence, now, self.geometry.version, forces)
         frame = self.spoil(frame) if self.feels else None
         if frame is not None:

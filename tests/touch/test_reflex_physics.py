@@ -5,11 +5,12 @@ withdraws. The same component, without a word about a robot, on both bodies.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
 from pressed import Pressed
-from puppet import Touched
+from puppet import Touched, words
 from stepped import TICK
 
 from robocomp_dsl.tactile.reflex.law import Field
@@ -22,6 +23,7 @@ FORCES = {"threshold": 0.03, "full": 0.12}
 
 @pytest.fixture
 def stage() -> Iterator[Callable[..., Touched]]:
+    """Makes robots, and looks at all their joints did when the test is over."""
     made: list[Touched] = []
 
     def make(robot: str, side: str, **said: object) -> Touched:
@@ -31,6 +33,16 @@ def stage() -> Iterator[Callable[..., Touched]]:
     yield make
     for one in made:
         one.close()
+    for one in made:
+        keeps_to_its_limits(one.robot)
+
+
+def keeps_to_its_limits(robot: Pressed) -> None:
+    """The angles and speeds that the joints really had, whatever was commanded."""
+    poses, speeds = np.array(robot.poses), np.abs(robot.speeds)
+    assert (poses >= robot.arm.low).all()
+    assert (poses <= robot.arm.high).all()
+    assert (speeds <= robot.arm.speed_limits + 1e-9).all(), (speeds / robot.arm.speed_limits).max(0)
 
 
 @pytest.mark.parametrize("place", PLACES)
@@ -40,7 +52,7 @@ def test_a_pressed_arm_withdraws_and_comes_back(stage, robot, side, place) -> No
     it, field = touched.robot, touched.field(place)
     before = it.spot(field)
     it.press(field, 0.004, 0.5)
-    while not it.felt().any() and it.path:
+    while not it.felt().any() and it.paths[0]:
         touched.run(TICK)
     felt = touched.world.clock.now()
     touched.run(0.5)
@@ -75,3 +87,209 @@ def test_a_gentle_touch_below_the_threshold_is_left_alone(stage) -> None:
     touched.run(0.5)
     assert touched.robot.peak > 0.5
     assert touched.robot.moves == []
+
+
+def events(touched: Touched) -> list[Any]:
+    return [one for one in touched.robot.heard if isinstance(one, words.Event)]
+
+
+def strength(touched: Touched, name: str) -> float:
+    """How strongly a field has answered so far."""
+    return max((one.gain for one in events(touched) if one.field == name), default=0.0)
+
+
+def only(touched: Touched, *names: str) -> None:
+    touched.reflex.setFields([one for one in touched.reflex.getFields() if one.name in names])
+
+
+BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
+
+
+@BOTH
+def test_every_answer_is_what_the_equations_say_of_the_frame(stage, robot) -> None:
+    """Rows 2, 3 and 7 of the acceptance table, with the forces that physics makes of a press."""
+    touched = stage(robot, "left_arm", full=5.0)
+    it, place = touched.robot, "lower_arm_outer"
+    only(touched, place)
+    it.press(touched.field(place), 0.003, 0.3, along=0.006)
+    touched.run(0.4)
+    told = events(touched)
+    assert told
+    field, geometry = touched.field(place), it.geometry
+    for event in told:
+        force = it.frames[event.time].astype(float)
+        index = np.flatnonzero((force > 0) & (geometry.limb == geometry.limbs.index(event.limb)))
+        points, felt = geometry.points[index], force[index]
+        centre = felt @ points / felt.sum()
+        weights = 2 * field.radius - np.linalg.norm(points - centre, axis=1)
+        assert len(index) > 3
+        assert (weights > 0).all()
+        mean, far = felt @ weights / weights.sum(), np.linalg.norm(centre - field.centre)
+        expected = np.clip((mean - 0.03) / 4.97, 0, 1) * max(1 - far / field.radius, 0)
+        assert event.gain == pytest.approx(expected, abs=1e-5)
+        assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
+
+
+@BOTH
+@pytest.mark.parametrize("place", ["lower_arm_under", "upper_arm_front"])
+def test_a_hard_press_at_the_centre_saturates(stage, robot, place) -> None:
+    """Rows 1 and 6: as far as the base motion says, and no further."""
+    touched = stage(robot, "right_arm", threshold=0.01, full=0.05)
+    only(touched, place)
+    start, field = touched.robot.poses[-1], touched.field(place)
+    touched.robot.press(field, 0.004, 0.3)
+    touched.run(0.3)
+    (last,) = [one for one in events(touched) if one.gain == strength(touched, place)]
+    assert last.force > 0.05
+    assert last.gain > 0.9
+    assert last.gain == pytest.approx(1 - last.distance / field.radius)
+    touched.until("Holding")
+    assert touched.robot.poses[-1] - start == pytest.approx(last.motion, abs=0.05)
+
+
+def answer_to(touched: Touched, field: Field, depth: float, along: float = 0.0) -> Any:
+    """What the field `f` answers to a press that the arm has borne for a while; None: nothing."""
+    touched.reflex.enable(False)
+    touched.robot.press(field, depth, 0.5, along=along)
+    touched.run(0.3)
+    assert touched.robot.felt().sum() > 0.2
+    touched.reflex.enable(True)
+    touched.run(TICK)
+    told = events(touched)
+    return told[0] if told else None
+
+
+def one_field(touched: Touched, radius: float) -> Field:
+    """The only field is that of the place, as wide as this."""
+    field = touched.field("lower_arm_outer")
+    centre = field.centre.tolist()
+    touched.reflex.setFields(
+        [words.Field("f", "left_arm/lower_arm", *centre, radius, field.motion)]
+    )
+    return field
+
+
+@BOTH
+def test_the_harder_the_press_the_further(stage, robot) -> None:
+    """Rows 2, 5 and 6."""
+    told = []
+    for depth in (0.0004, 0.0008, 0.0016, 0.0032):
+        touched = stage(robot, "left_arm", threshold=0.0, full=2.0)
+        told.append(answer_to(touched, one_field(touched, 0.03), depth))
+    forces, gains = [one.force for one in told], [one.gain for one in told]
+    assert forces == sorted(forces)
+    assert gains == sorted(gains)
+    assert len(set(gains)) == 4
+    touched = stage(robot, "left_arm", threshold=forces[-1] + 0.1, full=50.0)
+    assert answer_to(touched, one_field(touched, 0.03), 0.0032) is None
+    assert touched.robot.moves == []
+
+
+@BOTH
+def test_the_further_from_the_centre_the_weaker_and_outside_nothing(stage, robot) -> None:
+    """Rows 3 and 4: along the limb from the centre to beyond the edge."""
+    told = []
+    for along in (0.0, 0.012, 0.02, 0.03):
+        touched = stage(robot, "left_arm", threshold=0.0, full=0.001)
+        told.append(answer_to(touched, one_field(touched, 0.025), 0.002, along))
+    assert told.pop() is None
+    assert touched.robot.moves == []
+    away, gains = [one.distance for one in told], [one.gain for one in told]
+    assert away == sorted(away)
+    assert gains == pytest.approx([1 - one / 0.025 for one in away])
+    assert away[-1] - away[0] > 0.005
+
+
+@BOTH
+def test_fingers_on_both_sides_are_two_touches(stage, robot) -> None:
+    """Row 8: one mean of both lies inside the limb, where no field would answer."""
+    touched = stage(robot, "left_arm")
+    it = touched.robot
+    only(touched, "lower_arm_outer")
+    it.press(touched.field("lower_arm_outer"), 0.002, 0.3)
+    it.press(touched.field("lower_arm_inner"), 0.002, 0.3, finger=1)
+    touched.run(0.3)
+    assert strength(touched, "lower_arm_outer") > 0.5
+    assert it.moves
+
+
+@BOTH
+def test_a_touch_elsewhere_on_the_limb_takes_nothing_away(stage, robot) -> None:
+    """Row 9: the second finger presses beyond the field, at the same time."""
+    alone = stage(robot, "left_arm")
+    only(alone, "lower_arm_outer")
+    alone.robot.press(alone.field("lower_arm_outer"), 0.002, 0.3)
+    alone.run(0.3)
+    touched = stage(robot, "left_arm")
+    only(touched, "lower_arm_outer")
+    touched.robot.press(touched.field("lower_arm_outer"), 0.002, 0.3)
+    touched.robot.press(touched.field("upper_arm_front"), 0.0005, 0.3, finger=1)
+    touched.run(0.3)
+    both, one = (strength(each, "lower_arm_outer") for each in (touched, alone))
+    assert both == pytest.approx(one, abs=0.1)
+
+
+@BOTH
+def test_two_fingers_at_once_withdraw_by_both_fields(stage, robot) -> None:
+    touched = stage(robot, "left_arm")
+    start = touched.robot.poses[-1]
+    for finger, place in enumerate(("lower_arm_under", "upper_arm_front")):
+        touched.robot.press(touched.field(place), 0.003, 0.2, finger=finger)
+    touched.run(0.2)
+    held = touched.worker().withdrawal
+    assert set(held.strongest) >= {"lower_arm_under", "upper_arm_front"}
+    motion = sum(one.motion for one in held.strongest.values())
+    facts = touched.robot.arm
+    assert held.goal == pytest.approx(np.clip(held.origin + motion, facts.low, facts.high))
+    assert held.origin == pytest.approx(start, abs=0.05)
+    touched.until("Watching")
+    assert touched.reflex.getStatistics().withdrawals == 1
+
+
+@BOTH
+def test_a_finger_that_comes_during_a_withdrawal_adds_to_it(stage, robot) -> None:
+    touched = stage(robot, "left_arm", withdraw_speed=0.15)
+    it = touched.robot
+    it.press(touched.field("lower_arm_outer"), 0.003, 0.5)
+    touched.until("Withdrawing", 1.0)
+    first = it.moves[-1][1]
+    it.press(touched.field("upper_arm_front"), 0.004, 0.4, finger=1)
+    touched.run(0.3)
+    assert "upper_arm_front" in touched.worker().withdrawal.strongest
+    assert np.abs(it.moves[-1][1] - first).max() > 0.05
+    assert touched.reflex.getStatistics().withdrawals == 1
+
+
+@BOTH
+def test_a_dead_patch_feels_nothing_and_the_other_goes_on(stage, robot) -> None:
+    touched = stage(robot, "left_arm")
+    it = touched.robot
+    dead = it.geometry.patch == it.geometry.patches.index("left_lower_arm")
+    alive = it.felt
+    it.felt = lambda: np.where(dead, 0.0, alive())
+    it.press(touched.field("lower_arm_under"), 0.002, 0.3)
+    touched.run(0.5)
+    assert it.peak > 0.3
+    assert it.moves == []
+    it.press(touched.field("upper_arm_front"), 0.002, 0.3)
+    touched.run(0.3)
+    assert it.moves
+
+
+@BOTH
+def test_when_the_skin_falls_silent_on_the_way_the_arm_stops(stage, robot) -> None:
+    touched = stage(robot, "left_arm", withdraw_speed=0.1)
+    it = touched.robot
+    it.press(touched.field("lower_arm_outer"), 0.003, 0.3)
+    touched.until("Withdrawing", 1.0)
+    touched.robot.feels = False
+    touched.until("Frozen", 1.0)
+    touched.run(0.3)
+    here = it.poses[-1]
+    touched.run(0.5)
+    assert it.stops == 1
+    assert it.poses[-1] == pytest.approx(here, abs=0.01)
+    assert np.abs(it.speeds[-1]).max() < 0.05
+    touched.robot.feels = True
+    touched.until("Watching")
+    assert it.poses[-1] == pytest.approx(it.part.start, abs=0.05)

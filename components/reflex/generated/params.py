@@ -81,11 +81,11 @@ class ReflexParams(Parameters):
         Parameter(
             "withdraw_speed",
             "float",
-            default=0.9,
+            default=0.45,
             low=0.01,
             high=1.0,
             live=True,
-            doc="Speed of the withdrawal, as a share of what each joint can do; motors overshoot a little.",
+            doc="Mean speed of the withdrawal, as a share of what each joint can do; the peak is about twice that.",
         ),
         Parameter(
             "return_speed",
@@ -94,7 +94,7 @@ class ReflexParams(Parameters):
             low=0.01,
             high=1.0,
             live=True,
-            doc="Speed of the way back, as a share of what each joint can do.",
+            doc="Mean speed of the way back, as a share of what each joint can do.",
         ),
         Parameter(
             "arrived",
@@ -173,9 +173,9 @@ class ReflexParams(Parameters):
     refractory: float
     # The arm goes back when it has not been touched for so long.
     hold: float
-    # Speed of the withdrawal, as a share of what each joint can do; motors overshoot a little.
+    # Mean speed of the withdrawal, as a share of what each joint can do; the peak is about twice that.
     withdraw_speed: float
-    # Speed of the way back, as a share of what each joint can do.
+    # Mean speed of the way back, as a share of what each joint can do.
     return_speed: float
     # A joint has arrived when it is no further from its goal.
     arrived: float
