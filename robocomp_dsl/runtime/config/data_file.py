@@ -34,7 +34,7 @@ def data_file(
     if not _leads_out(name):
         order = places((*there.roots, *dropped(there, [])), there.robot)
         tried += [one.path for one in search(name, order)]
-    found = next((one for one in tried if one.is_file()), None)
+    found = next((one for one in tried if _is_file(one)), None)
     if found is None:
         raise ConfigError([_nowhere(name, parameter, tried)])
     return found
@@ -48,7 +48,14 @@ def _beside(name: str, config: Path | None, around: Surroundings) -> list[Path]:
 
 def _leads_out(name: str) -> bool:
     path = Path(name).expanduser()
-    return path.is_absolute() or ".." in path.parts or not path.parts
+    return path.is_absolute() or ".." in path.parts or not path.parts or "\0" in name
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except OSError:  # a name that is too long, say
+        return False
 
 
 def _nowhere(name: str, parameter: str, tried: list[Path]) -> Finding:

@@ -1,0 +1,89 @@
+"""Files that parameters name: where they are looked for, and what is said where they are not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.runtime.config.data_file import data_file
+from robocomp_dsl.runtime.config.surroundings import surroundings
+from robocomp_dsl.runtime.parameters import ConfigError
+
+PLACES = (  # in the order of the search, below a folder of the test
+    "beside",
+    "working",
+    "working/etc",
+    "home/robots/arm7",
+    "data/robots/arm7",
+    "shared/robots/arm7",
+    "home",
+    "shared",
+)
+
+
+def machine(folder: Path):
+    for place in PLACES:
+        (folder / place).mkdir(parents=True, exist_ok=True)
+    said = {
+        "ROBOCOMP_CONFIG_HOME": str(folder / "home"),
+        "ROBOCOMP_DATA_HOME": str(folder / "data"),
+        "ROBOCOMP_CONFIG_DIRS": str(folder / "shared"),
+        "ROBOCOMP_DATA_DIRS": str(folder / "installed"),
+        "ROBOCOMP_ROBOT_NAME": "arm7",
+    }
+    return surroundings(said, folder / "working")
+
+
+def found(name: str, folder: Path) -> Path:
+    return data_file(name, "map", folder / "beside" / "config.yaml", machine(folder))
+
+
+@pytest.mark.parametrize("first", range(len(PLACES)))
+def test_the_first_place_that_has_it_wins(first: int, tmp_path: Path) -> None:
+    around = machine(tmp_path)
+    for place in PLACES[first:]:
+        (tmp_path / place / "map.yaml").write_text(place)
+    path = data_file("map.yaml", "map", tmp_path / "beside" / "config.yaml", around)
+    assert path == tmp_path / PLACES[first] / "map.yaml"
+
+
+def test_without_a_configuration_the_working_folder_is_first(tmp_path: Path) -> None:
+    around = machine(tmp_path)
+    (tmp_path / "working" / "map.yaml").write_text("")
+    assert data_file("map.yaml", "map", None, around) == tmp_path / "working" / "map.yaml"
+
+
+@pytest.mark.parametrize("name", ["{}/far/map.yaml", "../far/map.yaml", "../far/../far/map.yaml"])
+def test_paths_that_lead_somewhere_are_taken_as_they_are(name: str, tmp_path: Path) -> None:
+    (tmp_path / "far").mkdir()
+    (tmp_path / "far" / "map.yaml").write_text("")
+    path = found(name.format(tmp_path), tmp_path)
+    assert path.resolve() == tmp_path / "far" / "map.yaml"
+
+
+def test_the_home_folder_is_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    (tmp_path / "map.yaml").write_text("")
+    assert found("~/map.yaml", tmp_path) == tmp_path / "map.yaml"
+
+
+def test_what_is_nowhere_is_told_with_every_place_and_the_nearest_name(tmp_path: Path) -> None:
+    (tmp_path / "home").mkdir()
+    (tmp_path / "home" / "mapp.yaml").write_text("")
+    (tmp_path / "home" / "other.toml").write_text("")
+    with pytest.raises(ConfigError) as caught:
+        found("map.yaml", tmp_path)
+    said = str(caught.value)
+    assert "there is no file `map.yaml`" in said
+    assert "parameter map:1:1" in said
+    assert "did you mean `mapp.yaml`?" in said
+    places = [said.index(f"{tmp_path / place / 'map.yaml'}") for place in PLACES]
+    assert places == sorted(places)
+
+
+@pytest.mark.parametrize("name", ["", ".", "/", "..", "a\0b", "x" * 300, "folder"])
+def test_names_that_can_be_no_file(name: str, tmp_path: Path) -> None:
+    (tmp_path / "beside" / "folder").mkdir(parents=True)
+    with pytest.raises(ConfigError, match="there is no file"):
+        found(name, tmp_path)
