@@ -299,7 +299,7 @@ def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(home: Path)
         backwards = lambda: sum(np.diff(times(written)) < 0) >= 2  # noqa: E731
         until(backwards, process, "time that begins anew twice")
     moments = np.array(times(written))
-    assert moments * 100 == pytest.approx(np.round(moments * 100)), "moments of the source"
+    assert moments * 200 == pytest.approx(np.round(moments * 200)), "moments of the source"
     first, second = moments[1:][np.diff(moments) < 0][:2]
     assert first > 1.0, "a snapshot is gone back to"
     assert second < first, "a reset is a new beginning"

@@ -72,7 +72,7 @@ class GenericWorker(Component):
 
     SPEC = ComponentSpec(
         name="icub_simulator",
-        period=10,
+        period=5,
         threads=4,
         middleware="zenoh",
         implements=(

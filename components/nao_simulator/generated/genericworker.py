@@ -74,7 +74,7 @@ class GenericWorker(Component):
 
     SPEC = ComponentSpec(
         name="nao_simulator",
-        period=10,
+        period=5,
         threads=4,
         middleware="zenoh",
         implements=(

@@ -26,6 +26,7 @@ from robocomp_dsl.generate.simulator.offers import (
     ServedAs,
     identifier,
     not_served,
+    period_of,
     published,
     served,
     skin_rate,
@@ -136,7 +137,12 @@ def descriptions(made: Simulator) -> list[OutputFile]:
     return [
         OutputFile(
             f"{made.name}.cdsl",
-            render(f"{FOLDER}simulator.cdsl.jinja", simulator=made, imports=imports),
+            render(
+                f"{FOLDER}simulator.cdsl.jinja",
+                simulator=made,
+                imports=imports,
+                period=period_of(made.topics),
+            ),
         ),
         OutputFile(f"{made.name}.pdsl", render(f"{FOLDER}simulator.pdsl.jinja", simulator=made)),
     ]

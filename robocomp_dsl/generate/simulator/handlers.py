@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.component_names import SERVED, Called
-from robocomp_dsl.generate.layout import BODY, INNER, definition
-from robocomp_dsl.generate.simulator.offers import Published
+from robocomp_dsl.generate.layout import BODY, INNER, STEP, definition
+from robocomp_dsl.generate.simulator.offers import Published, period_of
 from robocomp_dsl.generate.worker_imports import specific_imports
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.interface import Operation
@@ -62,12 +62,7 @@ def simulator_code(
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(called)),
         methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
-        topics=tuple(
-            line
-            for one in topics
-            if not one.topic.at_once
-            for line in _publication(one, f"self.{proxies[one.port]}")
-        ),
+        topics=tuple(_publications([one for one in topics if not one.topic.at_once], proxies)),
         streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
         skin=_skin_parameters(component),
     )
@@ -92,21 +87,30 @@ def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
     return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
 
 
-def _publication(one: Published, proxy: str) -> Iterator[str]:
-    """The lines that publish what a port answers, or what its servant has to tell."""
-    port, indent = f"self.ports[{literals.quoted(one.source)}]", ""
-    asking, told = (
-        layout.call(f"{port}.current", literals.quoted(one.topic.asked), tail="):"),
-        "told",
-    )
+def _publications(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
+    """The lines that publish; topics of a longer period in every so many rounds."""
+    usual = period_of(topics)
+    for every in sorted({one.topic.period // usual for one in topics}):
+        if every > 1:
+            yield f"if self.rounds % {every} == 0:"
+        for one in topics:
+            if one.topic.period == every * usual:
+                indent = STEP if every > 1 else ""
+                yield from _publication(one, f"self.{proxies[one.port]}", indent)
+
+
+def _publication(one: Published, proxy: str, indent: str) -> Iterator[str]:
+    """Where it is heard, what a port answers or its servant has to tell is published."""
+    port = f"self.ports[{literals.quoted(one.source)}]"
+    asking = layout.call(f"{port}.current", literals.quoted(one.topic.asked), tail="):")
+    told = "told"
     if one.topic.news:
         given = ("self.simulation.in_step",) if one.topic.dear else ()
         asking, told = layout.call(f"{port}.news", *given, tail="):"), "*told"
-    if one.topic.dear:
-        yield layout.statement("if ", layout.call(f"{proxy}.wait_for_server", "0", tail="):"), BODY)
-        indent = layout.STEP
+    yield f"{indent}if {proxy}.is_heard():"
+    indent += STEP
     yield indent + layout.statement("for told in ", asking, BODY + indent)
-    indent += layout.STEP
+    indent += STEP
     telling = layout.call(f"{proxy}.{one.topic.operation}", told)
     yield indent + layout.statement("", telling, BODY + indent)
 

@@ -5,6 +5,7 @@ In: the devices of a lowered scene. Out: the ports of the component that serves 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -76,13 +77,17 @@ CLOCK = "Clock"
 _SHARED = tuple(dict.fromkeys(one.interface for one in OFFERS if one.shared))
 
 
+PERIOD = 10
+"""How often a topic is published that says nothing else [ms]."""
+
+
 @dataclass(frozen=True, slots=True)
 class Topic:
     """What the answer of `asked` of a port that serves `interface` is published as.
 
-    In every period; or `at_once`, when there is something new, whatever the period; or in those
-    periods in which the servant has `news` (`asked` is empty), if it is `dear`, only while somebody
-    listens.
+    Every `period` ms, if it is heard; or `at_once`, when there is something new, whatever the
+    period; or in those periods in which the servant has `news` (`asked` is empty), which it waits
+    for in lock-step if they are `dear`.
     """
 
     interface: str
@@ -90,6 +95,7 @@ class Topic:
     published: str
     operation: str
     file: str
+    period: int = PERIOD
     at_once: bool = False
     news: bool = False
     dear: bool = False
@@ -115,7 +121,7 @@ TOPICS = (
     Topic("Laser", "", "LaserPub", "pushLaserData", "LaserPub", news=True),
     Topic("JointMotor", "getAllMotorState", "JointMotorPub", "motorStates", "JointMotorPub"),
     Topic("ControlBoard", "getState", "ControlBoardState", "boardState", "ControlBoard"),
-    Topic("IMU", "getDataImu", "IMUPub", "publish", "IMUPub"),
+    Topic("IMU", "getDataImu", "IMUPub", "publish", "IMUPub", period=5),
     Topic(
         "CameraRGBDSimple",
         "",
@@ -185,6 +191,11 @@ def published(ports: Sequence[ServedAs]) -> tuple[Published, ...]:
         for t in TOPICS
         if t.interface == p.interface
     )
+
+
+def period_of(topics: Sequence[Published]) -> int:
+    """The period in ms of a component that publishes `topics`."""
+    return math.gcd(*(one.topic.period for one in topics if not one.topic.at_once)) or PERIOD
 
 
 def _boards(ports: Sequence[ServedAs], scene: dict[str, Any], taken: set[str]) -> list[ServedAs]:
