@@ -1,0 +1,111 @@
+"""The live page of the touch demo: its taxels have the colours of what they feel."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import mujoco
+import numpy as np
+import pytest
+
+pytest.importorskip("viser", reason="needs the extra `view`")
+
+from chromium_tab import CHROMIUM, opened_tab, wait_for
+from touched import ARM, demo, part, recording, world
+
+from robocomp_dsl.hardware.mujoco.model_file import load_model
+from robocomp_dsl.hardware.mujoco.sight import VERSION, seen, written
+from robocomp_dsl.hardware.simulation_interface import Model, Sight
+
+
+class Hand:
+    """A simulation that stands still, in the place of its proxy."""
+
+    def __init__(self, path: Path) -> None:
+        model = load_model(path).model
+        data = mujoco.MjData(model)
+        for joint, angle in recording().rest.items():
+            data.joint(joint).qpos[0] = angle
+        mujoco.mj_forward(model, data)
+        it = seen(model, data)
+        self.sight = Sight(0.0, 1.0, False, 1, it.positions, it.poses.ravel(), np.empty(0))
+        self.model = Model(VERSION, 1, written(model))
+
+    def getModel(self) -> Model:  # noqa: N802 - as in the interface
+        return self.model
+
+    def getSight(self) -> Sight:  # noqa: N802
+        return self.sight
+
+    def set_timeout(self, _: float) -> None:
+        pass
+
+
+def heard_of(it: object) -> object:
+    heard = demo().heard.Heard(it.skin, ARM)
+    heard.arm_state(SimpleNamespace(time=0.0, position=part().start, moving=False))
+    return heard
+
+
+def frame(time: float, force: np.ndarray) -> SimpleNamespace:
+    return SimpleNamespace(time=time, force=force)
+
+
+def test_only_limbs_that_feel_something_else_are_sent_again(tmp_path: Path, monkeypatch) -> None:
+    it = recording()
+    heard = heard_of(it)
+    heard.frame(frame(0.0, it.force[0]))
+    sent = []
+    with demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live:
+        live.close()  # no more pictures of its own
+        monkeypatch.setattr(
+            live._page.page, "show_points", lambda name, *rest: sent.append((name, rest))
+        )
+        live.show()
+        assert not sent
+        pressed = it.force[np.argmax(it.force.any(axis=1))]
+        heard.frame(frame(0.02, pressed))
+        live.show()
+    ((name, (body, points, colours, _)),) = sent
+    assert name == f"skin of {ARM}/lower_arm"
+    assert body == "LForeArm"
+    mine = it.skin.of(f"{ARM}/lower_arm")
+    assert points.shape == (len(mine), 3)
+    felt = pressed[mine] > 0
+    bare = (255 * np.array(demo().colours.BARE[:3])).astype(np.uint8)
+    assert (colours[~felt] == bare).all()
+    assert (colours[felt, 0] > colours[felt, 2] + 60).all()
+
+
+def test_a_port_that_is_taken_is_told(tmp_path: Path) -> None:
+    it = recording()
+    heard = heard_of(it)
+    heard.frame(frame(0.0, it.force[0]))
+    with demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live:
+        port = int(live.url.rpartition(":")[2])
+        with pytest.raises(demo().failure.DemoFailed, match=f"no page at port {port}"):
+            demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, port)
+
+
+def warm(picture: np.ndarray) -> int:
+    """How many points are yellow to red."""
+    red, _, blue = (picture[:, :, i] for i in range(3))
+    return int(((red > 0.6) & (red - blue > 0.35)).sum())
+
+
+@pytest.mark.skipif(not CHROMIUM, reason="needs Chromium: apt install chromium")
+def test_a_real_browser_shows_the_touch(tmp_path: Path) -> None:
+    it = recording()
+    heard = heard_of(it)
+    heard.frame(frame(0.0, it.force[0]))
+    with (
+        demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live,
+        opened_tab() as tab,
+    ):
+        tab("Page.enable")
+        tab("Page.navigate", url=live.url)
+        wait_for(lambda: tab.shows("Frames"))
+        before = warm(tab.picture())
+        heard.frame(frame(0.02, it.force[np.argmax(it.force.any(axis=1))]))
+        wait_for(lambda: warm(tab.picture()) > before + 10)
+        heard.frame(frame(0.04, it.force[0]))
+        wait_for(lambda: warm(tab.picture()) <= before + 2)
