@@ -79,8 +79,14 @@ def test_velocities_torques_and_stiffness(arm):
     orders = arm.drive(np.array([1.0, 9.0, -9.0, 1.0, 1.0]))
     assert orders.values == pytest.approx([-1, np.deg2rad(100), -4, -1])
     assert orders.clipped.tolist() == [False, True, True, False, False]
-    assert orders.dropped[4] or orders.values.shape == (4,)
-    assert arm.push(np.ones(5)).values == pytest.approx([-1, 1, 1, -1])
+    assert orders.control is Control.VELOCITY
+    assert orders.dropped.tolist() == [False] * 4 + [True]
+    pushed = arm.push(np.ones(5))
+    assert pushed.control is Control.TORQUE
+    assert pushed.values == pytest.approx([-1, 1, 1, -1])
+    assert pushed.dropped.tolist() == [False] * 4 + [True]
+    assert not arm.push(np.array([1.0, 1, 1, 1, 0])).dropped.any()
+    assert arm.follow(np.full(5, 0.5)).dropped.tolist() == [False] * 4 + [True]
     stiffness, damping = arm.stiffness(np.full(5, 10.0), np.full(5, 1.0))
     assert stiffness == pytest.approx(np.full(4, 10.0))
     assert damping == pytest.approx(np.full(4, 1.0))
@@ -119,6 +125,34 @@ def test_gliding_respects_limits_and_speeds(arm):
         speed = arm.mapping.read_speed(orders.values / arm._to_si)
         assert not ((arm.state.position >= arm.high - 1e-9) & (speed > 1e-9)).any()
         assert not ((arm.state.position <= arm.low + 1e-9) & (speed < -1e-9)).any()
+
+
+def test_a_push_does_the_same_work_on_the_device(arm):
+    """Power in generic units is power in those of the device, whatever gamma and unit are."""
+    torque, velocity = np.array([0.3, -0.2, 0.5, 1.1, 0]), np.array([0.4, 0.3, -0.2, 0.1, 0])
+    device = arm.push(torque).values @ arm.drive(velocity).values
+    assert device == pytest.approx(torque @ velocity)
+
+
+def test_springs_are_none_that_pull(arm):
+    with pytest.raises(InvalidCommand, match="not negative"):
+        arm.stiffness(np.full(5, -1.0), np.ones(5))
+    with pytest.raises(InvalidCommand, match="5 values are needed"):
+        arm.stiffness(np.ones(4), np.ones(5))
+
+
+def test_a_speed_that_never_arrives_is_refused_only_where_there_is_a_joint(arm):
+    with pytest.raises(InvalidCommand, match="above 0"):
+        arm.move(arm.state.position, np.array([1.0, 0, 1, 1, 1]))
+    assert arm.move(arm.state.position, np.array([1.0, 1, 1, 1, 0])).speeds.shape == (4,)
+
+
+@pytest.mark.parametrize(
+    "rotation", [np.eye(3) * 1.1, np.diag([1.0, 1, -1]), np.full((3, 3), np.nan), np.eye(4)]
+)
+def test_a_rotation_that_is_none_is_refused(arm, rotation):
+    with pytest.raises(InvalidCommand, match="unit axes"):
+        arm.reach(arm.hand()[:3, 3], rotation)
 
 
 @pytest.mark.parametrize("bad", [np.full(5, np.nan), np.zeros(4), np.zeros((5, 1))])

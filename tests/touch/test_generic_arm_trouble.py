@@ -258,3 +258,4 @@ def test_a_wrong_description_ends_it_with_the_place_and_the_way_out(
         assert word in done.stderr
     assert "Traceback" not in done.stderr
     assert "finalize" not in done.stderr
+    assert "ConfigError" not in done.stderr

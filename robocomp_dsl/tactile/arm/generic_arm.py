@@ -103,13 +103,12 @@ class GenericArm:
 
     def drive(self, velocity: Floats) -> Orders:
         """Turn at generic velocities, clipped to the limits."""
-        kept = np.clip(
-            self._expected(velocity, "velocities"), -self.speed_limits, self.speed_limits
-        )
+        most = np.where(self.mapping.available, self.speed_limits, np.inf)
+        kept = np.clip(self._expected(velocity, "velocities"), -most, most)
         return self._orders(
             Control.VELOCITY,
             self.mapping.velocity(kept),
-            clipped=(kept != velocity) & self.mapping.available,
+            clipped=kept != velocity,
         )
 
     def push(self, torque: Floats) -> Orders:
