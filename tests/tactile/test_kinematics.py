@@ -50,6 +50,12 @@ def test_the_jacobian_is_the_derivative(q):
         assert jacobian[3:, joint] == pytest.approx(turned, abs=1e-8)
 
 
+@given(angles)
+def test_no_pose_is_out_of_reach(q):
+    assert not ARM.is_out_of_reach(ARM.pose(q)[:3, 3])
+    assert ARM.is_out_of_reach(ARM.base[:3, 3] + [0.0, 0.0, 0.25])  # 15 + 105 + 114.6 mm
+
+
 @given(angles, st.integers(0, 31), st.integers(0, 31))
 def test_the_generic_chain_is_the_same_arm(generic, signs, missing):
     gamma = np.array([1.0 if signs >> i & 1 else -1.0 for i in range(5)])

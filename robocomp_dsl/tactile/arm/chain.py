@@ -73,6 +73,12 @@ class Chain:
         jacobian[3:, used] = x, y, z
         return frames[-1], jacobian
 
+    def is_out_of_reach(self, point: Floats) -> bool:
+        """Whether the tool would not get to `point` (3,) even with all links in one line."""
+        steps = self._steps
+        longest = float(np.linalg.norm(steps.behind[:, :3, 3], axis=1).sum())
+        return float(np.linalg.norm(point - steps.before[:3, 3])) > longest
+
     def _frames(self, angles: Floats) -> Floats:
         """Poses in which the moving rows begin, and that of the tool last."""
         steps = self._steps

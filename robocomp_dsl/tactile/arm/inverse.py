@@ -49,7 +49,10 @@ class Solver:
         against a metre while searching. Other start poses are tried when the first ends in a bend.
         """
         best: tuple[float, float, Floats] = (np.inf, np.inf, start)
-        for first in self._starts(start):
+        starts = self._starts(start)
+        if self.chain.is_out_of_reach(position):
+            starts = starts[:1]  # only how near it comes is of interest
+        for first in starts:
             angles = self._descend(first, position, rotation, weight)
             distance, angle = self._missing(angles, position, rotation)
             if distance <= self.tolerance.position and angle <= self.tolerance.rotation:
