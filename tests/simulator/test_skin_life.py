@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,9 @@ class Touched(Served):
         super().__init__(it.simulation, it.ports, it.types)
         object.__setattr__(self, "frames", [])
         object.__setattr__(self, "touches", [])
-        it.ports["Skin"].publish(self.frames.append, self.touches.append)
+        frames = SimpleNamespace(frame=self.frames.append, is_heard=lambda: True)
+        touches = SimpleNamespace(contacts=self.touches.append, is_heard=lambda: True)
+        it.ports["Skin"].publish(frames, touches)
 
     frames: list[Any]
     touches: list[Any]

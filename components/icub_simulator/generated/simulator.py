@@ -85,10 +85,7 @@ class Simulator(GenericWorker):
             self.log.warning("%s", note)
         chosen = read_data(SCENE)["ports"]
         self.ports = self.simulation.serve(self.SPEC.implements, chosen)
-        self.ports["Skin"].publish(
-            self.skinframe_proxy.frame,
-            self.skincontacts_proxy.contacts,
-        )
+        self.ports["Skin"].publish(self.skinframe_proxy, self.skincontacts_proxy)
         self.simulation.start(self.clock)
 
     def compute(self) -> None:

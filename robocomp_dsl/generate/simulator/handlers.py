@@ -71,11 +71,7 @@ def simulator_code(
 def _streams(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
     """For each port the statement that lets it publish by itself."""
     for source in dict.fromkeys(one.source for one in topics):
-        told = [
-            f"self.{proxies[one.port]}.{one.topic.operation}"
-            for one in topics
-            if one.source == source
-        ]
+        told = [f"self.{proxies[one.port]}" for one in topics if one.source == source]
         port = f"self.ports[{literals.quoted(source)}]"
         yield layout.statement("", layout.call(f"{port}.publish", *told), BODY)
 

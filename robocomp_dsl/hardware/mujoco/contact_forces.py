@@ -35,30 +35,6 @@ class Touch:
     along: Floats
 
 
-class _Rows:
-    """Rows that are added block by block, in one array that grows as it must."""
-
-    def __init__(self, width: int, dtype: Any = np.float64) -> None:
-        shape = (256, width) if width else (256,)
-        self._all = np.empty(shape, dtype)
-        self.size = 0
-
-    def add(self, block: Any) -> None:
-        """Append the rows of `block`."""
-        end = self.size + len(block)
-        if end > len(self._all):
-            grown = np.empty((2 * end, *self._all.shape[1:]), self._all.dtype)
-            grown[: self.size] = self._all[: self.size]
-            self._all = grown
-        self._all[self.size : end] = block
-        self.size = end
-
-    def take(self) -> Any:
-        """All rows; they stay valid until the next `add`."""
-        size, self.size = self.size, 0
-        return self._all[:size]
-
-
 class ContactRecorder:
     """Writes down the contacts of some steps and works out the forces on limbs.
 
@@ -72,39 +48,40 @@ class ContactRecorder:
         self._limb_of_geom, self._bodies = limb_of_geom, bodies
         self._origins, self._axes = origins, axes
         self._elliptic = model.opt.cone == mujoco.mjtCone.mjCONE_ELLIPTIC
-        self._geom, self._point, self._frame = _Rows(2, np.int64), _Rows(3), _Rows(9)
-        self._address, self._dim = _Rows(0, np.int64), _Rows(0, np.int64)
-        self._friction, self._solved = _Rows(5), _Rows(0)
-        self._place, self._turn = _Rows(3), _Rows(9)
-        self._counts: list[tuple[int, int]] = []
+        self._written: list[tuple[Any, ...]] = []
 
     def record(self, data: Any) -> None:
         """Take down the step that was just made."""
-        count = data.ncon
-        if not count:
+        if not data.ncon:
             return
-        found, solved = data.contact, data.efc_force
-        self._counts.append((count, len(solved)))
-        self._geom.add(found.geom)
-        self._point.add(found.pos)
-        self._frame.add(found.frame)
-        self._address.add(found.efc_address)
-        self._dim.add(found.dim)
-        self._friction.add(found.friction)
-        self._solved.add(solved)
-        self._place.add(data.xpos[self._bodies])
-        self._turn.add(data.xmat[self._bodies])
+        found = data.contact
+        self._written.append(
+            (
+                found.geom.copy(),
+                found.pos.copy(),
+                found.frame.copy(),
+                found.efc_address.copy(),
+                found.dim.copy(),
+                found.friction.copy(),
+                data.efc_force.copy(),
+                data.xpos[self._bodies],
+                data.xmat[self._bodies],
+            )
+        )
 
     def take(self) -> Touch | None:
         """The contacts of all steps since the last call, in the frames of their limbs.
 
         None if no limb was touched. A contact between two limbs counts on both.
         """
-        counts, self._counts = np.array(self._counts).reshape(-1, 2), []
-        geom, points, frame = self._geom.take(), self._point.take(), self._frame.take()
-        address, dim, solved = self._address.take(), self._dim.take(), self._solved.take()
-        friction = self._friction.take()
-        places, turns = self._limb_poses()
+        written, self._written = self._written, []
+        if not written:
+            return None
+        counts = np.array([(len(one[0]), len(one[6])) for one in written])
+        geom, points, frame, address, dim, friction, solved, place, turn = (
+            np.concatenate(blocks) for blocks in zip(*written, strict=True)
+        )
+        places, turns = self._limb_poses(place, turn)
         limb = self._limb_of_geom[geom]
         contact, side = np.nonzero((limb >= 0) & (address >= 0)[:, None])
         if not len(contact):
@@ -126,10 +103,10 @@ class ContactRecorder:
             return Touch(mine, here, normal, along)
         return Touch(mine[pressing], here[pressing], normal[pressing], along[pressing])
 
-    def _limb_poses(self) -> tuple[Floats, Floats]:
+    def _limb_poses(self, place: Floats, turn: Floats) -> tuple[Floats, Floats]:
         """Places (s * l, 3) and turns (s * l, 3, 3) of the l limbs' frames at all s steps."""
-        turns = self._turn.take().reshape(-1, len(self._bodies), 3, 3)
-        places = self._place.take().reshape(-1, len(self._bodies), 3)
+        turns = turn.reshape(-1, len(self._bodies), 3, 3)
+        places = place.reshape(-1, len(self._bodies), 3)
         places = places + np.einsum("slij,lj->sli", turns, self._origins)
         turned = np.einsum("slij,ljk->slik", turns, self._axes)
         return places.reshape(-1, 3), turned.reshape(-1, 3, 3)

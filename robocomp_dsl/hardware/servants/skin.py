@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -17,6 +16,26 @@ from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
 
 _NONE = np.zeros(0, np.float32)
 _NO_RAW = np.zeros(0, np.uint8)
+
+
+class FrameTopic(Protocol):
+    """`SkinFrame`."""
+
+    def frame(self, frame: Any) -> None:
+        """Publish a frame."""
+
+    def is_heard(self) -> bool:
+        """Whether anybody gets it."""
+
+
+class ContactTopic(Protocol):
+    """`SkinContacts`."""
+
+    def contacts(self, contacts: Any) -> None:
+        """Publish the touches of a frame."""
+
+    def is_heard(self) -> bool:
+        """Whether anybody gets them."""
 
 
 class SkinServant(Servant):
@@ -60,8 +79,8 @@ class SkinServant(Servant):
         """Take the baseline."""
         self._skin.calibrate(seconds)
 
-    def publish(self, frame: Callable[[Any], None], contacts: Callable[[Any], None]) -> None:
-        """Give every new frame to `frame` and its touches to `contacts`.
+    def publish(self, frames: FrameTopic, touches: ContactTopic) -> None:
+        """Publish every new frame and its touches, as far as anybody hears.
 
         No touches are told once, not again with every frame.
         """
@@ -69,16 +88,17 @@ class SkinServant(Servant):
 
         def hear(new: SkinFrame) -> None:
             nonlocal touched
-            frame(self._told(new))
+            if frames.is_heard():
+                frames.frame(self._told(new))
             felt = bool(new.force.any())
-            if not (felt or touched):
+            if not (felt or touched) or not touches.is_heard():
                 return
             touched = felt
             try:
                 found = self._skin.touches(new)
             except HardwareError:  # its taxels have been taken away meanwhile
                 return
-            contacts(self._list(new, found))
+            touches.contacts(self._list(new, found))
 
         self._skin.subscribe(hear)
 
