@@ -78,6 +78,7 @@ def _process(one: Process) -> dict[str, Any]:
         },
         "ready_within_s": one.ready_within_s,
         "port": one.port,
+        "devices": list(one.devices),
     }
 
 
@@ -103,5 +104,8 @@ def _described(one: Process, wave: int) -> Iterator[str]:
     group = f" in group {one.group}" if one.group else ""
     yield f"{wave}. {one.name} ({one.component}){group}{place}{after}"
     yield f"   ready within {one.ready_within_s:g} s, restart {restart}"
+    yield from (
+        f"   {'devices' if not i else '       '} {line}" for i, line in enumerate(one.devices)
+    )
     variables = [f"{key}={shlex.quote(value)}" for key, value in one.env]
     yield f"   cd {shlex.quote(short(one.cwd))} && " + " ".join([*variables, shlex.join(one.argv)])

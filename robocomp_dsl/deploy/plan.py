@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from robocomp_dsl.deploy.devices import devices_environment
+from robocomp_dsl.deploy.devices import devices_environment, devices_shown
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
     Clock,
@@ -38,7 +38,7 @@ class Process:
     `stops_after`: what must have ended before it is asked to stop. `config` (None: the
     component's own, or what it finds by `context` and `searched`) and `settings` (`key=value`) are
     those in `argv`. `port` 0: any.
-    `host` and `group` are as written, empty for this machine and for none.
+    `host` and `group` are as written, empty for this machine and for none; `devices` for people.
     """
 
     name: str
@@ -57,6 +57,7 @@ class Process:
     settings: tuple[str, ...] = ()
     host: str = ""
     group: str = ""
+    devices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +144,7 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
         settings=settings,
         host=_shown_host(one.host),
         group=one.group,
+        devices=devices_shown(one.devices),
     )
 
 

@@ -9,10 +9,13 @@ from __future__ import annotations
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from typing import Any, Protocol, cast
+from typing import Any, NoReturn, Protocol, cast
 
 from robocomp_dsl.hardware.errors import CommandRefused, HardwareError, NotWritten
 from robocomp_dsl.hardware.motor_bus import DrivenBoard, MotorBus
+from robocomp_dsl.hardware.plumbing.boards import BoardPart
+from robocomp_dsl.hardware.plumbing.description import DeviceSpec
+from robocomp_dsl.hardware.plumbing.host import Hosted
 from robocomp_dsl.hardware.serving import Port, serve
 from robocomp_dsl.runtime import ServedPort
 
@@ -87,6 +90,26 @@ class Hardware:
         self.why = str(error) or type(error).__name__
         with suppress(*FAILURES):
             self.close()
+
+
+class Plugged(Hosted):
+    """The devices of a deployment on real motors, which are known by the names `parts`."""
+
+    def __init__(
+        self, hardware: Hardware, parts: Sequence[str], environment: Mapping[str, str]
+    ) -> None:
+        def boards() -> dict[str, BoardPart]:
+            device = hardware.device
+            if not isinstance(device, DrivenBoard):
+                return {}
+            part = BoardPart(device.board, device.board.spec.names)
+            return dict.fromkeys(parts, part)
+
+        super().__init__(environment, boards, hardware.turns, _no_chain)
+
+
+def _no_chain(spec: DeviceSpec, _: tuple[str, ...]) -> NoReturn:
+    raise CommandRefused(f"device `{spec.name}`: these motors know no bodies, so no chain to a tip")
 
 
 class _Watched:

@@ -2914,7 +2914,7 @@ class GenericWorker(Component):
         adv: float,
         rot: float,
     ) -> None:
-        """In a fork: drive a base, until told otherwise.
+        """Drive a base, until told otherwise; 0 is the world itself.
 
         Units: side in mm/s, adv in mm/s, rot in rad/s.
         May raise RoboCompSimulation_Refused.
@@ -2927,7 +2927,7 @@ class GenericWorker(Component):
         joints: RoboCompSimulation_Names,
         positions: RoboCompSimulation_Values,
     ) -> None:
-        """In a fork: joints go to positions (rad, mm) as fast as they can.
+        """Joints go to positions (rad, mm) as fast as they can; 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """

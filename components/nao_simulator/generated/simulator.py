@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
+from robocomp_dsl.hardware.mujoco.hosting import Plugged
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation, read_data
 from robocomp_dsl.hardware.serving import Port
 from robocomp_dsl.hardware.skin_parameters import known_taxels, skin_settings
@@ -67,6 +69,7 @@ class Simulator(GenericWorker):
     rounds: int = 0
     simulation: Simulation
     ports: dict[str, Port]
+    devices: Plugged
 
     def initialize(self) -> None:
         """Build the world and let it run."""
@@ -87,12 +90,14 @@ class Simulator(GenericWorker):
         chosen = read_data(SCENE)["ports"]
         self.ports = self.simulation.serve(self.SPEC.implements, chosen)
         self.ports["Skin"].publish(self.skinframe_proxy, self.skincontacts_proxy)
+        self.devices = Plugged(self.simulation, os.environ)
         self.simulation.start(self.clock)
 
     def compute(self) -> None:
         """Publish what is heard; a world that has stopped for good is an emergency."""
         self.simulation.pace.keep_up()
         self.simulation.judge()
+        self.devices.judge()
         if self.imu_pub_proxy.is_heard():
             for told in self.ports["imu"].current("getDataImu"):
                 self.imu_pub_proxy.publish(told)
@@ -122,6 +127,8 @@ class Simulator(GenericWorker):
 
     def finalize(self) -> None:
         """The world rests."""
+        if hasattr(self, "devices"):
+            self.devices.stop()
         if hasattr(self, "simulation"):
             self.simulation.stop()
 
@@ -2935,7 +2942,7 @@ class Simulator(GenericWorker):
         adv: float,
         rot: float,
     ) -> None:
-        """In a fork: drive a base, until told otherwise.
+        """Drive a base, until told otherwise; 0 is the world itself.
 
         Units: side in mm/s, adv in mm/s, rot in rad/s.
         May raise RoboCompSimulation_Refused.
@@ -2948,7 +2955,7 @@ class Simulator(GenericWorker):
         joints: RoboCompSimulation_Names,
         positions: RoboCompSimulation_Values,
     ) -> None:
-        """In a fork: joints go to positions (rad, mm) as fast as they can.
+        """Joints go to positions (rad, mm) as fast as they can; 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """

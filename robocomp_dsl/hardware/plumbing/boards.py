@@ -1,7 +1,7 @@
 """Kinds of devices around control boards: the boards, their calibrators, Cartesian controllers.
 
-In: boards, simulated or real, by name, and the lock of the thread that steps them. Out: kinds for a
-conductor. Parameters of single joints are written with a dot: `home.elbow = 0.5`.
+In: boards or parts of them, simulated or real, by name, and the lock of the thread that steps them.
+Out: kinds for a conductor. Parameters of single joints are written with a dot: `home.elbow = 0.5`.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import threading
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.calibration import Calibrator, Procedure
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import BadValue
+from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.control.parking import Parking, ParkState
 from robocomp_dsl.hardware.errors import CommandRefused
@@ -32,16 +34,34 @@ POLL = 0.005
 """How often it is looked whether a board has come to the end of something [s]."""
 
 
-class BoardDevice:
-    """A board that others may stand on; motors are off when it is closed."""
+@dataclass(frozen=True, slots=True)
+class BoardPart:
+    """Some joints of a board, by their names."""
 
-    def __init__(self, board: Board, turn: Turn) -> None:
-        self.board, self.commands, self.turn = board, Commands(board), turn
+    board: Board
+    joints: tuple[str, ...]
+
+
+ChainOf = Callable[[DeviceSpec, tuple[str, ...]], tuple[Chain, tuple[str, ...]]]
+"""The chain that a Cartesian controller shall have, made of joints of its board."""
+
+
+class BoardDevice:
+    """A board, or a part of one, that others may stand on; motors are off when it is closed."""
+
+    def __init__(self, part: BoardPart, turn: Turn) -> None:
+        self.board, self.joints, self.turn = part.board, part.joints, turn
+        self.commands = Commands(part.board)
+
+    @property
+    def indices(self) -> Ints:
+        """Where its joints are on the board."""
+        return self.board.select.indices(self.joints)
 
     def close(self) -> None:
         """Switch the motors off."""
         with self.turn:
-            self.commands.set_mode(None, Mode.FORCE_IDLE)
+            self.commands.set_mode(self.joints, Mode.FORCE_IDLE)
 
 
 @dataclass(slots=True)
@@ -86,19 +106,19 @@ class CalibratorDevice:
     def calibrate(self, target: str, stop: threading.Event) -> None:
         """Let all joints of a board find their zero; `ActionFailed` names those that do not."""
         one = self._led[target]
-        _follow(one.device.turn, one.calibrator.calibrate, one.calibrator, stop)
+        joints = one.device.indices
+        _follow(one.device.turn, partial(one.calibrator.calibrate, joints), one.calibrator, stop)
         board = one.device.board
-        bad = [n for n, m in zip(board.spec.names, board.table.modes, strict=True) if m in _FAILED]
+        bad = [board.spec.names[i] for i in joints.tolist() if board.table.modes[i] in _FAILED]
         _end(f"{target}: not calibrated", bad, stop)
 
     def park(self, target: str, stop: threading.Event) -> None:
         """Bring all joints of a board to their places; raises `ActionFailed` as `calibrate`."""
         one = self._led[target]
-        _follow(one.device.turn, one.parking.park, one.parking, stop)
-        names = one.device.board.spec.names
-        bad = [
-            n for n, s in zip(names, one.parking.states, strict=True) if s is not ParkState.PARKED
-        ]
+        joints = one.device.indices
+        _follow(one.device.turn, partial(one.parking.park, joints), one.parking, stop)
+        names, states = one.device.board.spec.names, one.parking.states
+        bad = [names[i] for i in joints.tolist() if states[i] is not ParkState.PARKED]
         _end(f"{target}: not parked", bad, stop)
 
     def _lead(self, device: BoardDevice) -> _Led:
@@ -123,8 +143,8 @@ class CalibratorDevice:
 class CartesianDevice:
     """A Cartesian controller; `controller` is there while it stands on a board."""
 
-    def __init__(self, spec: DeviceSpec, chain: Chain, joints: tuple[str, ...]) -> None:
-        self._name, self._chain, self._joints = spec.name, chain, joints
+    def __init__(self, spec: DeviceSpec, chain: ChainOf) -> None:
+        self._spec, self._chain = spec, chain
         self.controller: CartesianController | None = None
         self._below: BoardDevice | None = None
 
@@ -133,7 +153,8 @@ class CartesianDevice:
         (name,) = devices
         self._below = _board_of(name, devices[name])
         with self._below.turn:
-            self.controller = CartesianController(self._below.board, self._chain, self._joints)
+            made = self._chain(self._spec, self._below.joints)
+            self.controller = CartesianController(self._below.board, *made)
 
     def detach(self) -> None:
         """Stop, and let go of the arm."""
@@ -150,24 +171,16 @@ class CartesianDevice:
 _FAILED = (Mode.HW_FAULT, Mode.NOT_CONFIGURED, Mode.CALIBRATING)
 
 
-def board_kinds(
-    boards: Mapping[str, Board],
-    turn: Turn,
-    chains: Mapping[str, tuple[Chain, tuple[str, ...]]] | None = None,
-) -> dict[str, Kind]:
-    """The kinds `control_board` (parameter `part`), `calibrator` and `cartesian` (`chain`)."""
-    hands = chains or {}
+def board_kinds(boards: Mapping[str, BoardPart], turn: Turn, chain: ChainOf) -> dict[str, Kind]:
+    """The kinds `control_board` (parameter `part`), `calibrator` and `cartesian`."""
 
     def board(spec: DeviceSpec) -> BoardDevice:
         return BoardDevice(_chosen(spec, "part", boards), turn)
 
-    def cartesian(spec: DeviceSpec) -> CartesianDevice:
-        return CartesianDevice(spec, *_chosen(spec, "chain", hands))
-
     return {
         "control_board": Kind(board),
         "calibrator": Kind(CalibratorDevice, most=64, calibrates=True),
-        "cartesian": Kind(cartesian, most=1),
+        "cartesian": Kind(lambda spec: CartesianDevice(spec, chain), most=1),
     }
 
 
@@ -193,7 +206,7 @@ def _known_joints(
     plain: tuple[str, ...],
 ) -> None:
     """Raise `BadValue` for a parameter that belongs to no joint of the boards."""
-    joints = {name for one in boards.values() for name in one.board.spec.names}
+    joints = {name for one in boards.values() for name in one.joints}
     for key in spec.parameters:
         group, _, joint = key.partition(".")
         if key not in plain and (group not in groups or joint not in joints):

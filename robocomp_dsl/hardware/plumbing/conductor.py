@@ -86,12 +86,24 @@ class Conductor:
         self._running.stop()
         return self._enter(INTERRUPTS[done])
 
-    def shutdown(self) -> bool:
-        """Interrupt, if nobody has yet; the actions of shutdown; detach and close everything."""
+    def give_up(self) -> None:
+        """End all that lasts now, in whatever phase."""
+        self._running.stop()
+
+    def shutdown(self, *, acting: bool = True) -> bool:
+        """Interrupt, if nobody has yet; the actions of shutdown; detach and close everything.
+
+        Not `acting`, because what the devices stand on is gone: it only detaches and closes.
+        """
         if not self._open:
             return True
-        well = True if self.phase in INTERRUPTS else self.interrupt()
-        well = self._enter(Phase.SHUTDOWN) and well
+        if not acting:
+            with self._lock:
+                self.phase = Phase.SHUTDOWN
+            well = False
+        else:
+            well = True if self.phase in INTERRUPTS else self.interrupt()
+            well = self._enter(Phase.SHUTDOWN) and well
         self._running.stop()
         well = self._running.wait(seconds=PATIENCE) and well
         for name in reversed(self._attached[:]):

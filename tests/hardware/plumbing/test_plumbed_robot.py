@@ -15,7 +15,7 @@ from robocomp_dsl.hardware.control.errors import BadValue
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.errors import CommandRefused
 from robocomp_dsl.hardware.mujoco.control_board_chain import chain_of
-from robocomp_dsl.hardware.plumbing.boards import board_kinds
+from robocomp_dsl.hardware.plumbing.boards import BoardPart, board_kinds
 from robocomp_dsl.hardware.plumbing.conductor import Conductor
 from robocomp_dsl.hardware.plumbing.description import Phase
 from robocomp_dsl.hardware.plumbing.read import plumbing_of
@@ -37,7 +37,7 @@ DEVICES = {
             "park.LShoulderPitch": 1.4,
             **{f"zero.{joint}": float(ZERO[i]) for i, joint in enumerate(("LShoulderPitch",))},
         },
-        {"name": "hand", "kind": "cartesian", "chain": "left"},
+        {"name": "hand", "kind": "cartesian", "tip": "l_hand"},
     ],
     "attach": {"zeroing": ["arm"], "hand": ["arm"]},
     "actions": [
@@ -56,11 +56,13 @@ class Robot:
         self.arm = Arm("nao", self.zero)
         self.arm.world.model.opt.gravity[:] = 0  # what is switched off stays where it is
         self.turn = Turns()
-        joints = self.arm.spec.names[:5]
-        chain = chain_of(self.arm.world.model, joints, "l_hand")
-        chains = {"left": (chain, joints)}
-        self.kinds = board_kinds({"LArm": self.arm.board}, self.turn, chains)
+        part = BoardPart(self.arm.board, self.arm.spec.names)
+        self.kinds = board_kinds({"LArm": part}, self.turn, self.chain)
         self._over = threading.Event()
+
+    def chain(self, spec, joints):
+        five = joints[:5]
+        return chain_of(self.arm.world.model, five, spec.parameters["tip"]), five
 
     @contextmanager
     def alive(self) -> Iterator[None]:
