@@ -1,0 +1,267 @@
+"""Devices of a deployment in a simulator: led through their phases on the boards of the world."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from worlds import rcgen, scene_of
+
+from robocomp_dsl.hardware.cartesian_controller import CartesianState
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.mujoco.hosting import Plugged, board_parts
+from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
+from robocomp_dsl.hardware.plumbing.check import PlumbingError
+from robocomp_dsl.hardware.plumbing.host import VARIABLE
+from robocomp_dsl.hardware.plumbing.read import BadDescription
+
+ARM = """\
+<innerModel>
+  <transform id="base">
+    <joint id="pan" axis="y" min="-1.5" max="1.5">
+      <joint id="tilt" axis="x" min="-1.5" max="1.5">
+        <transform id="upper" tz="200">
+          <joint id="elbow" axis="x" min="-1.5" max="1.5"><transform id="hand" tz="150"/></joint>
+        </transform>
+      </joint>
+    </joint>
+  </transform>
+</innerModel>
+"""
+BARE = '<innerModel><transform id="a"/></innerModel>'
+DEVICES: dict[str, Any] = {
+    "devices": [
+        {"name": "arm", "kind": "control_board", "part": "ControlBoard"},
+        {"name": "zeroing", "kind": "calibrator", "speed": 2.0, "home.elbow": 0.5, "park.pan": 0.7},
+        {"name": "reach", "kind": "cartesian", "tip": "hand"},
+    ],
+    "attach": {"zeroing": ["arm"], "reach": ["arm"]},
+    "actions": [
+        {"phase": "startup", "level": 5, "calibrate": "arm"},
+        {"phase": "shutdown", "level": 1, "park": "arm"},
+    ],
+}
+DEADLINE_S = 30.0
+
+
+def simulation(folder: Path) -> Simulation:
+    return Simulation(scene_of(folder / "arm.xml", ARM), Options(speed=0.0))
+
+
+@contextmanager
+def running(made: Simulation) -> Iterator[None]:
+    made.start()
+    try:
+        yield
+    finally:
+        made.stop()
+
+
+def plugged(made: Simulation, **change: Any) -> Plugged:
+    return Plugged(made, {VARIABLE: json.dumps(DEVICES | change)})
+
+
+def until(made: Simulation, what: Callable[[], object]) -> None:
+    end = time.monotonic() + DEADLINE_S
+    while True:
+        with made.turns:
+            if what():
+                return
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.002)
+
+
+def judged(devices: Plugged) -> None:
+    """Look after the devices until they fail, as a component does in every period."""
+    end = time.monotonic() + DEADLINE_S
+    while time.monotonic() < end:
+        devices.judge()
+        time.sleep(0.002)
+
+
+def positions(made: Simulation) -> list[float]:
+    found: list[float] = made.devices["pan"].board.position.tolist()
+    return found
+
+
+def test_devices_are_calibrated_used_and_parked(tmp_path: Path) -> None:
+    made = simulation(tmp_path)
+    devices = plugged(made)
+    with running(made):
+        devices.judge()
+        until(made, lambda: devices.ready)
+        with made.turns:
+            assert positions(made) == pytest.approx([0, 0, 0.5], abs=0.05)
+            controller = devices["reach"].controller
+            goal = controller.pose()[:3, 3] + (20.0, 10.0, -20.0)
+            controller.go_to(goal, 0.3)
+        until(made, lambda: controller.state is CartesianState.REACHED)
+        until(made, lambda: np.abs(controller.pose()[:3, 3] - goal).max() < 2.0)
+        devices.stop()
+        with made.turns:
+            assert set(made.devices["pan"].board.table.modes) == {Mode.IDLE}
+            assert positions(made)[0] == pytest.approx(0.7, abs=0.06)
+
+
+def test_where_the_clock_has_stopped_the_world_goes_on_for_the_shutdown(tmp_path: Path) -> None:
+    """As in a deployment with its own time, when the component has ended."""
+    made = simulation(tmp_path)
+    devices = plugged(made)
+    devices.judge()
+    while not devices.ready:
+        with made.turns:
+            made.advance(0.02)
+    devices.stop(lambda: made.advance(0.02))
+    assert positions(made)[0] == pytest.approx(0.7, abs=0.06)
+
+
+def test_after_a_reset_all_devices_start_again(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    made = simulation(tmp_path)
+    devices = plugged(made)
+    with running(made):
+        devices.judge()
+        until(made, lambda: devices.ready)
+        with made.turns:
+            before = devices["arm"].board
+            made.reset()
+        devices.judge()
+        assert "all devices start again" in caplog.text
+        until(made, lambda: devices.ready)
+        with made.turns:
+            assert devices["arm"].board is not before
+            assert positions(made) == pytest.approx([0, 0, 0.5], abs=0.05)
+        devices.stop()
+
+
+def test_without_a_description_there_is_nothing(tmp_path: Path) -> None:
+    devices = Plugged(simulation(tmp_path), {})
+    devices.judge()
+    assert not devices.ready
+    with pytest.raises(HardwareError, match="there is no device `arm` now: there are none"):
+        devices["arm"]
+    devices.stop()
+
+
+def device(at: int, **change: Any) -> dict[str, Any]:
+    found = [dict(one) for one in DEVICES["devices"]]
+    found[at] |= change
+    return {"devices": found}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (device(0, part="tail"), "there is no part `tail`: ControlBoard"),
+        (device(2, tip="tail"), "the startup of the devices failed"),
+        (device(2, tip=""), "the startup of the devices failed"),
+        (device(2, speed=1), "the startup of the devices failed"),
+    ],
+)
+def test_what_fails_is_told(
+    tmp_path: Path, change: dict[str, Any], said: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    made = simulation(tmp_path)
+    devices = plugged(made, **change)
+    with running(made):
+        with pytest.raises(HardwareError, match=said):
+            judged(devices)
+        devices.stop()
+    assert "Traceback" not in caplog.text
+
+
+def test_what_cannot_be_meant_is_refused_at_once(tmp_path: Path) -> None:
+    made = simulation(tmp_path)
+    with pytest.raises(PlumbingError, match="tail"):
+        plugged(made, attach={"zeroing": ["tail"]})
+    with pytest.raises(BadDescription):
+        Plugged(made, {VARIABLE: "{"})
+
+
+def test_boards_are_called_as_their_ports(tmp_path: Path) -> None:
+    assert {n: p.joints for n, p in board_parts(simulation(tmp_path)).items()} == {
+        "ControlBoard": ("pan", "tilt", "elbow")
+    }
+    bare = Simulation(scene_of(tmp_path / "bare.xml", BARE))
+    assert board_parts(bare) == {}
+
+
+WORKER = """\
+from __future__ import annotations
+
+from pathlib import Path
+
+from generated.simulator import Simulator
+
+
+class SpecificWorker(Simulator):
+    goal = None
+
+    def compute(self) -> None:
+        super().compute()
+        if not self.devices.ready:
+            return
+        controller = self.devices["reach"].controller
+        with self.simulation.turns:
+            if self.goal is None:
+                self.goal = controller.pose()[:3, 3] + (20.0, 10.0, -20.0)
+                controller.go_to(self.goal, 0.3)
+            elif controller.state.value == "reached":
+                Path("reached").touch()
+"""
+DDSL = """\
+import "arm_simulator/arm_simulator.cdsl";
+Deployment lab {
+    component arm_simulator {
+        device arm : control_board { set part = ControlBoard; };
+        device zeroing : calibrator { set speed = 2.0; set home.elbow = 0.5; };
+        device reach : cartesian { set tip = hand; };
+        attach zeroing to arm;
+        attach reach to arm;
+        on startup level 5 calibrate arm by zeroing;
+        on shutdown level 1 park arm by zeroing;
+    };
+};
+"""
+
+
+def test_a_deployment_plugs_them_together_in_the_process_of_a_simulator(tmp_path: Path) -> None:
+    (tmp_path / "arm.xml").write_text(ARM)
+    assert rcgen("simulator", "arm.xml", cwd=tmp_path).returncode == 0
+    folder = tmp_path / "arm_simulator"
+    (folder / "specificworker.py").write_text(WORKER)
+    (tmp_path / "lab.ddsl").write_text(DDSL)
+    program, name = Path(sys.executable).with_name("rcdeploy"), f"plugged-{os.getpid()}"
+    shown = subprocess.run(
+        [program, "lab.ddsl", "plan"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert "arm: control_board" in shown.stdout, shown.stdout
+    assert "startup 5: calibrate arm by zeroing" in shown.stdout
+    options = ("--name", name, "--domain", name, "--no-table")
+    with (tmp_path / "log").open("w") as log:
+        deployed = subprocess.Popen(
+            [program, "lab.ddsl", "up", *options], cwd=tmp_path, stdout=log, stderr=log
+        )
+        try:
+            end = time.monotonic() + DEADLINE_S
+            while not (folder / "reached").exists():
+                assert deployed.poll() is None, (tmp_path / "log").read_text()
+                assert time.monotonic() < end, (tmp_path / "log").read_text()
+                time.sleep(0.02)
+        finally:
+            deployed.send_signal(signal.SIGINT)
+            code = deployed.wait(timeout=60)
+    assert code == 0
+    assert "failed" not in (tmp_path / "log").read_text()
