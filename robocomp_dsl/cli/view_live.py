@@ -11,12 +11,17 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Never
+from typing import Never, TypeAlias
 
 from robocomp_dsl.cli import options, view
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.deploy import folder
-from robocomp_dsl.hardware.simulation_interface import SIMULATION, SimulationProxy
+from robocomp_dsl.hardware.simulation_interface import (
+    INNERMODELMANAGER,
+    SIMULATION,
+    InnerModelManagerProxy,
+    SimulationProxy,
+)
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.running import CannotFollow, look_at
 from robocomp_dsl.runtime.errors import MiddlewareError
@@ -29,6 +34,8 @@ ME = f"rcgen-view-{os.getpid()}"
 DEFAULT = "default"
 PATIENCE_S = 3.0
 
+Proxies: TypeAlias = tuple[SimulationProxy, InnerModelManagerProxy]
+
 
 def show(
     component: str,
@@ -39,22 +46,24 @@ def show(
     port: int,
 ) -> None:
     """See the module; ends with exit code 1 where there is none, or several."""
-    with _hand(component, domain) as hand:
+    with _hand(component, domain) as (hand, nodes):
         try:
             if screenshot:
                 seen = look_at(hand)
                 view.photograph(seen.model, seen.data(), screenshot, size, look)
             else:
-                _serve(component or "simulation", hand, look, port)
+                _serve(component or "simulation", hand, nodes, look, port)
         except (MiddlewareError, CannotFollow) as error:
             _fail(str(error))
 
 
-def _serve(name: str, hand: SimulationProxy, look: Look, port: int) -> None:
+def _serve(
+    name: str, hand: SimulationProxy, nodes: InnerModelManagerProxy, look: Look, port: int
+) -> None:
     try:
         from robocomp_dsl.hardware.view.live import LivePage  # noqa: PLC0415 - needs an extra
 
-        page = LivePage(name, hand, look, port=port)
+        page = LivePage(name, hand, look, port=port, nodes=nodes)
     except ImportError as missing:
         _fail(str(missing))
     except OSError as error:
@@ -67,22 +76,22 @@ def _serve(name: str, hand: SimulationProxy, look: Look, port: int) -> None:
 
 
 @contextmanager
-def _hand(component: str, domain: str | None) -> Iterator[SimulationProxy]:
+def _hand(component: str, domain: str | None) -> Iterator[Proxies]:
     """The simulation that is meant."""
     domains = _domains(domain)
     with ExitStack() as stack:
         found = {}
         for name in domains:
-            proxy = stack.enter_context(_connected(component, name))
-            if proxy.wait_for_server(PATIENCE_S / len(domains)):
-                found[name] = proxy
+            proxies = stack.enter_context(_connected(component, name))
+            if proxies[0].wait_for_server(PATIENCE_S / len(domains)):
+                found[name] = proxies
         if len(found) != 1:
             _fail(_unclear(component, list(found), domains))
         yield next(iter(found.values()))
 
 
 @contextmanager
-def _connected(component: str, domain: str) -> Iterator[SimulationProxy]:
+def _connected(component: str, domain: str) -> Iterator[Proxies]:
     try:
         middleware: Middleware = open_middleware(
             "zenoh", Host(ME, domain, Execution(), Statistics())
@@ -90,8 +99,13 @@ def _connected(component: str, domain: str) -> Iterator[SimulationProxy]:
     except MiddlewareError as error:
         _fail(str(error))
     try:
-        at = Endpoint(SIMULATION, ME, "Simulation", (component,) if component else ())
-        yield SimulationProxy(middleware.proxy(at))
+        peers = (component,) if component else ()
+        yield (
+            SimulationProxy(middleware.proxy(Endpoint(SIMULATION, ME, "Simulation", peers))),
+            InnerModelManagerProxy(
+                middleware.proxy(Endpoint(INNERMODELMANAGER, ME, "InnerModelManager", peers))
+            ),
+        )
     finally:
         middleware.close()
 

@@ -24,8 +24,9 @@ Component x
 };
 """
 SIMULATION = """\
+import "InnerModelManager.idsl";
 import "Simulation.idsl";
-Component x { Communications { requires Simulation; }; language Python; };
+Component x { Communications { requires Simulation, InnerModelManager; }; language Python; };
 """
 
 

@@ -23,12 +23,14 @@ from chromium_tab import CHROMIUM, PATIENCE, opened_tab, red, wait_for
 from worlds import CLIENT, Served, rcgen, run, served
 
 from robocomp_dsl.hardware.mujoco import sight
+from robocomp_dsl.hardware.view.controls import quaternion
 from robocomp_dsl.hardware.view.live import LivePage
 from robocomp_dsl.hardware.view.running import CannotFollow, look_at
 from robocomp_dsl.runtime.errors import NoServer
 
 WORLD = """\
 <innerModel>
+ <transform id="floor"/>
  <plane id="ground" ny="1" size="4000,4000,50" py="-25" texture="#606060"/>
  <differentialrobot id="robot" tx="-1000">
   <plane id="hull" nz="-1" py="500" size="900,900,900" texture="#ff0000"/>
@@ -39,22 +41,23 @@ WORLD = """\
 
 
 class Hand:
-    """The proxy of a world in this process; `gone` as long as nobody serves it."""
+    """The proxy of a port of a world in this process; `gone` as long as nobody serves it."""
 
-    def __init__(self, world: Served) -> None:
-        self.world, self.gone = world, False
+    def __init__(self, world: Served, port: str = "Simulation") -> None:
+        self.world, self.gone, self.port = world, False, port
         self.set_timeout: Callable[[float], None] = lambda seconds: None
 
     def __getattr__(self, operation: str) -> Any:
         if self.gone:
             raise NoServer("nobody is there")
-        return getattr(self.world.ports["Simulation"], operation)
+        return getattr(self.world.ports[self.port], operation)
 
 
 @pytest.fixture
 def live(tmp_path: Path) -> Iterator[LivePage]:
     hand: Any = Hand(served(tmp_path, WORLD))
-    made = LivePage("sim", hand)
+    nodes: Any = Hand(hand.world, "InnerModelManager")
+    made = LivePage("sim", hand, nodes=nodes)
     made.hand = hand  # type: ignore[attr-defined]
     yield made
     made.close()
@@ -83,7 +86,6 @@ def test_it_is_where_the_world_is(live: LivePage) -> None:
     assert pose.z > 200
     slider = next(s for s, _ in live.page.controls._sliders if s.label == "neck [rad]")
     assert slider.value == pytest.approx(0.5, abs=0.01)
-    assert slider.disabled, "what runs elsewhere is not moved from here"
     assert text(live) == "simulated time 1.00 s, 0.00 times real time"
 
 
@@ -101,6 +103,48 @@ def test_its_switches_hold_the_time(live: LivePage) -> None:
     assert not world.simulation.pace.paused
     controls.reset()
     assert world.simulation.time == 0
+
+
+def test_a_slider_moves_a_joint_of_the_world(live: LivePage) -> None:
+    world, controls = world_of(live), live.page.controls
+    slider, address = next(one for one in controls._sliders if one[0].label == "neck [rad]")
+    slider.value = 0.8  # as in the browser
+    world.simulation.advance(0.02)
+    live.look()
+    assert slider.value == 0.8, "it stays under the hand"
+    world.until(lambda: abs(world.ports["Simulation"].getJoints(0, ["neck"])[0] - 0.8) < 0.01)
+    slider.value = 0.2
+    world.until(lambda: world.ports["Simulation"].getJoints(0, ["neck"])[0] < 0.21)
+    controls._touched.clear()  # its second is over
+    live.look()
+    assert slider.value == pytest.approx(0.2, abs=0.02)
+    assert live.page.data.qpos[address] == pytest.approx(0.2, abs=0.02)
+
+
+def test_a_node_is_placed_in_the_world(live: LivePage) -> None:
+    world, page = world_of(live), live.page
+    live.look()
+    quat = quaternion((0.0, 0.0, 0.5))
+    page.controls.place(page.model.body("robot").id, np.array([0.25, -0.5, 0.125]), quat)
+    pose = world.ports["Simulation"].getPoses(0, ["robot"])[0]
+    assert (pose.x, pose.y, pose.z) == pytest.approx((250, 125, -500))
+    live.look()
+    assert page.stage.relative[page.model.body("robot").id, 3:] == pytest.approx(quat, abs=1e-6)
+
+
+def test_what_cannot_be_is_said(live: LivePage) -> None:
+    far = live.page.controls._far
+    assert far
+    far.move("nobody", 1.0, turns=True)
+    live.look()
+    assert text(live).endswith("that did not work out: there is no joint `nobody`")
+    far.place("nobody", np.zeros(3), np.array([1.0, 0, 0, 0]))
+    live.look()
+    assert "that did not work out" in text(live)
+    assert "`nobody`" in text(live)
+    far.reset()
+    live.look()
+    assert "work out" not in text(live)
 
 
 def test_a_node_that_comes_is_on_the_page(live: LivePage) -> None:
@@ -147,6 +191,12 @@ def test_points_move_with_their_body(live: LivePage) -> None:
     assert cloud.colors.tolist() == colours[::-1].tolist()
     live.page.show_points("skin", "robot", points[:1], colours[:1])
     assert len(live.page.stage._clouds[cloud.name].points) == 1
+    world = world_of(live)
+    mark = world.types.Pose3D(1, 2, 3, 0, 0, 0)
+    world.ports["InnerModelManager"].addTransform("mark", "", "floor", mark)
+    live.look()
+    assert "/world/floor/mark" in live.page.stage.paths
+    assert list(live.page.stage._clouds) == [cloud.name], "in the new model, too"
     with pytest.raises(KeyError):
         live.page.show_points("skin", "nobody", points, colours)
 

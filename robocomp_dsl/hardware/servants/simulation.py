@@ -146,20 +146,20 @@ class SimulationServant(Servant):
 
     def drive(self, fork: int, base: str, side: float, adv: float, rot: float) -> None:
         """Drive a base there."""
-        it = self._found(self._forks, "fork", fork)
-        with it.turns:
-            found = it.branch.devices.get(base)
+        turns, branch = self._seen(fork)
+        with turns:
+            found = branch.devices.get(base)
             if not hasattr(found, "set_speed"):
                 raise CommandRefused(f"there is no base `{base}`")
             found.set_speed(side, adv, rot)
 
     def move(self, fork: int, joints: Sequence[str], positions: Floats) -> None:
         """Move joints there."""
-        it = self._found(self._forks, "fork", fork)
+        turns, branch = self._seen(fork)
         values = numbers("positions", positions, len(joints))
-        with it.turns:
+        with turns:
             for name, value in zip(joints, values.tolist(), strict=True):
-                found = it.branch.devices.get(name)
+                found = branch.devices.get(name)
                 if not hasattr(found, "board"):
                     raise CommandRefused(f"there is no joint `{name}`")
                 board = found.board

@@ -53,6 +53,7 @@ class Page:
         far: Far | None = None,
     ) -> None:
         self._look, self._far = look, far
+        self._points: dict[str, tuple[str, Floats, Colours, float]] = {}
         port = _free(port)  # viser would silently take another one
         logging.getLogger("websockets").setLevel(logging.ERROR)
         rich.get_console().quiet = True  # viser greets with a panel of its own
@@ -72,6 +73,10 @@ class Page:
         self._server.gui.reset()
         self.stage = Stage(self._server, model, seen(model, data))
         self.controls = Controls(self._server, self.stage, data, self._look, self._far)
+        known, self._points = self._points, {}
+        for name, (body, points, colours, size) in known.items():
+            if body in self.stage.names:
+                self.show_points(name, body, points, colours, size)
 
     def _look_at(self, model: Any, data: Any) -> None:
         low, high = surroundings(model, data)
@@ -95,8 +100,12 @@ class Page:
     def show_points(
         self, name: str, body: str, points: Floats, colours: Colours, size: float = 0.004
     ) -> None:
-        """Coloured points on a body, or other colours of those: see `Stage.show_points`."""
+        """Coloured points on a body, or other colours of those: see `Stage.show_points`.
+
+        They are there as long as the body is, also in another model.
+        """
         with self.controls.lock:
+            self._points[name] = (body, points, colours, size)
             self.stage.show_points(name, body, points, colours, size)
 
     def run(self, going_on: Callable[[], bool] = lambda: True) -> None:

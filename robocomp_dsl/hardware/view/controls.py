@@ -1,7 +1,7 @@
 """The panel beside the scene: what is shown, joints that can be moved, nodes that can be placed.
 
 In: a viser server, a stage and the state behind it. Out: changes of the state, under a lock. Of a
-world that runs elsewhere (`Far`) the state is only shown, and its time can be held.
+world that runs elsewhere (`Far`) they are wishes, and what comes of them is shown.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import html
 import math
 import threading
+import time
 from typing import Any, Protocol
 
 import mujoco
@@ -16,10 +17,12 @@ import numpy as np
 
 from robocomp_dsl.hardware.mujoco.sight import seen
 from robocomp_dsl.hardware.view.picture import Look
-from robocomp_dsl.hardware.view.stage import Stage
+from robocomp_dsl.hardware.view.stage import Floats, Stage
 
 _MOST_SLIDERS = 80
 _MOST_LISTED = 2000
+_HELD_S = 1.0
+"""A slider that was moved stays for so long before it shows where the joint is."""
 _JOINT = mujoco.mjtJoint
 _KINDS = {
     int(_JOINT.mjJNT_FREE): "free",
@@ -38,6 +41,12 @@ class Far(Protocol):
     def reset(self) -> None:
         """Let it begin anew."""
 
+    def move(self, joint: str, value: float, turns: bool) -> None:
+        """A joint goes to a position in rad, or m where it does not turn."""
+
+    def place(self, body: str, position: Floats, quat: Floats) -> None:
+        """A body stands elsewhere in its parent: m, (w, x, y, z)."""
+
 
 class Controls:
     """`lock` guards `data`; `running` is whether time shall pass."""
@@ -53,6 +62,7 @@ class Controls:
         self._start = data.qpos.copy()
         self._quiet = False
         self._sliders: list[tuple[Any, int]] = []
+        self._touched: dict[int, float] = {}
         tabs = self.gui.add_tab_group()
         with tabs.add_tab("View"):
             self._view(look)
@@ -118,7 +128,10 @@ class Controls:
     def tell(self) -> None:
         """Show on the sliders where the joints are."""
         self._quiet = True
+        now = time.monotonic()
         for slider, address in self._sliders:
+            if now < self._touched.get(address, 0.0):
+                continue
             value = float(np.clip(self.data.qpos[address], slider.min, slider.max))
             if abs(slider.value - value) > 1e-4:
                 slider.value = value
@@ -144,12 +157,16 @@ class Controls:
         now = float(self.data.qpos[address])
         low, high = min(low, now), max(high, now, low + 1e-6)
         label = f"{model.joint(j).name or f'joint{j}'} [{'rad' if hinge else 'm'}]"
-        far = self._far is not None
-        slider = self.gui.add_slider(label, low, high, (high - low) / 1000, now, disabled=far)
+        slider = self.gui.add_slider(label, low, high, (high - low) / 1000, now)
         self._sliders.append((slider, address))
 
         def moved(_: Any) -> None:
-            if not self._quiet:
+            if self._quiet:
+                return
+            if self._far:
+                self._touched[address] = time.monotonic() + _HELD_S
+                self._far.move(model.joint(j).name, slider.value, hinge)
+            else:
                 with self.lock:
                     self.data.qpos[address] = slider.value
                     self.data.qvel[model.jnt_dofadr[j]] = 0.0
@@ -166,9 +183,9 @@ class Controls:
             return
         choice = self.gui.add_dropdown("Node", tuple(f"{i}: {n}" for i, n in enumerate(names) if i))
         about = self.gui.add_markdown("")
-        zero, far = (0.0, 0.0, 0.0), self._far is not None
-        place = self.gui.add_vector3("place [m]", zero, step=0.001, disabled=far)
-        turn = self.gui.add_vector3("roll pitch yaw [rad]", zero, step=0.001, disabled=far)
+        zero = (0.0, 0.0, 0.0)
+        place = self.gui.add_vector3("place [m]", zero, step=0.001)
+        turn = self.gui.add_vector3("roll pitch yaw [rad]", zero, step=0.001)
 
         def chosen() -> int:
             return int(choice.value.partition(":")[0])
@@ -176,8 +193,9 @@ class Controls:
         def show(_: Any) -> None:
             body = chosen()
             self._quiet = True
-            place.value = tuple(self.model.body_pos[body].tolist())
-            turn.value = roll_pitch_yaw(self.model.body_quat[body])
+            position, quat = self._stands(body)
+            place.value = tuple(position.tolist())
+            turn.value = roll_pitch_yaw(quat)
             about.content = html.escape(self._about(body))
             self._quiet = False
 
@@ -195,12 +213,21 @@ class Controls:
 
     def place(self, body: int, position: Any, quat: Any) -> None:
         """Put a body elsewhere in its parent; one that is free is moved where it is."""
+        if self._far:
+            self._far.place(self.stage.names[body], np.asarray(position), np.asarray(quat))
+            return
         self.model.body_pos[body], self.model.body_quat[body] = position, quat
         first = int(self.model.body_jntadr[body])
         if first >= 0 and _kind(self.model, first) == "free":
             at = int(self.model.jnt_qposadr[first])
             self.data.qpos[at : at + 7] = (*position, *quat)
         self._changed()
+
+    def _stands(self, body: int) -> tuple[Floats, Floats]:
+        """Place and quaternion in the parent, as the model has it; elsewhere: as it is now."""
+        if self._far:
+            return self.stage.relative[body, :3], self.stage.relative[body, 3:]
+        return self.model.body_pos[body], self.model.body_quat[body]
 
     def _about(self, body: int) -> str:
         above = self.stage.names[self.model.body_parentid[body]]

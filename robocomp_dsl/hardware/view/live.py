@@ -1,7 +1,8 @@
 """A running simulation on a page: what it shows is where everything is, some 20 times a second.
 
-In: a proxy of `Simulation`, whoever serves it. Out: a page that follows; its switches hold the time
-of the simulation. When the simulation has other nodes, or is started again, so does the page.
+In: proxies of `Simulation` and `InnerModelManager`, whoever serves them. Out: a page that follows;
+its switches hold the time, its sliders move joints, its numbers place nodes. When the simulation
+has other nodes, or is started again, the page is made anew.
 """
 
 from __future__ import annotations
@@ -9,13 +10,24 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
-from robocomp_dsl.hardware.simulation_interface import Refused, SimulationProxy
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.mujoco import axes
+from robocomp_dsl.hardware.rotations import angles
+from robocomp_dsl.hardware.simulation_interface import (
+    InnerModelManagerProxy,
+    Pose3D,
+    SimulationProxy,
+)
 from robocomp_dsl.hardware.view.browser import PLAIN, Page
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.running import View, look_at
-from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.hardware.view.stage import Floats
+from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
 
 LOOKS = 20.0  # per second
 PATIENCE_S = 2.0
@@ -24,10 +36,10 @@ log = logging.getLogger("robocomp.view")
 
 
 class FarHand:
-    """Holds the time of the simulation. `said` is what did not work out."""
+    """Holds a simulation. `said` is what did not work out."""
 
-    def __init__(self, hand: SimulationProxy) -> None:
-        self._hand = hand
+    def __init__(self, hand: SimulationProxy, nodes: InnerModelManagerProxy | None) -> None:
+        self._hand, self._nodes = hand, nodes
         self.said = ""
 
     def run(self, on: bool) -> None:
@@ -38,23 +50,57 @@ class FarHand:
         """See `controls.Far`."""
         self._try(self._hand.reset)
 
+    def move(self, joint: str, value: float, turns: bool) -> None:
+        """See `controls.Far`: its motor takes it there."""
+        goal = np.array([value if turns else value / axes.MM])
+        self._try(partial(self._hand.move, 0, [joint], goal))
+
+    def place(self, body: str, position: Floats, quat: Floats) -> None:
+        """See `controls.Far`."""
+        turned = np.zeros(9)
+        mujoco.mju_quat2Mat(turned, quat)
+        matrix = axes.matrix(position, turned)
+        x, y, z = matrix[:3, 3].tolist()
+        rx, ry, rz = angles(matrix[:3, :3])
+        pose = Pose3D(x, y, z, rx, ry, rz)
+        if self._nodes is None:
+            self.said = "nodes cannot be placed from here"
+            return
+        # the root of MuJoCo has taken the name `world`
+        self._try(partial(self._nodes.setPoseFromParent, body.removesuffix("."), pose))
+
     def _try(self, ask: Callable[[], Any]) -> None:
         try:
             ask()
-        except (MiddlewareError, Refused) as error:
-            self.said = f"it refuses: {error}"
+        except (MiddlewareError, DeclaredError) as error:
+            self.said = f"that did not work out: {_words(error)}"
         else:
             self.said = ""
 
 
+def _words(error: Exception) -> str:
+    """What a simulation declares has a text in one of two places."""
+    return str(getattr(error, "what", "") or getattr(error, "text", "") or error)
+
+
 class LivePage:
-    """Open until `close`. Raises as `look_at` does, and `OSError` when the port is taken."""
+    """Open until `close`; without `nodes` no nodes can be placed.
+
+    Raises as `look_at` does, and `OSError` when the port is taken.
+    """
 
     def __init__(
-        self, name: str, hand: SimulationProxy, look: Look = PLAIN, *, port: int = 0
+        self,
+        name: str,
+        hand: SimulationProxy,
+        look: Look = PLAIN,
+        *,
+        port: int = 0,
+        nodes: InnerModelManagerProxy | None = None,
     ) -> None:
-        hand.set_timeout(PATIENCE_S)
-        self._name, self._hand, self._far = name, hand, FarHand(hand)
+        for proxy in filter(None, (hand, nodes)):
+            proxy.set_timeout(PATIENCE_S)
+        self._name, self._hand, self._far = name, hand, FarHand(hand, nodes)
         self._view: View | None = look_at(hand)
         view = self._view
         self.page = Page(name, view.model, view.data(), look, port=port, far=self._far)

@@ -32,7 +32,7 @@ class Stage:
         self._contacts: Any = None
         self._clouds: dict[str, Any] = {}
         self._seen = seen
-        self._poses: Floats = np.full((model.nbody, 7), np.nan)
+        self.relative: Floats = np.full((model.nbody, 7), np.nan)
         self.frames = [self._frame(i) for i in range(1, model.nbody)]
         self.labels = [
             server.scene.add_label(f"{path}/name", self.names[i], visible=False)
@@ -78,7 +78,7 @@ class Stage:
         """Show poses and contacts; what has not moved is not sent."""
         self._seen = seen
         poses = relative_poses(self.model, seen.poses)
-        moved = np.flatnonzero(~np.isclose(poses, self._poses, atol=1e-7, rtol=0).all(axis=1))
+        moved = np.flatnonzero(~np.isclose(poses, self.relative, atol=1e-7, rtol=0).all(axis=1))
         with self.server.atomic():
             for body in moved:
                 if body:
@@ -86,7 +86,7 @@ class Stage:
                     handle.position, handle.wxyz = poses[body, :3], poses[body, 3:]
             if self._contacts_on:
                 self._touch()
-        self._poses[moved] = poses[moved]
+        self.relative[moved] = poses[moved]
 
     def show_frames(self, on: bool) -> None:
         """The axes of all bodies: x red, y green, z blue."""
