@@ -104,6 +104,8 @@ def _box(node: body.Plane, parent: body.Node) -> Data:
         "colour": node.texture if node.texture.startswith("#") else "",
         "collide": node.collide,
     }
+    if node.tag == "display":
+        made["screen"] = True
     if not node.texture or node.texture.startswith("#"):
         return made
     picture = str(node.span.source.path.parent / node.texture)

@@ -67,7 +67,8 @@ class Frame:
 class Box:
     """A box in a frame; `size` is its extent, the last along `normal`. `colour` is `#rrggbb`.
 
-    `texture` is the file of a picture instead, repeated every `tile` mm.
+    `texture` is the file of a picture instead, repeated every `tile` mm. A `screen` shows images
+    over its whole face, the texture or the colour at first.
     """
 
     id: str
@@ -79,6 +80,7 @@ class Box:
     collide: bool = False
     texture: str = ""
     tile: float = 1000.0
+    screen: bool = False
 
 
 @dataclass(frozen=True, slots=True)

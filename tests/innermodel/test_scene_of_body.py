@@ -91,7 +91,8 @@ def test_devices(scene: Scene) -> None:
         "laser",
         "laser",
         "laser_pose",
-        {"port": 10003, "measures": 100, "min": 100, "max": 30000, "angle": 3.0, "ifconfig": ""},
+        {"port": 10003, "measures": 100, "min": 100, "max": 30000, "angle": 3.0, "ifconfig": ""}
+        | {"noise": 0.0},
     )
     assert (found["eye"].kind, found["eye"].frame) == ("rgbd", "lift")
     assert found["pan"].frame == "pan"

@@ -53,6 +53,7 @@ OFFERS = (
     Offer("model_rgbd", "CameraRGBDSimple", shared=True),
     Offer("model_imu", "IMU"),
     Offer("model_touch", "TouchSensor", shared=True),
+    Offer("display", "Display"),
     Offer("skin", "Skin", shared=True),
 )
 
@@ -234,10 +235,15 @@ def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
     return [(d["id"], d["kind"]) for d in scene["devices"] if d["kind"] not in kinds]
 
 
+SKIN_RATES = (1.0, 1000.0)
+"""Hz: what the parameter takes."""
+
+
 def skin_rate(scene: dict[str, Any]) -> float:
     """The rate of the fastest skin [Hz]; 0 without one: they tell their frames together."""
     rates = [d["settings"].get("rate", USUAL_RATE) for d in scene["devices"] if d["kind"] == "skin"]
-    return float(max(rates, default=0.0))
+    slowest, fastest = SKIN_RATES
+    return float(min(max(*rates, slowest), fastest)) if rates else 0.0
 
 
 def _base(scene: dict[str, Any], device: dict[str, Any]) -> Iterator[str]:

@@ -26,6 +26,7 @@ from robocomp_dsl.hardware.mujoco.model_touch import ModelTouch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard, driven
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
+from robocomp_dsl.hardware.mujoco.screen import Screen
 from robocomp_dsl.hardware.mujoco.touch_sensor import TouchSensor, TouchSettings
 from robocomp_dsl.hardware.mujoco.ultrasound import Ultrasound
 from robocomp_dsl.hardware.scene import ROOT, Device, Scene
@@ -155,6 +156,10 @@ def _model_touch(site: Site, device: Device) -> ModelTouch:  # noqa: ARG001
     return ModelTouch(str(device.settings["sensor"]), name=device.id)
 
 
+def _display(site: Site, device: Device) -> Screen:  # noqa: ARG001
+    return Screen(name=device.id)
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
@@ -166,6 +171,7 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "camera": _camera,
     "rgbd": _camera,
     "touchsensor": _touch,
+    "display": _display,
     "model_camera": _model_camera,
     "model_rgbd": _model_camera,
     "model_imu": _model_imu,

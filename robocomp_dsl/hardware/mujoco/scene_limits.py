@@ -47,7 +47,7 @@ _LASER = {"min": _RANGE, "max": _RANGE, "angle": _ROUND, "noise": _NOISE}
 DEVICES: Mapping[str, Mapping[str, Limits]] = {
     "camera": _CAMERA,
     "rgbd": _CAMERA,
-    "laser": _LASER | {"measures": Limits(1, 100_000)},
+    "laser": _LASER | {"measures": Limits(1, 10_000)},
     "ultrasound": _LASER,
     "differentialrobot": {"noise": _NOISE},
     "omnirobot": {"noise": _NOISE},
@@ -59,6 +59,7 @@ DEVICES: Mapping[str, Mapping[str, Limits]] = {
         "altitude": _FAR,
         "noise": _NOISE,
     },
+    "skin": {"rate": Limits(1, 1000, usual=False)},
     "battery": {
         "capacity": Limits(1e-3, 1e9, usual=False),
         "voltage": Limits(1e-3, 1e6, usual=False),

@@ -17,7 +17,9 @@ from robocomp_dsl.hardware.mesh_file import MeshError, Surface, read_mesh
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.mesh_geom import is_flat
-from robocomp_dsl.hardware.mujoco.texture import TextureError, add_material
+from robocomp_dsl.hardware.mujoco.screen import add_screen
+from robocomp_dsl.hardware.mujoco.texture import add_material
+from robocomp_dsl.hardware.picture_file import PictureError, read_picture
 from robocomp_dsl.hardware.rotations import Matrix, rotation
 from robocomp_dsl.hardware.scene import Box, Mesh, Triple
 
@@ -34,20 +36,17 @@ _UPRIGHT = rotation(math.pi / 2, 0.0, 0.0)
 def add_box(spec: Any, body: Any, box: Box, notes: list[str]) -> None:
     """Put a box on `body`."""
     x, thick, y = _sized(box.size, box.id, notes)
-    made: dict[str, Any] = {
-        "size": [x, thick, y],
-        "quat": axes.quaternion(standing(box.normal)),
-        "rgba": _colour(box.colour, box.id, notes),
-    }
-    if box.texture:
-        try:
-            material = add_material(spec, Path(box.texture), box.tile * MM)
-        except TextureError as error:
-            notes.append(f"`{box.id}` has no picture: {box.texture}: {error}")
-        else:
-            # MuJoCo lays pictures on along the third axis of a box
-            turned = standing(box.normal) @ _UPRIGHT
-            made = {"size": [x, y, thick], "quat": axes.quaternion(turned), "material": material}
+    material = _material(spec, box, (x, y), notes)
+    if material:  # MuJoCo lays pictures on along the third axis of a box
+        turned = standing(box.normal) @ _UPRIGHT
+        made = {"size": [x, y, thick], "quat": axes.quaternion(turned), "material": material}
+    else:
+        colour = _colour(box.colour, box.id, notes)
+        made = {
+            "size": [x, thick, y],
+            "quat": axes.quaternion(standing(box.normal)),
+            "rgba": colour,
+        }
     body.add_geom(
         name=box.id,
         type=_GEOM.mjGEOM_BOX,
@@ -55,6 +54,25 @@ def add_box(spec: Any, body: Any, box: Box, notes: list[str]) -> None:
         **made,
         **_touch(box.collide),
     )
+
+
+def _material(spec: Any, box: Box, size: tuple[float, float], notes: list[str]) -> str:
+    """What is to be seen on a box: a picture, or a screen; empty for a colour."""
+    if not box.texture and not box.screen:
+        return ""
+    try:
+        if not box.screen:
+            return add_material(spec, Path(box.texture), box.tile * MM)
+        shown = read_picture(Path(box.texture)) if box.texture else None
+    except PictureError as error:
+        notes.append(f"`{box.id}` has no picture: {box.texture}: {error}")
+        if not box.screen:
+            return ""
+        shown = None
+    if shown is None:
+        colour = np.array(_colour(box.colour, box.id, notes)[:3]) * 255
+        shown = colour.astype(np.uint8).reshape(1, 1, 3)
+    return add_screen(spec, box.id, *size, shown)
 
 
 def standing(normal: Triple) -> Matrix:

@@ -6,26 +6,21 @@ shows it, once for each file; or a reason why there is none.
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Any
 
 import mujoco
 
-LARGEST = 1024
-"""Pixels along one side; a larger picture is made smaller."""
-
-
-class TextureError(Exception):
-    """There is no picture; the message says why."""
+from robocomp_dsl.hardware.picture_file import read_picture
 
 
 def add_material(spec: Any, path: Path, tile: float) -> str:
-    """The name of a material that repeats the picture every `tile` m. Raises `TextureError`."""
+    """The name of a material that repeats the picture every `tile` m. Raises `PictureError`."""
     name = f"{path}@{tile:g}"
     if any(one.name == name for one in spec.materials):
         return name
-    width, height, data = _pixels(path)
+    picture = read_picture(path)
+    height, width, _ = picture.shape
     texture = spec.add_texture(
         name=name,
         type=mujoco.mjtTexture.mjTEXTURE_2D,
@@ -33,35 +28,7 @@ def add_material(spec: Any, path: Path, tile: float) -> str:
         height=height,
         nchannel=3,
     )
-    texture.data = data
+    texture.data = picture[::-1].tobytes()  # MuJoCo begins below, pictures begin above
     material = spec.add_material(name=name, texuniform=True, texrepeat=[1 / tile, 1 / tile])
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
     return name
-
-
-def _pixels(path: Path) -> tuple[int, int, bytes]:
-    try:
-        from PIL import Image, UnidentifiedImageError  # noqa: PLC0415 - most worlds have no pictures
-    except ImportError:
-        raise TextureError("pictures need Pillow: pip install pillow") from None
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", Image.DecompressionBombWarning)
-            with Image.open(path) as picture:
-                picture.draft("RGB", (LARGEST, LARGEST))
-                picture.thumbnail((LARGEST, LARGEST))
-                # MuJoCo begins below, pictures begin above
-                shown = picture.convert("RGB").transpose(Image.Transpose.FLIP_TOP_BOTTOM)
-    except FileNotFoundError:
-        raise TextureError("No such file or directory") from None
-    except UnidentifiedImageError:
-        raise TextureError("it is no picture") from None
-    except (
-        OSError,
-        ValueError,
-        SyntaxError,
-        Image.DecompressionBombError,
-        Image.DecompressionBombWarning,
-    ) as error:
-        raise TextureError(str(error) or "it cannot be read") from None
-    return shown.width, shown.height, shown.tobytes()

@@ -16,6 +16,7 @@ from robocomp_dsl.hardware.servants.base import (
 from robocomp_dsl.hardware.servants.battery import BatteryServant
 from robocomp_dsl.hardware.servants.camera import CameraServant, RgbdServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.display import DisplayServant
 from robocomp_dsl.hardware.servants.full_pose import FullPoseServant
 from robocomp_dsl.hardware.servants.gps import GpsServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
@@ -45,6 +46,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompCameraSimple::CameraSimple": CameraServant,
     "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,
+    "RoboCompDisplay::Display": DisplayServant,
     "RoboCompRGBD::RGBD": SeenServant,
     "RoboCompGPS::GPS": GpsServant,
     "RoboCompUltrasound::Ultrasound": UltrasoundServant,

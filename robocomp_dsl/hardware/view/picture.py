@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 _MOST_GEOMS = 200_000
 _FRAME = mujoco.mjtFrame
 _LABEL = mujoco.mjtLabel
+SCREEN = ".screen"
+"""Behind the names of textures that change while they are being looked at."""
 _SKY = 0.4
 """Of the way to the far plane: the box of the sky is not nearer, scenes are much smaller."""
 LARGEST = 8192
@@ -67,6 +69,7 @@ class Painter:
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
         most = min(_MOST_GEOMS, 1000 + 8 * model.ngeom + model.nsite)
         self._scene = mujoco.MjvScene(model, maxgeom=most)
+        self._screens = {i: _checksum(model, i) for i in range(model.ntex) if _is_screen(model, i)}
 
     def __enter__(self) -> Self:
         return self
@@ -90,11 +93,20 @@ class Painter:
             option.flags[flag] = look.contacts
         everything = mujoco.mjtCatBit.mjCAT_ALL
         mujoco.mjv_updateScene(self.model, data, option, None, camera, everything, self._scene)
+        self._refresh()
         view = mujoco.MjrRect(0, 0, self.width, self.height)
         mujoco.mjr_render(view, self._scene, self._context)
         made = np.empty((self.height, self.width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(made, None, view, self._context)
         return made[::-1]
+
+    def _refresh(self) -> None:
+        """Screens that show something else than they did are seen so from now on."""
+        for texture, known in self._screens.items():
+            now = _checksum(self.model, texture)
+            if now != known:
+                self._screens[texture] = now
+                mujoco.mjr_uploadTexture(self.model, self._context, texture)
 
     def depths(self) -> NDArray[np.float32]:
         """How far ahead of the camera is what was painted last: m, infinite where nothing is.
@@ -132,6 +144,16 @@ class Painter:
         camera.distance = look.distance * radius / math.sin(opening / 2)
         camera.azimuth, camera.elevation = look.azimuth, look.elevation
         return camera
+
+
+def _is_screen(model: Any, texture: int) -> bool:
+    return str(model.texture(texture).name).endswith(SCREEN)
+
+
+def _checksum(model: Any, texture: int) -> int:
+    first = int(model.tex_adr[texture])
+    size = int(model.tex_width[texture]) * int(model.tex_height[texture])
+    return zlib.crc32(model.tex_data[first : first + size * int(model.tex_nchannel[texture])])
 
 
 def surroundings(model: Any, data: Any) -> tuple[Floats, Floats]:
