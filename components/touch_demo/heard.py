@@ -75,10 +75,13 @@ class Heard:
         """The latest simulated time in s."""
         return max(self._frames[-1][0], self._arm[-1][0])
 
-    @property
-    def force(self) -> Floats:
-        """The latest forces (n,) in N."""
-        return self._frames[-1][1]
+    def felt_within(self, seconds: float) -> Floats:
+        """The largest force on each taxel within the last seconds, (n,) in N."""
+        with self.news:
+            since = self._frames[-1][0] - seconds
+            latest = [force for time, force in self._frames if time >= since]
+        felt: Floats = np.max(latest, axis=0)
+        return felt
 
     @property
     def angles(self) -> Floats:

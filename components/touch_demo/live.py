@@ -1,4 +1,4 @@
-"""The robot in the browser while it is touched, each taxel in the colour of what it feels.
+"""The robot in the browser while it is touched, each taxel in the colour of what it has just felt.
 
 In: the running simulation, the skin, what is heard of it. Out: a page on this machine alone, until
 `close`. Needs the extra `view`.
@@ -26,6 +26,8 @@ HIGHEST = 2.0
 _PICTURES = 20.0  # per second
 _DOT = 0.006
 _DISTANCE = 0.45
+_GLOW_S = 0.4
+"""Touches are short, and are seen for so long."""
 
 log = logging.getLogger("touch_demo")
 
@@ -71,8 +73,8 @@ class Live:
             self.show()
 
     def show(self) -> None:
-        """Give the taxels the colours of the latest frame; what has not changed is not sent."""
-        force = self._heard.force
+        """Give the taxels their colours; what has not changed is not sent."""
+        force = self._heard.felt_within(_GLOW_S)
         for name in self._skin.limbs:
             mine = self._skin.of(name)
             colours = _bytes(force[mine])

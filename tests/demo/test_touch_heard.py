@@ -45,7 +45,15 @@ def test_frames_of_another_length_are_not_taken(heard) -> None:
     heard.frame(frame(0.0, mine()))
     heard.frame(frame(0.02, size=3))
     assert heard.free_since == float("inf")
-    assert len(heard.force) == len(skin().limb)
+    assert len(heard.felt_within(1.0)) == len(skin().limb)
+
+
+def test_what_was_felt_just_now_is_the_largest_of_it(heard) -> None:
+    for i, felt in enumerate([(others(),), (mine(),), ()]):
+        heard.frame(frame(0.02 * i, *felt))
+    assert not heard.felt_within(0.01).any()
+    assert np.flatnonzero(heard.felt_within(0.03)).tolist() == [mine()]
+    assert np.flatnonzero(heard.felt_within(1.0)).tolist() == sorted([mine(), others()])
 
 
 @pytest.mark.parametrize(

@@ -107,5 +107,5 @@ def test_a_real_browser_shows_the_touch(tmp_path: Path) -> None:
         before = warm(tab.picture())
         heard.frame(frame(0.02, it.force[np.argmax(it.force.any(axis=1))]))
         wait_for(lambda: warm(tab.picture()) > before + 10)
-        heard.frame(frame(0.04, it.force[0]))
+        heard.frame(frame(1.0, it.force[0]))
         wait_for(lambda: warm(tab.picture()) <= before + 2)
