@@ -7,8 +7,8 @@ import re
 _OUTERMOST = re.compile(rb"<\s*([A-Za-z_][\w.:-]*)")
 _SKIPPED = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!DOCTYPE[^>]*>", re.DOTALL)
 
-MODELS = {"robot": ".urdf", "mujoco": ".xml"}
-"""The outermost tags of URDF and MJCF, and how their files end."""
+MODELS = {"robot": ".urdf", "mujoco": ".xml", "mujocoinclude": ".xml"}
+"""The outermost tags of URDF, MJCF and of parts of MJCF, and how their files end."""
 
 
 def outermost(data: bytes) -> str:

@@ -144,7 +144,9 @@ BAD = {
     "</worldbody></mujoco>": ("RC653", "`in` and"),
     '<mujoco><worldbody><body name="b"><joint name="j"/><geom size=".1"/></body></worldbody>'
     '<keyframe><key name="k" qpos="1 2"/></keyframe></mujoco>': ("RC651", "`k`"),
-    "<mujoco/>" * 2: ("", ""),
+    "<mujocoinclude/>": ("RC651", "give the file that includes it"),
+    '<mujoco><compiler settotalmass="3"/><worldbody><body><freejoint/><geom size=".1"/></body>'
+    "</worldbody></mujoco>": ("RC652", "settotalmass"),
 }
 
 

@@ -6,6 +6,7 @@ is not as described; `ModelFileError` when there is no model, with the lines tha
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -48,6 +49,8 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Find
             return build_urdf(read_urdf(data), path, packages)
         case "mujoco":
             return build_mjcf(path, packages)
+        case "mujocoinclude":
+            raise ModelFileError("this is a part of a model: give the file that includes it")
         case tag:
             said = f"the outermost element is `<{tag}>`" if tag else "the file holds no element"
             raise ModelFileError(f"{said}, a model begins with `<robot>` or `<mujoco>`")
@@ -57,22 +60,26 @@ def compiled(spec: Any, findings: list[Finding]) -> Any:
     """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
     make_room(spec)
     try:
-        model = _compile(spec)
+        model = _compile(spec, findings)
     except ModelFileError as error:
         if _WEIGHTLESS not in str(error):
             raise
         spec.compiler.boundmass, spec.compiler.boundinertia = _LIGHTEST, _LIGHTEST * 1e-3
-        model = _compile(spec)
+        model = _compile(spec, findings)
         findings += _light(model)
     findings += overlaps(model)
     return model
 
 
-def _compile(spec: Any) -> Any:
-    try:
-        return spec.compile()
-    except (ValueError, mujoco.FatalError) as error:
-        raise located(error) from None
+def _compile(spec: Any, findings: list[Finding]) -> Any:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        try:
+            model = spec.compile()
+        except (ValueError, mujoco.FatalError) as error:
+            raise located(error) from None
+    findings += [Finding("file", "", str(one.message)) for one in told]
+    return model
 
 
 def _light(model: Any) -> list[Finding]:

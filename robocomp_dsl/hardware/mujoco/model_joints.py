@@ -32,6 +32,8 @@ _PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
 _STRONG = 2.0
 """A joint of unknown force holds so many times the weight that it may carry."""
 
+_MOST_NAMED = 5
+
 _SLOWEST = 0.001
 _SLOWNESS = 1.0
 """Least inertia [kg m²] of a joint for each N·m, and for each N·m and second of a step: a regulator
@@ -46,7 +48,7 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
     motors = _motors(model)
     followers = _followers(model)
     boards = _boards(model, started.findings)
-    made = []
+    made, light = [], list[tuple[str, float]]()
     for joint in (*boards, *(one for one in range(model.njnt) if one not in boards)):
         name = model.joint(joint).name
         kind = _KINDS.get(mujoco.mjtJoint(model.jnt_type[joint]))
@@ -57,13 +59,22 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
             said = "followingjoint" if joint in followers else "passivejoint"
             made.append({"id": name, "kind": said, "frame": frames[name], "settings": {}})
             continue
-        settings = _settings(model, joint, kind, motors.get(joint, []), started)
+        settings = _settings(model, joint, kind, motors.get(joint, []), started, light)
         settings["board"] = boards.get(joint, "")
         made.append({"id": name, "kind": kind, "frame": frames[name], "settings": settings})
+    if light:
+        started.findings.append(_told(light))
     return made
 
 
-def _settings(model: Any, joint: int, kind: str, motors: list[int], started: Started) -> Data:
+def _settings(
+    model: Any,
+    joint: int,
+    kind: str,
+    motors: list[int],
+    started: Started,
+    light: list[tuple[str, float]],
+) -> Data:
     name = model.joint(joint).name
     known = _force(model, joint, motors)
     force = known or max(FORCE[_MOVES[kind]], _STRONG * _weight(model, joint, kind))
@@ -72,7 +83,7 @@ def _settings(model: Any, joint: int, kind: str, motors: list[int], started: Sta
         "speed": _speed(model, name, started.findings) or SPEED[_MOVES[kind]],
         "force": force,
         "home": float(home),
-        "armature": _armature(model, joint, force, started.findings),
+        "armature": _armature(model, joint, force, light),
     }
     if model.jnt_limited[joint]:
         made["low"], made["high"] = model.jnt_range[joint].tolist()
@@ -171,10 +182,10 @@ def _reach(model: Any, body: int) -> float:
     return max(way + float(np.linalg.norm(model.body_ipos[one])) for one, way in far.items())
 
 
-def _armature(model: Any, joint: int, force: float, findings: list[Finding]) -> float:
+def _armature(model: Any, joint: int, force: float, light: list[tuple[str, float]]) -> float:
     """The motor's inertia, with what a regulator of so much force needs to stay calm.
 
-    A file that tells none leaves it open, one that tells too little hears of it.
+    A file that tells none leaves it open; of one that tells too little, the joint is `light`.
     """
     dof = int(model.jnt_dofadr[joint])
     there = float(model.dof_armature[dof])
@@ -183,9 +194,13 @@ def _armature(model: Any, joint: int, force: float, findings: list[Finding]) -> 
     if missing <= 0:
         return there
     if there:
-        name = model.joint(joint).name
-        said = (
-            f"`{name}` is too light for its motor of {force:g}: it gets {missing:.2g} of armature"
-        )
-        findings.append(Finding("joint", name, said))
+        light.append((model.joint(joint).name, there + missing))
     return there + missing
+
+
+def _told(light: list[tuple[str, float]]) -> Finding:
+    """One finding for all joints that are too light."""
+    named = ", ".join(f"`{name}` ({armature:.2g})" for name, armature in light[:_MOST_NAMED])
+    more = f" and {len(light) - _MOST_NAMED} more" if len(light) > _MOST_NAMED else ""
+    said = f"too light for their motors at this step, they get more `armature`: {named}{more}"
+    return Finding("joint", light[0][0], said)

@@ -7,6 +7,7 @@ bit for bit.
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Collection, Iterable
 from typing import Any, Protocol
 
@@ -59,7 +60,9 @@ class World:
         for part in self._parts:
             part.build(spec)
         try:
-            self.model = spec.compile()
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # told of a model file when it was read
+                self.model = spec.compile()
         except ValueError as error:
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
