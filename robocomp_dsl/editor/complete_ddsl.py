@@ -12,6 +12,7 @@ from robocomp_dsl.check.components import imported_components
 from robocomp_dsl.check.qos import PRIORITIES
 from robocomp_dsl.check.wiring import SOURCES, TARGETS
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.editor import complete_devices
 from robocomp_dsl.editor.cursor import Cursor
 from robocomp_dsl.editor.names_cdsl import port_symbol
 from robocomp_dsl.editor.names_cdsl import symbol as component_symbol
@@ -32,8 +33,11 @@ def names(session: Session, cursor: Cursor) -> Iterator[Offer]:
     first, last = (kinds or [""])[0], cursor.last
     trees = [one.tree for one in session.checks_to_complete(cursor.path)]
     files = [tree for tree in trees if isinstance(tree, ast.File)]
-    instances = {i.name.text: (i.component or i.name).text for i in _all_instances(files)}
-    if first == "COMPONENT" and last in ("COMPONENT", "COLON"):
+    everyone = list(_all_instances(files))
+    instances = {i.name.text: (i.component or i.name).text for i in everyone}
+    if complete_devices.in_devices(cursor):
+        yield from complete_devices.names(cursor, everyone)
+    elif first == "COMPONENT" and last in ("COMPONENT", "COLON"):
         components = _components(session, cursor, files).values()
         kind = lsp.CompletionItemKind.Class
         yield from (Offer(c.name, kind, "component", component_symbol(c)) for c in components)

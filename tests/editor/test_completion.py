@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+
 import project
 import pytest
 from editor_client import Editor, edited
 from lsprotocol import types as lsp
 
-pytestmark = pytest.mark.asyncio
+from robocomp_dsl.editor import complete_devices
+from robocomp_dsl.hardware.plumbing.boards import board_kinds
+from robocomp_dsl.hardware.plumbing.description import ACTING, Verb
 
 IDSL = "module M\n{{\n    enum Mode {{ Slow, Fast }};\n    struct S {{ {} }};\n    {}\n}};\n"
 CDSL = 'import "Laser.idsl";\nComponent c\n{{\n    Communications {{ {} }};\n    {}\n}};\n'
@@ -15,6 +19,8 @@ DDSL = (
     'import "reader.cdsl";\nimport "base.cdsl";\nDeployment d\n{{\n    host far {{ }};\n'
     "    component eye : reader {{ {} }};\n    component base;\n    {}\n}};\n"
 )
+
+ARM = "device arm : control_board; device zeroing : calibrator;"
 
 # file, text with the place, what must be offered, what must not
 CASES: list[tuple[str, str, set[str], set[str]]] = [
@@ -57,6 +63,14 @@ CASES: list[tuple[str, str, set[str], set[str]]] = [
     ("d.ddsl", DDSL.format("", "connect eye.Laser -> base.|"), {"Laser"}, {"eye"}),
     ("d.ddsl", DDSL.format("", "connect base.|"), set(), {"Laser"}),
     ("d.ddsl", DDSL.format("", "|"), {"component", "connect", "host"}, {"set", "after"}),
+    ("d.ddsl", DDSL.format("device arm : |", ""), {"control_board", "cartesian"}, {"eye"}),
+    ("d.ddsl", DDSL.format("device arm : cartesian { set | };", ""), {"tip", "base"}, {"rate"}),
+    ("d.ddsl", DDSL.format(f"{ARM} attach |", ""), {"arm", "zeroing"}, {"eye"}),
+    ("d.ddsl", DDSL.format(f"{ARM} attach zeroing to |", ""), {"arm"}, {"eye"}),
+    ("d.ddsl", DDSL.format(f"{ARM} on |", ""), {"startup", "interrupt1", "shutdown"}, {"far"}),
+    ("d.ddsl", DDSL.format(f"{ARM} on startup level 5 |", ""), {"calibrate", "park"}, {"arm"}),
+    ("d.ddsl", DDSL.format(f"{ARM} on startup level 5 park |", ""), {"arm"}, {"park", "eye"}),
+    ("d.ddsl", DDSL.format(f"{ARM} on startup level 5 park arm by |", ""), {"zeroing"}, {"eye"}),
 ]  # fmt: skip
 
 
@@ -67,6 +81,7 @@ async def offered(editor: Editor, name: str, marked: str) -> dict[str, lsp.Compl
     return {one.label: one for one in found}
 
 
+@pytest.mark.asyncio
 async def test_what_is_offered(editor: Editor) -> None:
     project.write(editor)
     for name, marked, wanted, unwanted in CASES:
@@ -76,6 +91,7 @@ async def test_what_is_offered(editor: Editor) -> None:
         editor.close(name)
 
 
+@pytest.mark.asyncio
 async def test_interface_that_is_not_imported_brings_its_import(editor: Editor) -> None:
     project.write(editor)
     marked = CDSL.format("requires IM|", "")
@@ -87,6 +103,7 @@ async def test_interface_that_is_not_imported_brings_its_import(editor: Editor) 
     assert after.startswith('import "Laser.idsl";\nimport "IMU.idsl";\n')
 
 
+@pytest.mark.asyncio
 async def test_documentation_comes_along(editor: Editor) -> None:
     project.write(editor)
     item = (await offered(editor, "c.cdsl", CDSL.format("requires |", "")))["Laser"]
@@ -94,6 +111,7 @@ async def test_documentation_comes_along(editor: Editor) -> None:
     assert "A planar laser." in item.documentation.value
 
 
+@pytest.mark.asyncio
 async def test_half_typed_file_keeps_its_last_good_model(editor: Editor) -> None:
     whole = "module M\n{\n    struct S { | };\n    enum Mode { Slow, Fast };\n};\n"
     broken = whole.replace("Slow, Fast };", "Slow, = (;")
@@ -105,3 +123,10 @@ async def test_half_typed_file_keeps_its_last_good_model(editor: Editor) -> None
     found = await editor.client.text_document_completion_async(params)
     assert isinstance(found, list | tuple)
     assert "Mode" in {one.label for one in found}
+
+
+def test_the_kinds_of_devices_are_those_that_simulators_host() -> None:
+    hosted = board_kinds({}, nullcontext(), lambda *_: pytest.fail("no chain is asked for"))
+    assert set(complete_devices.KINDS) == set(hosted)
+    assert set(complete_devices.PHASES) == set(ACTING)
+    assert set(complete_devices.VERBS) == set(Verb)
