@@ -2,11 +2,14 @@
 
 A lock of Python lets the thread that gave it back take it again at once, so that a simulation
 which never rests would never let a caller in. Here the next one waits at the door and goes first.
+The one that works on it between the turns of all others rests until one of these is over.
 """
 
 from __future__ import annotations
 
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 
 
 class Turns:
@@ -15,6 +18,8 @@ class Turns:
     def __init__(self) -> None:
         self._door = threading.Lock()
         self._room = threading.Lock()
+        self._silence = threading.Lock()  # held by nobody when somebody has rung
+        self._silence.acquire()
 
     def __enter__(self) -> None:
         with self._door:
@@ -22,3 +27,24 @@ class Turns:
 
     def __exit__(self, *_: object) -> None:
         self._room.release()
+        self._ring()
+
+    @contextmanager
+    def at_work(self) -> Iterator[None]:
+        """The turn of the worker, which sees all that was done in turns before."""
+        with self._door:
+            self._room.acquire()
+        try:
+            self._silence.acquire(blocking=False)
+            yield
+        finally:
+            self._room.release()
+
+    def rest(self, seconds: float) -> bool:
+        """Of the worker: wait until somebody has had a turn since its own; whether that was so."""
+        return self._silence.acquire(timeout=max(seconds, 0.0))
+
+    def _ring(self) -> None:
+        if self._silence.locked():
+            with suppress(RuntimeError):  # somebody else has just rung
+                self._silence.release()

@@ -113,6 +113,11 @@ class Simulation:
         """Length of one step of the physics in s."""
         return self.world.step
 
+    @property
+    def left(self) -> float:
+        """Simulated seconds to the next step."""
+        return self.world.step - (self.world.reached - self.world.time)
+
     def become(self, branch: Branch) -> None:
         """Go on from here; the devices of before are no longer those of the world."""
         self.branch = branch

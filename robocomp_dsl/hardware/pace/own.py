@@ -1,6 +1,7 @@
 """A world that lives by the clock of the machine: it advances in a thread of its own.
 
-In: a world and a wished speed. Out: time that passes, and how fast it does.
+In: a world and a wished speed. Out: time that passes, and how fast it does. Who has had a turn at
+the world, with a command maybe, sees it go on as soon as a step is due.
 """
 
 from __future__ import annotations
@@ -67,27 +68,34 @@ class OwnPace:
             self._thread.join()
 
     def _live(self) -> None:
-        due = time.perf_counter()
+        last, owed = time.perf_counter(), 0.0
         while not self._stopping.is_set():
             begun = time.perf_counter()
-            due = max(due, begun - MOST_BEHIND) + SLICE
-            with self._world.turns:
-                passed = self._slice()
+            owed, last = min(owed + begun - last, MOST_BEHIND), begun
+            with self._world.turns.at_work():
+                passed = self._slice(min(owed, SLICE))
+                due = self._world.left
             self._world.tell()
-            now = time.perf_counter()
-            if self.speed and due > now:
-                self._stopping.wait(due - now)
-            elif self.paused or self._world.failure:
+            owed = max(owed - SLICE, 0.0)
+            if self.paused or self._world.failure:
                 self._stopping.wait(SLICE)
+            elif self.speed and owed < SLICE:
+                since = begun - owed
+                self._rest(since + SLICE, since + due / self.speed)
             self._measure(passed, time.perf_counter() - begun)
 
-    def _slice(self) -> float:
-        """One turn; the simulated seconds that have passed."""
+    def _rest(self, end: float, due: float) -> None:
+        """Until `end`; or until somebody has had a turn and the next step is `due`."""
+        if self._world.turns.rest(end - time.perf_counter()):
+            time.sleep(max(min(due, end) - time.perf_counter(), 0.0))
+
+    def _slice(self, seconds: float) -> float:
+        """One turn of so many seconds of the wall clock; the simulated seconds that have passed."""
         world = self._world
         if self.paused or world.failure:
             return 0.0
         before = world.time
-        wanted = SLICE * self.speed if self.speed else 10 * world.dt
+        wanted = seconds * self.speed if self.speed else 10 * world.dt
         try:
             world.advance(wanted)
         except Diverged:

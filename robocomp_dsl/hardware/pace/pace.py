@@ -5,8 +5,9 @@ In: nothing. Out: the two Protocols.
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
-from typing import Any, Protocol
+from typing import Protocol
+
+from robocomp_dsl.hardware.turns import Turns
 
 
 class Paced(Protocol):
@@ -15,7 +16,7 @@ class Paced(Protocol):
     failure: str
 
     @property
-    def turns(self) -> AbstractContextManager[Any]:
+    def turns(self) -> Turns:
         """Who may touch it."""
 
     @property
@@ -25,6 +26,10 @@ class Paced(Protocol):
     @property
     def dt(self) -> float:
         """Length of one step of the physics in s."""
+
+    @property
+    def left(self) -> float:
+        """Simulated seconds to the next step."""
 
     def advance(self, seconds: float) -> None:
         """Let time pass. Raises `Diverged`."""
