@@ -12,14 +12,13 @@ from typing import Any
 
 import numpy as np
 import shipped_component
-from stepped import TICK, Stage, Stepped
+from stepped import TICK, Cast, Stage, Stepped
 
 from robocomp_dsl.hardware.robots import catalog
 from robocomp_dsl.hardware.robots.catalog import description
 from robocomp_dsl.runtime import CalledPort, ComponentSpec, ServedPort
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.clock_interface import ClockProxy
-from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.tactile.arm.generic_arm import GenericArm
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.reflex import law
@@ -222,7 +221,7 @@ class Touched(Stage):
     ) -> None:
         given = {"description": DESCRIPTIONS / f"{robot}.yaml", "part": side, **said}
         overrides = tuple(f"{key}={value}" for key, value in given.items())
-        super().__init__(kind.of(robot, side), [(REFLEX.worker, RunSettings(), overrides)])
+        super().__init__(Cast(kind.of(robot, side)), Cast(REFLEX.worker, overrides))
         self.reflex = self.proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
 
     @property

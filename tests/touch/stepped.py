@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 import uuid
-from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from typing import Any
 
 from robocomp_dsl.runtime import Component
@@ -21,14 +21,16 @@ from robocomp_dsl.runtime.runner import Runner
 from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.runtime.statistics import Statistics
 
-DEADLINE = 60.0
+DEADLINE = 120.0
 TICK = 0.02
+NAMELESS = RunSettings()
 
 
 class Stepped(Component):
     """Makes the time of all. `tick` is what it does in one of its periods."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.left = 0
         self.idle, self.wanted = threading.Event(), threading.Event()
         self.over = False
@@ -53,33 +55,36 @@ class Stepped(Component):
             self.tick()
 
 
+@dataclass(frozen=True)
+class Cast:
+    """One component that takes part: its parameters as on a command line, its name and wires."""
+
+    worker: type[Component]
+    said: tuple[str, ...] = ()
+    settings: RunSettings = NAMELESS
+
+
 class Stage:
     """One `Stepped` and those who follow it, in a domain of their own."""
 
-    def __init__(
-        self, source: type[Component], others: Iterable[tuple[type[Component], RunSettings, Any]]
-    ) -> None:
+    def __init__(self, source: Cast, *others: Cast) -> None:
         self.domain = uuid.uuid4().hex[:8]
-        others = list(others)
-        names = tuple(s.name or one.SPEC.name for one, s, _ in others)
-        clock = ClockSettings("lockstep", source.SPEC.name, names)
-        self.runners = [
-            Runner(
-                one,
-                one.SPEC.parameters.load(None, said) if isinstance(said, tuple) else said,
-                RunSettings(
-                    name=s.name, domain=self.domain, middleware="inproc", wires=s.wires, clock=clock
-                ),
-            )
-            for one, s, said in others
-        ]
-        mine = RunSettings(domain=self.domain, middleware="inproc", clock=clock)
-        self.source = Runner(source, source.SPEC.parameters.load(), mine)
+        names = tuple(one.settings.name or one.worker.SPEC.name for one in others)
+        self._clock = ClockSettings("lockstep", source.worker.SPEC.name, names)
+        self.runners = [self._runner(one) for one in others]
+        self.source = self._runner(source)
         host = Host("looker", self.domain, Execution(), Statistics())
         self._middleware = open_middleware("inproc", host)
         for one in (*self.runners, self.source):
             one.start()
         self._idle()
+
+    def _runner(self, one: Cast) -> Runner:
+        params = one.worker.SPEC.parameters.load(None, one.said)
+        settings = replace(
+            one.settings, domain=self.domain, middleware="inproc", clock=self._clock
+        )
+        return Runner(one.worker, params, settings)
 
     @property
     def world(self) -> Any:
@@ -89,12 +94,12 @@ class Stage:
         return self.runners[index].worker
 
     def proxy(self, kind: Any, component: str, port: str) -> Any:
-        at = Endpoint(kind.INTERFACE, "looker", port, (component,))
+        at = Endpoint(kind.INTERFACE, "looker", port, (f"{component}.{port}",))
         return kind(self._middleware.proxy(at))
 
     def run(self, seconds: float) -> None:
         """Let so much simulated time pass; all is at rest then."""
-        ticks = round(seconds / TICK)
+        ticks = round(1000 * seconds / self.source.spec.period)
         self.world.idle.clear()
         self.world.left = ticks
         self.world.wanted.set()

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from puppet import Touched
+from puppet import REFLEX, Touched, words
 
 
 @pytest.fixture
@@ -39,3 +39,8 @@ def test_a_touch_withdraws_holds_and_returns(touched: Touched) -> None:
     assert touched.reflex.getStatistics().withdrawals == 1
     assert len(touched.robot.moves) == 2
     assert np.isfinite(touched.robot.poses).all()
+
+
+def test_the_states_of_the_machine_are_those_that_the_interface_tells() -> None:
+    machine = REFLEX.worker.SPEC.machine
+    assert {one.name for one in machine.states} == {one.name for one in words.ReflexState}

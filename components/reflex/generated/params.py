@@ -13,7 +13,7 @@ class ReflexParams(Parameters):
         Parameter(
             "description",
             "string",
-            doc="YAML file with the generic parts of the robot; searched like a configuration unless absolute.",
+            doc="File that describes the generic parts of the robot; looked for beside the configuration, then where these are.",
         ),
         Parameter(
             "part",
@@ -157,7 +157,7 @@ class ReflexParams(Parameters):
             doc="Both must be there again for so long before it acts.",
         ),
     )
-    # YAML file with the generic parts of the robot; searched like a configuration unless absolute.
+    # File that describes the generic parts of the robot; looked for beside the configuration, then where these are.
     description: str
     # The part whose receptive fields are watched, and which is moved.
     part: str

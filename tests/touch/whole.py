@@ -1,0 +1,153 @@
+"""The shipped simulator of a robot, generic_arm and reflex, as they are, in one process.
+
+They live in lock-step, so that a test sees the same each time and as fast as it can be. The finger
+is the simulator's own: it is put before a place and then moved by its control board.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import shipped_component
+from puppet import REFLEX, proxy_of, words
+from stepped import Cast, Stage, Stepped
+
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.description.located import UNITS
+from robocomp_dsl.tactile.description.read import load_robot
+from robocomp_dsl.tactile.reflex.law import Field
+
+BOARDS = {
+    ("nao", "left_arm"): "LArm",
+    ("nao", "right_arm"): "RArm",
+    ("icub", "left_arm"): "left_arm",
+    ("icub", "right_arm"): "right_arm",
+}
+ARM = shipped_component.load("generic_arm")
+
+
+def held(worker: Any) -> Any:
+    """The simulator, but its time goes on only when the test says so."""
+
+    class Held(Stepped, worker):  # type: ignore[misc]
+        def initialize(self) -> None:
+            worker.initialize(self)
+            self.recorded: list[tuple[Floats, Floats]] = []
+
+        def tick(self) -> None:
+            worker.compute(self)
+            data = self.simulation.world.data
+            self.recorded.append((data.qpos.copy(), data.qvel.copy()))
+
+    return Held
+
+
+class Whole(Stage):
+    """`said` are parameters of the reflex. The arm has gone to its start pose."""
+
+    def __init__(self, robot: str, side: str, **said: object) -> None:
+        self.name, self.side = f"{robot}_simulator", side
+        simulator = shipped_component.load(self.name)
+        description = Path(simulator.folder) / "tactile.yaml"
+        self.part = load_robot(description).part(side)
+        both = (f"description={description}", f"part={side}")
+        wires = {"board": (f"{self.name}.{BOARDS[robot, side]}",)}
+        super().__init__(
+            Cast(held(simulator.worker), ("speed=0",)),
+            Cast(ARM.worker, (*both, "begin=start"), RunSettings(wires=wires)),
+            Cast(REFLEX.worker, (*both, *(f"{k}={v}" for k, v in said.items()))),
+        )
+        self.reflex = self.proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
+        self.finger = self.proxy(proxy_of(ARM.interfaces.CONTROLBOARD), self.name, "finger")
+        self.arm = self.proxy(proxy_of(words.GENERICARM), "generic_arm", "GenericArm")
+        simulation = self.world.simulation
+        self.model, self.data = simulation.world.model, simulation.world.data
+        self.radius = float(self.model.geom_size[self._finger_geom()][0])
+
+    def _finger_geom(self) -> int:
+        body = self.model.joint("finger_x").bodyid[0]
+        return int(next(g for g in range(self.model.ngeom) if self._is_finger(g, body)))
+
+    def _is_finger(self, geom: int, body: int) -> bool:
+        """Whether the body of the geom hangs on that of the finger's first joint."""
+        at = self.model.geom_bodyid[geom]
+        while at and at != body:
+            at = self.model.body_parentid[at]
+        return bool(at)
+
+    @property
+    def state(self) -> str:
+        (state,) = self.worker(1).machine.states
+        return str(state)
+
+    def field(self, name: str) -> Field:
+        return next(one for one in self.part.fields if one.name == name)
+
+    def until(self, state: str, seconds: float = 10.0) -> None:
+        end = self.world.clock.now() + seconds
+        while self.state != state:
+            assert self.world.clock.now() < end, f"still {self.state}: {self.worker(1).reason}"
+            self.run(0.02)
+
+    def joints(self) -> tuple[Floats, Floats]:
+        """Angles and speeds (t, m) that the arm's own joints have had so far, as shares.
+
+        0 and 1 are the limits of an angle; 1 is the largest speed.
+        """
+        made = [servo for servo in self.part.servos if servo.joint]
+        joints = [self.model.joint(servo.joint) for servo in made]
+        angles = np.array([q[[j.qposadr[0] for j in joints]] for q, _ in self.world.recorded])
+        speeds = np.array([v[[j.dofadr[0] for j in joints]] for _, v in self.world.recorded])
+        unit = np.array([UNITS[servo.unit] for servo in made])
+        low, high = (unit * [getattr(s, end) for s in made] for end in ("low", "high"))
+        return (angles - low) / (high - low), np.abs(speeds) / (unit * [s.speed for s in made])
+
+    def felt(self) -> float:
+        """What the whole skin feels, in N."""
+        return float(self.world.simulation.skin.frame.force.sum())
+
+    def spot(self, field: Field) -> Floats:
+        """Where the centre of a field is in the world."""
+        limb = self.part.limb(field.limb)
+        body = self.data.body(limb.body)
+        return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
+
+    def put_finger(self, field: Field, off: float) -> Floats:
+        """Put it `off` before the skin at the field's centre, at rest; the way in, of length 1."""
+        limb = self.part.limb(field.limb)
+        body = self.data.body(limb.body)
+        turn = body.xmat.reshape(3, 3)
+        out = np.array([0.0, *field.centre[1:]])
+        way = turn @ limb.axes @ (out / np.linalg.norm(out))
+        axis = turn @ limb.to_body(np.array([field.centre[0], 0, 0])) + body.xpos
+        start, geom = axis + 0.055 * way, np.zeros(1, np.int32)
+        finger = int(self.model.geom_bodyid[self._finger_geom()])
+        far = mujoco.mj_ray(self.model, self.data, start, -way, None, 1, finger, geom)
+        goal = start - (far - self.radius - off) * way
+        self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
+        at = self.data.geom_xpos[self._finger_geom()]
+        for name, step in zip(("finger_x", "finger_y", "finger_z"), goal - at, strict=True):
+            self.data.joint(name).qpos[0] += step
+            self.data.joint(name).qvel[0] = 0.0
+        mujoco.mj_forward(self.model, self.data)
+        self.run(0.02)
+        self.finger.setControlMode([], ARM.interfaces.ControlMode.Position)
+        return -way
+
+    def press(self, field: Field, deep: float) -> None:
+        """Send the finger in along the normal; it takes about 0.1 s, and stays."""
+        way = self.put_finger(field, 0.003)
+        step = (0.003 + deep) * way
+        self.finger.setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
+        self.finger.relativeMove([], step)
+
+    def take_away(self) -> None:
+        """Where it can touch nothing."""
+        for name in ("finger_x", "finger_y", "finger_z"):
+            joint = self.model.joint(name)
+            self.data.joint(name).qpos[0] = joint.range[1]
+            self.data.joint(name).qvel[0] = 0.0
