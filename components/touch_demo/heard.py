@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from recording import Answer, Floats, Press, Recording, Skin
 
+_FROZEN = "Frozen"
+
 
 class Heard:
     """`news` is notified of all about `part`. All of it is kept, or the `most` latest of a kind."""
@@ -25,6 +27,7 @@ class Heard:
         self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=most)
         self._fingers: deque[tuple[float, Floats]] = deque(maxlen=most)
         self._answers: deque[Answer] = deque(maxlen=most)
+        self._frozen = float("-inf")
         self.free_since = float("inf")
         """Since when the arm's skin has felt nothing; infinite while it feels something."""
 
@@ -57,6 +60,12 @@ class Heard:
             self._answers.append(told)
             self.news.notify_all()
 
+    def reflex_state(self, state: Any) -> None:
+        """`ReflexEvents`: what the reflex does from now on."""
+        with self.news:
+            if state.name == _FROZEN and self._frames:
+                self._frozen = self.now
+
     def finger_at(self, time: float, joints: Floats) -> None:
         """Where the finger was found."""
         with self.news:
@@ -87,6 +96,15 @@ class Heard:
     def angles(self) -> Floats:
         """The latest generic angles (5,)."""
         return self._arm[-1][1]
+
+    @property
+    def finger_seen(self) -> float:
+        """When the finger was seen last, in s."""
+        return self._fingers[-1][0] if self._fingers else float("-inf")
+
+    def frozen_since(self, time: float) -> bool:
+        """Whether the reflex has been frozen after that time, blind or without its arm."""
+        return self._frozen >= time
 
     @property
     def finger(self) -> Floats:

@@ -72,7 +72,7 @@ class Watching:
             (touch.SKINFRAME, ROBOT, "SkinFrame", {"frame": self.heard.frame}),
             (touch.GENERICARMSTATE, ARM, "GenericArmState", {"armState": self.heard.arm_state}),
             (touch.REFLEXEVENTS, REFLEX, "ReflexEvents",
-             {"reflex": self.heard.answer, "stateChanged": lambda _: None}),
+             {"reflex": self.heard.answer, "stateChanged": self.heard.reflex_state}),
         ):  # fmt: skip
             self._links.hear(interface, component, port, handlers)
         self._until(lambda: self.heard.complete, "frames of the skin and states of the arm")
@@ -130,8 +130,9 @@ class Watching:
         """Wait until the reflex watches and the arm stands still."""
 
         def calm() -> bool:
-            watches = self._asked(self._reflex.getStatistics).state == self._calm
-            return bool(watches) and self.heard.stands(_CALM_S, _STILL)
+            if not self.heard.stands(_CALM_S, _STILL):
+                return False
+            return bool(self._asked(self._reflex.getStatistics).state == self._calm)
 
         self._until(calm, "that the reflex watches and the arm stands still")
 
@@ -140,7 +141,8 @@ class Watching:
         until = self.now() + seconds
 
         def over() -> bool:
-            self._look_at_finger()
+            if self.now() >= self.heard.finger_seen + _LOOKS_S:
+                self._look_at_finger()
             return self.now() >= until
 
         self._until(over, f"{seconds:.2f} s of simulated time")

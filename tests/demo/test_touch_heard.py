@@ -77,6 +77,16 @@ def test_a_moment_is_too_short_to_tell_that_it_stands(heard) -> None:
     assert not heard.stands(0.04, 0.004)
 
 
+def test_a_frozen_reflex_is_remembered(heard) -> None:
+    heard.arm_state(state(0.0, 0.1))
+    heard.frame(frame(0.1))
+    heard.reflex_state(SimpleNamespace(name="Frozen"))
+    heard.frame(frame(0.2))
+    heard.reflex_state(SimpleNamespace(name="Returning"))
+    assert heard.frozen_since(0.1)
+    assert not heard.frozen_since(0.15)
+
+
 def test_all_of_it_becomes_a_recording(heard) -> None:
     heard.frame(frame(0.02, mine()))
     heard.arm_state(state(0.03, 0.1))
