@@ -35,7 +35,7 @@ def tell_faults(error: ModelFileError, source: Source, report: Report) -> None:
 def tell(findings: Iterable[Finding], source: Source, report: Report) -> None:
     """What is not as described, at its line or where its link or body begins."""
     for one in findings:
-        place = at_line(source, one.line) if one.line else _named(source, one.subject)
+        place = at_line(source, one.line) if one.line else _named(source, one)
         report.add(code_of(one), place, one.said)
 
 
@@ -53,7 +53,9 @@ def at_line(source: Source, number: int) -> Span:
     return source.span(start, start + len(text.strip()))
 
 
-def _named(source: Source, name: str) -> Span:
-    tag = rf"<(?:link|body|joint|tuple)\b[^<>]*\bname\s*=\s*([\"']){re.escape(name)}\1"
-    found = re.search(tag, source.text) if name else None
+def _named(source: Source, one: Finding) -> Span:
+    """The tag of what a finding is about."""
+    tags = "joint" if one.kind == "joint" else "link|body"
+    tag = rf"<(?:{tags})\b[^<>]*\bname\s*=\s*([\"']){re.escape(one.subject)}\1"
+    found = re.search(tag, source.text) if one.subject else None
     return source.span(*found.span()) if found else source.whole

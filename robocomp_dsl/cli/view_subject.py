@@ -33,7 +33,10 @@ from robocomp_dsl.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """`start` is what the joints have at first, by name, where that is not 0."""
+    """`start` is what the joints have at first, by name, where that is not 0.
+
+    A model file starts at the first of its key frames.
+    """
 
     name: str
     model: Any
@@ -42,6 +45,8 @@ class Subject:
     def data(self) -> Any:
         """Its state at the start."""
         data = mujoco.MjData(self.model)
+        if self.model.nkey:
+            mujoco.mj_resetDataKeyframe(self.model, data, 0)
         for name, value in self.start.items():
             data.joint(name).qpos = value
         mujoco.mj_forward(self.model, data)

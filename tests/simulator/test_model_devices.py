@@ -147,3 +147,16 @@ def test_a_key_frame_that_does_not_fit(tmp_path: Path, key: str) -> None:
     text = model(HINGE, f'<keyframe><key name="k" {key}/></keyframe>')
     with pytest.raises(ModelFileError, match="key"):
         described(tmp_path, text)
+
+
+def test_inertial_units_have_the_noise_of_their_sensors(tmp_path: Path) -> None:
+    quiet = '<gyro site="wrist"/>\n    <accelerometer site="wrist"/>'
+    noisy = '<gyro site="wrist" noise="0.02"/><accelerometer site="wrist" noise="0.3"/>'
+    found = settings(tmp_path, ARM.replace(quiet, noisy))["wrist"]
+    assert found == {"site": "wrist", "noise": 0.3, "gyronoise": 0.02}
+    assert settings(tmp_path, ARM)["wrist"] == {"site": "wrist"}
+
+
+def test_a_gyroscope_alone_is_no_inertial_unit(tmp_path: Path) -> None:
+    text = ARM.replace('<accelerometer site="wrist"/>', "")
+    assert "wrist" not in settings(tmp_path, text)

@@ -11,6 +11,8 @@ import pytest
 from model_worlds import ARM, BOT
 from worlds import Served, served_model
 
+from robocomp_dsl.cli.view_subject import read_subject
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.mujoco import axes
 
 
@@ -112,6 +114,16 @@ def test_a_robot_in_urdf_moves(tmp_path: Path) -> None:
     bot.until(lambda: abs(motors.getMotorState("lift").pos - 300) < 1)
     bot.until(lambda: abs(motors.getMotorState("turn").pos + 1) < 0.01)
     assert motors.getMotorParams("lift").maxVelocity == 250.0
+
+
+def test_rcgen_view_shows_the_same_start(tmp_path: Path) -> None:
+    """And judges there what is in each other: at zero this file would be."""
+    path, report = tmp_path / "arm.xml", Report()
+    path.write_text(ARM.replace("-1 1 0 0 0", "1 1 0 0 0", 1).replace('pos="1 1 0"', 'pos="0 0 1"'))
+    subject = read_subject(path, (), report)
+    assert [one.message for one in report] == []
+    assert subject is not None
+    assert subject.data().joint("shoulder").qpos[0] == 0.5
 
 
 # -- sensors ------------------------------------------------------------------------------------

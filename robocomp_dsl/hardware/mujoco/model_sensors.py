@@ -17,13 +17,14 @@ from robocomp_dsl.hardware.mujoco.mirror import Mirror
 Data = dict[str, Any]
 
 _SENSOR = mujoco.mjtSensor
+_FORCE, _TURN = int(_SENSOR.mjSENS_ACCELEROMETER), int(_SENSOR.mjSENS_GYRO)
 _DEPTH = mujoco.mjtCamOutBit.mjCAMOUT_DEPTH | mujoco.mjtCamOutBit.mjCAMOUT_DIST
 
 
 def sensors_of(model: Any, seen: Mirror, taken: set[str]) -> list[Data]:
     """All of them; their ids are not in `taken`, but for that of their own site."""
     cameras = [_camera(model, seen, i, taken) for i in range(model.ncam)]
-    units = [_unit(model, seen, site, taken) for site in _units(model)]
+    units = [_unit(model, seen, site, kinds, taken) for site, kinds in _units(model).items()]
     felt = np.flatnonzero(model.sensor_type == int(_SENSOR.mjSENS_TOUCH))
     touches = [_touch(model, seen, int(i), taken) for i in felt]
     return [*cameras, *units, *touches]
@@ -50,34 +51,26 @@ def _camera(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
     }
 
 
-def _units(model: Any) -> list[int]:
-    """Sites that have both a gyroscope and an accelerometer."""
-    at: dict[int, set[int]] = {}
+def _units(model: Any) -> dict[int, dict[int, int]]:
+    """Sites that have both a gyroscope and an accelerometer, and their sensors by kind."""
+    at: dict[int, dict[int, int]] = {}
     for i in range(model.nsensor):
-        at.setdefault(int(model.sensor_objid[i]), set()).add(int(model.sensor_type[i]))
-    both = {int(_SENSOR.mjSENS_GYRO), int(_SENSOR.mjSENS_ACCELEROMETER)}
-    return [site for site, kinds in at.items() if both <= kinds]
+        at.setdefault(int(model.sensor_objid[i]), {})[int(model.sensor_type[i])] = i
+    return {site: kinds for site, kinds in at.items() if kinds.keys() >= {_FORCE, _TURN}}
 
 
-def _unit(model: Any, seen: Mirror, site: int, taken: set[str]) -> Data:
+def _unit(model: Any, seen: Mirror, site: int, kinds: dict[int, int], taken: set[str]) -> Data:
     name = model.site(site).name
+    settings: Data = {"site": name}
+    for key, kind in (("noise", _FORCE), ("gyronoise", _TURN)):
+        if spread := float(model.sensor_noise[kinds[kind]]):
+            settings[key] = spread
     return {
         "id": _claim(name, seen.sites[site], taken),
         "kind": "model_imu",
         "frame": seen.bodies[model.site_bodyid[site]],
-        "settings": {"site": name} | _noise(model, site),
+        "settings": settings,
     }
-
-
-def _noise(model: Any, site: int) -> dict[str, float]:
-    """What the sensors of an inertial unit declare; nothing where they are exact."""
-    kinds = {"noise": _SENSOR.mjSENS_ACCELEROMETER, "gyronoise": _SENSOR.mjSENS_GYRO}
-    here = model.sensor_objid == site
-    found = {
-        name: float(model.sensor_noise[here & (model.sensor_type == int(kind))].max())
-        for name, kind in kinds.items()
-    }
-    return {name: value for name, value in found.items() if value > 0}
 
 
 def _touch(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:

@@ -19,8 +19,13 @@ _LEAST = 1e-4
 
 
 def overlaps(model: Any) -> list[Finding]:
-    """Bodies that are in each other at the start, at most ten pairs. Raises `ModelFileError`."""
+    """Bodies that are in each other at the start, at most ten pairs. Raises `ModelFileError`.
+
+    The start is the first key frame, if there is one.
+    """
     data = mujoco.MjData(model)
+    if model.nkey:
+        mujoco.mj_resetDataKeyframe(model, data, 0)
     try:
         mujoco.mj_forward(model, data)
     except mujoco.FatalError as error:

@@ -52,6 +52,7 @@ DEVICES: Mapping[str, Mapping[str, Limits]] = {
     "differentialrobot": {"noise": _NOISE},
     "omnirobot": {"noise": _NOISE},
     "imu": {"noise": _NOISE, "gyronoise": _NOISE},
+    "model_imu": {"noise": _NOISE, "gyronoise": _NOISE},
     "touchsensor": dict.fromkeys(("nx", "ny", "nz"), _FAR),
     "gps": {
         "latitude": Limits(-84, 84),
