@@ -11,7 +11,7 @@ from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
 from robocomp_dsl.hardware.control.limits import Limits
-from robocomp_dsl.hardware.control.minimum_jerk import MinimumJerk
+from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
 from robocomp_dsl.hardware.control.motors import Motors
 from robocomp_dsl.hardware.control.pid import Gains, PidBank
 from robocomp_dsl.hardware.control.velocity import VelocityRamp
@@ -78,6 +78,24 @@ def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, st
         assert trajectory.velocity[0] == pytest.approx(velocity, abs=1e-3)
     follow(trajectory, abs(second - position) / speed + 0.01)
     assert trajectory.position[0] == second
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.floats(-3, 3), st.floats(-3, 3), st.integers(1, 900))
+def test_a_joint_that_turns_round_is_not_faster_than_it_may(first, second, steps):
+    most = np.array([2.0])
+    trajectory = MinimumJerk(np.zeros(1))
+    trajectory.move(ONE, np.array([first]), most / PEAK, DT, most)
+    follow(trajectory, steps * DT)
+    trajectory.move(ONE, np.array([second]), most / PEAK, DT, most)
+    fastest = 0.0
+    for _ in range(20000):
+        trajectory.step(DT)
+        fastest = max(fastest, abs(float(trajectory.velocity[0])))
+        if not trajectory.moving[0]:
+            break
+    assert trajectory.position[0] == second
+    assert fastest <= 2.0 * 1.005
 
 
 def test_joints_move_each_in_its_own_time():

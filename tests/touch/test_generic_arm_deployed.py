@@ -151,3 +151,31 @@ def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> No
     until(one.answers, 60)
     one.arm["move"](GOALS[0], NONE)
     assert one.rest() == pytest.approx(GOALS[0], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("wires", "found"),
+    [
+        ("connect arm.board -> body.LArm;", ""),
+        ("connect arm.board -> body.LArm; connect arm.board2 -> body.Head;", ""),
+        ("connect arm.board2 -> body.Head;", "error[RC508]: `arm` requires `board`, which"),
+    ],
+)
+def test_a_deployment_wires_the_physical_parts_that_there_are(
+    wires: str, found: str, tmp_path: Path
+) -> None:
+    (tmp_path / "arm.ddsl").write_text(
+        f'import "{COMPONENTS}/nao_simulator/nao_simulator.cdsl";\n'
+        f'import "{COMPONENTS}/generic_arm/generic_arm.cdsl";\n'
+        "Deployment test\n{\n"
+        "component body : nao_simulator;\n"
+        'component arm : generic_arm { set description = "robot.yaml"; };\n'
+        f"{wires}\n}};\n"
+    )
+    rcgen = Path(sys.executable).with_name("rcgen")
+    done = subprocess.run(
+        [rcgen, "check", "arm.ddsl"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    told = done.stdout + done.stderr
+    assert found in told
+    assert told.count("RC5") == bool(found)

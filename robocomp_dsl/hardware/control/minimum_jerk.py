@@ -6,7 +6,8 @@ speed at the start times the duration, and t from 0 to 1:
     x(t) = x0 + v t + (10 d - 6 v) t^3 - (15 d - 8 v) t^4 + (6 d - 3 v) t^5
 
 so that it ends at rest and without acceleration. The duration is the way over the reference speed;
-from rest to rest the peak speed is 1.875 times as high.
+from rest to rest the peak speed is 1.875 times as high. A joint that has to turn round on its way
+would be faster: it gets more time where it would pass its speed limit.
 """
 
 from __future__ import annotations
@@ -17,6 +18,11 @@ from robocomp_dsl.hardware.control.joints import Floats, Ints
 
 PEAK = 1.875
 """Peak speed over mean speed, from rest to rest."""
+
+_T = np.linspace(0.0, 1.0, 21)[1:-1, None]
+_OF_START = 1.0 - 18.0 * _T**2 + 32.0 * _T**3 - 15.0 * _T**4
+_OF_WAY = 30.0 * _T**2 * (1.0 - _T) ** 2
+"""The speed at t is that of the start times the one plus way over duration times the other."""
 
 AHEAD = 24
 """For so many steps references are worked out at once: numpy needs hardly longer than for one."""
@@ -50,12 +56,19 @@ class MinimumJerk:
         self._next = 0
         self._dt = 0.0
 
-    def move(self, joints: Ints, goal: Floats, speed: Floats, dt: float) -> None:
-        """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves."""
+    def move(
+        self, joints: Ints, goal: Floats, speed: Floats, dt: float, most: Floats | None = None
+    ) -> None:
+        """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves.
+
+        No faster than `most`, if given, unless it moves faster already.
+        """
         self._forget()
         start, way = self.position[joints], goal - self.position[joints]
         duration = np.abs(way) / speed
         at_once = duration < dt
+        if most is not None and self.active:
+            duration = _long_enough(way, self.velocity[joints], duration, most)
         v = self.velocity[joints] * duration
         third, fourth, fifth = 10 * way - 6 * v, 8 * v - 15 * way, 6 * way - 3 * v
         none = np.zeros(len(joints))
@@ -133,3 +146,15 @@ class MinimumJerk:
         """Be where the last step led to; what was worked out for later no longer holds."""
         self._time += self._next * self._dt * self._rate
         self._rows, self._next = self._rows[:0], 0
+
+
+def _long_enough(way: Floats, velocity: Floats, duration: Floats, most: Floats) -> Floats:
+    """The durations, made longer until no speed on the way is above `most` or that of the start."""
+    bound = 1.001 * np.maximum(most, np.abs(velocity))
+    for _ in range(40):
+        mean = np.divide(way, duration, out=np.zeros(len(way)), where=duration > 0.0)
+        fast = np.abs(velocity * _OF_START + mean * _OF_WAY).max(axis=0) > bound
+        if not fast.any():
+            break
+        duration = np.where(fast, 1.1 * duration, duration)
+    return duration

@@ -40,8 +40,8 @@ class References:
     def move(self, joints: Ints, goal: Floats, dt: float, speed: Floats | None = None) -> None:
         """Minimum jerk to `goal` at `speed` or the reference speeds; the limit bounds its peak."""
         wished = self.reference_speed[joints] if speed is None else speed
-        speed = np.minimum(wished, self._limits.speed[joints] / PEAK)
-        self.trajectory.move(joints, goal, speed, dt)
+        most = self._limits.speed[joints]
+        self.trajectory.move(joints, goal, np.minimum(wished, most / PEAK), dt, most)
         self._changed = True
 
     def direct(self, joints: Ints, position: Floats) -> None:
