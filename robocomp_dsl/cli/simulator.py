@@ -164,22 +164,22 @@ def _build(made: Simulator, body: Body, report: Report) -> None:
     from robocomp_dsl.hardware.errors import HardwareError  # noqa: PLC0415
     from robocomp_dsl.hardware.scene import Scene  # noqa: PLC0415
 
+    spans = {node.id: node.span for node, _ in body.nodes()}
+
+    def place(said: str) -> Span:
+        """The node whose id a message names first, else the whole world."""
+        quoted = said.split("`")[1::2]
+        return next((spans[name] for name in quoted if name in spans), body.root.span)
+
     try:
         simulation = Simulation(Scene.of_data(made.scene))
     except HardwareError as error:
-        report.add(codes.IMPOSSIBLE_WORLD, _place(str(error), body), str(error))
+        report.add(codes.IMPOSSIBLE_WORLD, place(str(error)), str(error))
         return
     for note in simulation.notes:
-        report.add(codes.SIMPLIFIED_WORLD, _place(note, body), note)
+        report.add(codes.SIMPLIFIED_WORLD, place(note), note)
     for one in simulation.overlaps():
-        report.add(codes_model.MODEL_OVERLAP, _place(one.said, body), one.said)
-
-
-def _place(said: str, body: Body) -> Span:
-    """The node whose id a message names first, else the whole world."""
-    spans = {node.id: node.span for node, _ in body.nodes()}
-    quoted = said.split("`")[1::2]
-    return next((spans[name] for name in quoted if name in spans), body.root.span)
+        report.add(codes_model.MODEL_OVERLAP, place(one.said), one.said)
 
 
 def _files(made: Simulator, folder: Path, workspace: Workspace, report: Report) -> list[OutputFile]:

@@ -18,6 +18,7 @@ from robocomp_dsl.cli.model_findings import code_of, read_source, tell, tell_fau
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.generate.scene_files import locate
 from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
 from robocomp_dsl.hardware.model_kind import MODELS, outermost
@@ -97,7 +98,9 @@ def _world(path: Path, report: Report) -> Subject | None:
     spans = {node.id: node.span for node, _ in body.nodes()}
     findings: list[Finding] = []
     try:
-        scene, told = fitting(Scene.of_data(lower(body)))
+        data = lower(body)
+        locate(data, path.parent)
+        scene, told = fitting(Scene.of_data(data))
         spec, notes = build_spec(scene)
         lit(spec)
         model = compiled(spec, findings)

@@ -27,7 +27,7 @@ FRAME = STILL | {"engine": "static", "mass": 0}
 DRIVEN = STILL | {"port": 0, "noise": 0, "collide": False}
 IMAGE: dict[str, object] = {"width": 0, "height": 0, "focal": 0}
 
-# tag, all its attributes (RoboComp's and the noise of sensors), what they are where they are left out
+# tag, all its attributes (RoboComp's, and noise), what they are where they are left out
 HISTORY: list[tuple[str, str, dict[str, object]]] = [
     ("transform", f'{MOVED} {TURNED} engine="bullet" mass="2"', FRAME),
     ("translation", f'{MOVED} engine="static" mass="2"', FRAME),
@@ -62,7 +62,7 @@ HISTORY: list[tuple[str, str, dict[str, object]]] = [
     ),
     (
         "laser",
-        'port="9" min="100" max="30000" angle="3.14" measures="360" noise="9" ifconfig="9"',
+        'port="9" min="100" max="30000" angle="3.14" measures="9" noise="9" ifconfig="9"',
         {"port": 0, "min": 0, "max": 0, "angle": 0, "measures": 0, "noise": 0, "ifconfig": ""},
     ),
     ("camera", 'width="640" height="480" focal="525"', IMAGE),
