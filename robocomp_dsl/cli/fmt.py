@@ -15,7 +15,7 @@ from robocomp_dsl.cli.given import descriptions
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.cli.rewriting import BOM, difference, rewrite
 from robocomp_dsl.diagnostics import Report, Severity
-from robocomp_dsl.format import CannotFormat, formatted
+from robocomp_dsl.format import PARSERS, CannotFormat, formatted
 from robocomp_dsl.generate.write import CannotWrite
 from robocomp_dsl.source import Source, UnreadableSource, declared_as_utf8, decode
 
@@ -48,7 +48,8 @@ def command(
     if name:
         run.take_stdin(name)
     else:
-        run.take(descriptions(files))
+        found = descriptions(files)
+        run.take([one for one in found if one in files or one.suffix.lower() in PARSERS])
     if diff:
         run.show_differences()
     elif checking:
@@ -98,6 +99,9 @@ class _Run:
         check_syntax(path, self._workspace, found)
         if found.failed:
             self.report.extend(one for one in found if one.severity is Severity.ERROR)
+            return
+        if path.suffix.lower() not in PARSERS:
+            self._fail(f"`{path}` stays as it is: its language has no format of ours")
             return
         source: Source = self._workspace.files.read(path)
         try:

@@ -60,6 +60,17 @@ def test_a_folder(rcgen: Rcgen, here: Path) -> None:
     assert Path("x/w.xml").read_text() == "<a/>\n"
 
 
+def test_descriptions_of_touch_are_left_alone(rcgen: Rcgen, here: Path) -> None:
+    """YAML has no format of ours: in a folder it is passed over, by itself it is refused."""
+    source = Path(__file__).parents[2] / "components" / "nao_simulator" / "tactile.yaml"
+    Path("tactile.yaml").write_bytes(source.read_bytes())
+    Path("a.cdsl").write_text(NEAT)
+    assert rcgen("fmt", "--check", ".") == Run(0, "", "1 file unchanged\n")
+    run = rcgen("fmt", "tactile.yaml")
+    assert run.code == 1
+    assert run.err.startswith("error: `tactile.yaml` stays as it is")
+
+
 def test_check(rcgen: Rcgen, here: Path) -> None:
     Path("a.cdsl").write_text(MESSY)
     Path("b.cdsl").write_text(NEAT)
