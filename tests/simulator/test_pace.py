@@ -201,6 +201,8 @@ def test_a_world_follows_a_time_from_elsewhere(tmp_path: Path) -> None:
     assert hand.getState().time == 0.0
     with pytest.raises(world.types.RoboCompSimulation_Refused, match="another component"):
         hand.setSpeed(2.0)
+    assert "another component" in world.simulation.pace.refusal(2.0)
+    assert world.simulation.pace.refusal(1.0) == ""
 
 
 def test_with_the_clock_of_the_machine_it_lives_by_itself(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from worlds import ROOM, assert_clean, rcgen, run, with_simulator
+from worlds import CLIENT, ROOM, assert_clean, rcgen, run, with_simulator
 
 
 @pytest.fixture(scope="module")
@@ -89,3 +89,25 @@ def test_it_runs_and_is_driven(folder: Path, middleware: str) -> None:
         folder, code, middleware, f"test-{folder.parent.name}-{middleware}", "room_simulator"
     )
     assert said == "driven\n"
+
+
+FOLLOWS = """
+from specificworker import SpecificWorker
+from robocomp_dsl.runtime.clock_settings import parse_clock
+from robocomp_dsl.runtime.parameters import Refused
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+settings = RunSettings(middleware="inproc", clock=parse_clock("sim,from=another"))
+runner = Runner(SpecificWorker, SpecificWorker.SPEC.parameters.load("etc/config.yaml"), settings)
+runner.start()
+until(lambda: hasattr(runner.worker, "devices"))
+print(refused(Refused, runner.params.set, {"speed": 2.0}))
+runner.stop()
+assert runner.wait()
+middleware.close()
+"""
+
+
+def test_the_speed_of_a_time_from_elsewhere_is_not_set_here(folder: Path) -> None:
+    said = run(folder, CLIENT + FOLLOWS, "inproc", "follows", "room_simulator")
+    assert "`speed` stays 1.0: another component makes the time" in said

@@ -10,6 +10,7 @@ from robocomp_dsl.hardware.mujoco.hosting import Plugged
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation, read_data
 from robocomp_dsl.hardware.serving import Port
 from robocomp_dsl.hardware.skin_parameters import known_taxels, skin_settings
+from robocomp_dsl.runtime.parameters import Refused
 
 from generated.genericworker import GenericWorker
 from generated.interfaces import (
@@ -131,6 +132,11 @@ class Simulator(GenericWorker):
             self.devices.stop()
         if hasattr(self, "simulation"):
             self.simulation.stop()
+
+    def will_set_speed(self, value: float) -> None:
+        """The time of another component is not hurried."""
+        if why := self.simulation.pace.refusal(value):
+            raise Refused(why)
 
     def did_set_speed(self, old: float) -> None:
         """The world runs at another speed from now on."""

@@ -29,10 +29,14 @@ class FollowsTime:
         told = getattr(self._clock, "told", None)
         return float(told.realTimeFactor) if told and not self.paused else 0.0
 
+    def refusal(self, speed: float) -> str:
+        """See `Pace`."""
+        return "" if speed == self.speed else "another component makes the time of the deployment"
+
     def set_speed(self, speed: float) -> None:
         """See `Pace`."""
-        if speed != self.speed:
-            raise CommandRefused("another component makes the time of the deployment")
+        if why := self.refusal(speed):
+            raise CommandRefused(why)
 
     def pause(self) -> None:
         """The world alone; the time of the others goes on."""

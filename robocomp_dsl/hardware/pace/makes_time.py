@@ -43,6 +43,10 @@ class MakesTime:
         """See `Pace`."""
         return self._clock.paused
 
+    def refusal(self, speed: float) -> str:
+        """See `Pace`."""
+        return "" if speed >= 0 else "a speed cannot be negative"
+
     def set_speed(self, speed: float) -> None:
         """See `Pace`."""
         self._clock.set_speed(speed)

@@ -31,6 +31,10 @@ class OwnPace:
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
 
+    def refusal(self, speed: float) -> str:
+        """See `Pace`."""
+        return "" if speed >= 0 else "a speed cannot be negative"
+
     def set_speed(self, speed: float) -> None:
         """See `Pace`."""
         self.speed = speed

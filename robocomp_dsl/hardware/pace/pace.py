@@ -59,6 +59,9 @@ class Pace(Protocol):
     def paused(self) -> bool:
         """Whether time stands still."""
 
+    def refusal(self, speed: float) -> str:
+        """Why it cannot have this speed; empty where it can."""
+
     def set_speed(self, speed: float) -> None:
         """Raises `CommandRefused`."""
 
