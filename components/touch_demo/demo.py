@@ -196,8 +196,13 @@ def facts(rows: Sequence[Outcome]) -> str:
         ("free after ", [row.cleared_after for row in good], "ms"),
     ):
         if values:
-            said.append(f"{before}{min(values):.0f} to {max(values):.0f} {after}")
+            said.append(f"{before}{_span(values)} {after}")
     return said[0] + (" " + " · ".join(said[1:]) if good else "")
+
+
+def _span(values: Sequence[float]) -> str:
+    ends = dict.fromkeys(f"{one:.0f}" for one in (min(values), max(values)))
+    return " to ".join(ends)
 
 
 if __name__ == "__main__":
