@@ -180,6 +180,27 @@ def test_divergence_is_told_and_answered_as_configured(tmp_path: Path, choice: A
     assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(3100, abs=1)
 
 
+def test_a_world_that_always_diverges_stops(tmp_path: Path) -> None:
+    world = served(tmp_path, NOISY)
+    it, hand = world.simulation, world.ports["Simulation"]
+    for _ in range(2):
+        it.world.data.qvel[0] = math.inf
+        it.advance(0.01)
+        assert hand.getState().failure == ""
+    it.world.data.qvel[0] = math.inf
+    with pytest.raises(Exception, match="diverged"):
+        it.advance(0.01)
+    assert "diverged" in hand.getState().failure
+    hand.reset()  # is somebody's wish, and works
+    it.advance(0.5)
+    assert hand.getState().failure == ""
+    for _ in range(4):  # now and then is not always
+        it.world.data.qvel[0] = math.inf
+        it.advance(0.01)
+        it.advance(0.5)
+    assert hand.getState().failure == ""
+
+
 def test_who_looks_sees_the_world_as_it_is(world: Served) -> None:
     hand = world.ports["Simulation"]
     told = hand.getModel()

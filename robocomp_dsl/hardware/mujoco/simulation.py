@@ -34,6 +34,12 @@ from robocomp_dsl.hardware.turns import Turns
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.runtime.clock import Clock
 
+_SOON = 0.1
+"""Simulated seconds after a reset in which a sound world does not diverge."""
+
+_MOST_FAILED = 3
+"""Worlds that diverge so soon one after the other, and no more is tried."""
+
 WORLD = ""
 """The world itself among the devices."""
 
@@ -69,6 +75,7 @@ class Simulation:
         self._skins: set[str] = set()
         self.seed = options.seed
         self.failure = ""
+        self._failed = 0
         self.revision = 0
         self.physics = True
         self.devices: dict[str, Any] = {}
@@ -192,13 +199,17 @@ class Simulation:
         self.pace.set_speed(speed)
 
     def advance(self, seconds: float) -> None:
-        """Let time pass. A world that diverges is reset, or stays where it is, as configured."""
+        """Let time pass. A world that diverges is reset, or stays where it is, as configured.
+
+        One that diverges soon after every reset stays, too: it would for ever.
+        """
         self.judge()
         try:
             self.world.advance(seconds)
         except Diverged as error:
             log.error("%s", error)  # noqa: TRY400 - the message is all there is to know
-            if self.options.diverged == "stop":
+            self._failed = self._failed + 1 if self.world.time < _SOON else 0
+            if self.options.diverged == "stop" or self._failed >= _MOST_FAILED:
                 self.failure = str(error)
                 raise
             self.reset()
