@@ -18,26 +18,16 @@ import math
 from typing import Any
 
 import mujoco
-import numpy as np
 
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
+from robocomp_dsl.hardware.mujoco.model_motors import armature_of, force_of, motors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started
-from robocomp_dsl.hardware.mujoco.scene_joints import FORCE, SPEED
+from robocomp_dsl.hardware.mujoco.scene_joints import SPEED
 
 _KINDS = {mujoco.mjtJoint.mjJNT_HINGE: "joint", mujoco.mjtJoint.mjJNT_SLIDE: "prismaticjoint"}
 _MOVES = {"joint": "hinge", "prismaticjoint": "slide"}
-_ON_JOINTS = {int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)}
-_PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
-_STRONG = 2.0
-"""A joint of unknown force holds so many times the weight that it may carry."""
-
 _MOST_NAMED = 5
-
-_SLOWEST = 0.001
-_SLOWNESS = 1.0
-"""Least inertia [kg m²] of a joint for each N·m, and for each N·m and second of a step: a regulator
-whose damping is half its torque per rad/s stays calm then."""
 
 Data = dict[str, Any]
 
@@ -45,7 +35,7 @@ Data = dict[str, Any]
 def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
     """A device for every joint, those without a motor under kinds that nothing is served as."""
     frames = {one.name: one.frame for one in seen.joints}
-    motors = _motors(model)
+    motors = motors_of(model)
     followers = _followers(model)
     boards = _boards(model, started.findings)
     made, light = [], list[tuple[str, float]]()
@@ -76,27 +66,20 @@ def _settings(
     light: list[tuple[str, float]],
 ) -> Data:
     name = model.joint(joint).name
-    known = _force(model, joint, motors)
-    force = known or max(FORCE[_MOVES[kind]], _STRONG * _weight(model, joint, kind))
+    force = force_of(model, joint, _MOVES[kind], motors)
+    armature, is_light = armature_of(model, joint, force)
+    if is_light:
+        light.append((name, armature))
     home = started.start.get(name, model.joint(joint).qpos0)[0]
     made: Data = {
         "speed": _speed(model, name, started.findings) or SPEED[_MOVES[kind]],
         "force": force,
         "home": float(home),
-        "armature": _armature(model, joint, force, light),
+        "armature": armature,
     }
     if model.jnt_limited[joint]:
         made["low"], made["high"] = model.jnt_range[joint].tolist()
     return made
-
-
-def _motors(model: Any) -> dict[int, list[int]]:
-    """The actuators that act on a joint, by joint."""
-    found: dict[int, list[int]] = {}
-    for motor in range(model.nu):
-        if int(model.actuator_trntype[motor]) in _ON_JOINTS:
-            found.setdefault(int(model.actuator_trnid[motor, 0]), []).append(motor)
-    return found
 
 
 def _followers(model: Any) -> set[int]:
@@ -139,63 +122,6 @@ def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
         return told
     findings.append(Finding("joint", joint, f"`{name}` is {told:g}, no speed: the usual is taken"))
     return 0.0
-
-
-def _force(model: Any, joint: int, motors: list[int]) -> float:
-    """The largest torque [N·m] or force [N] that the file gives its motors; 0: none."""
-    known = [most for one in motors if (most := _most(model, one)) < math.inf]
-    force = max(known, default=math.inf)
-    if model.jnt_actfrclimited[joint]:
-        force = min(force, float(np.abs(model.jnt_actfrcrange[joint]).max()))
-    return force if 0 < force < math.inf else 0.0
-
-
-def _most(model: Any, motor: int) -> float:
-    """The largest force of an actuator at its joint."""
-    found = math.inf
-    kind = (
-        mujoco.mjtGain(model.actuator_gaintype[motor]),
-        mujoco.mjtBias(model.actuator_biastype[motor]),
-    )
-    if kind == _PLAIN and model.actuator_ctrllimited[motor]:
-        gain = abs(float(model.actuator_gainprm[motor, 0]))
-        found = gain * float(np.abs(model.actuator_ctrlrange[motor]).max())
-    if model.actuator_forcelimited[motor]:
-        found = min(found, float(np.abs(model.actuator_forcerange[motor]).max()))
-    return found * abs(float(model.actuator_gear[motor, 0]))
-
-
-def _weight(model: Any, joint: int, kind: str) -> float:
-    """The most that gravity pulls at a joint: all that it carries, stretched out."""
-    body = int(model.jnt_bodyid[joint])
-    mass = float(model.body_subtreemass[body]) * float(np.linalg.norm(model.opt.gravity))
-    return mass if kind == "prismaticjoint" else mass * _reach(model, body)
-
-
-def _reach(model: Any, body: int) -> float:
-    """How far the masses that a body carries may be from it [m]."""
-    far = {body: 0.0}
-    for one in range(body + 1, model.nbody):
-        above = int(model.body_parentid[one])
-        if above in far:
-            far[one] = far[above] + float(np.linalg.norm(model.body_pos[one]))
-    return max(way + float(np.linalg.norm(model.body_ipos[one])) for one, way in far.items())
-
-
-def _armature(model: Any, joint: int, force: float, light: list[tuple[str, float]]) -> float:
-    """The motor's inertia, with what a regulator of so much force needs to stay calm.
-
-    A file that tells none leaves it open; of one that tells too little, the joint is `light`.
-    """
-    dof = int(model.jnt_dofadr[joint])
-    there = float(model.dof_armature[dof])
-    inertia = 1.0 / max(float(model.dof_invweight0[dof]), 1e-12)
-    missing = force * max(_SLOWEST, _SLOWNESS * float(model.opt.timestep)) - inertia
-    if missing <= 0:
-        return there
-    if there:
-        light.append((model.joint(joint).name, there + missing))
-    return there + missing
 
 
 def _told(light: list[tuple[str, float]]) -> Finding:
