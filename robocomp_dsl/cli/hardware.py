@@ -109,12 +109,12 @@ def _files(made: Twin, folder: Path, workspace: Workspace, report: Report) -> li
 
 def known(made: Twin) -> dict[str, object]:
     """What the simulated device says of itself without being asked to measure."""
-    from robocomp_dsl.generate.simulator import scene_files  # noqa: PLC0415 - late
+    from robocomp_dsl.generate.simulator import world_files  # noqa: PLC0415 - late
     from robocomp_dsl.generate.write import write  # noqa: PLC0415
     from robocomp_dsl.hardware.mujoco.simulation import Simulation  # noqa: PLC0415 - MuJoCo
 
     with tempfile.TemporaryDirectory() as folder:
-        write(Path(folder), scene_files(made.made))
+        write(Path(folder), world_files(made.made))
         simulation = Simulation.read(Path(folder, "generated", "scene.json"))
     device = simulation.devices[made.ids[0]]
     if made.motors:

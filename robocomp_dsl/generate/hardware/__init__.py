@@ -17,7 +17,7 @@ from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.hardware.skeleton import Skeleton, skeleton
 from robocomp_dsl.generate.names import camel
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.simulator import WORKER, Simulator, scene_files
+from robocomp_dsl.generate.simulator import README, WORKER, Simulator, rows, world_files
 from robocomp_dsl.generate.simulator.handlers import simulator_code
 from robocomp_dsl.generate.simulator.offers import published
 from robocomp_dsl.generate.templates import render
@@ -130,11 +130,12 @@ def files(made: Twin, component: Component, known: Mapping[str, object]) -> list
     module, protocol = PROTOCOLS[made.kind]
     bones: Skeleton = skeleton(module, protocol, known)
     context: dict[str, Any] = {"twin": made, "code": code, "bones": bones}
-    kept = ("driver.py", f"test_{made.name}.py", WORKER)
+    context["rows"] = rows(made.made.ports)
+    kept = ("driver.py", f"test_{made.name}.py", WORKER, README)
     sources = {f"test_{made.name}.py": "test_driver.py"}
     return [
-        *(one for one in plan(component) if one.path != WORKER),
-        *scene_files(made.made),
+        *(one for one in plan(component) if one.path not in (WORKER, README)),
+        *world_files(made.made),
         OutputFile("generated/hardware.py", render(f"{FOLDER}hardware.py.jinja", **context)),
         *(
             OutputFile(one, render(f"{FOLDER}{sources.get(one, one)}.jinja", **context), keep=True)

@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.generate import plan
 from robocomp_dsl.generate.component_names import names_of
+from robocomp_dsl.generate.literals import markdown_cell
 from robocomp_dsl.generate.names import camel
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.scene import free, lower
@@ -41,6 +43,8 @@ _NUMBERS = re.compile(r"\[\n\s*(-?[\d.][^\[\]{}\"]*?)\n\s*\]")
 
 FOLDER = "python/simulator/"
 WORKER = "specificworker.py"
+README = "README.md"
+_MOST_NAMED = 8
 LEAST_STEP, MOST_STEP = 0.05, 20.0  # ms, as the PDSL has it
 
 
@@ -70,6 +74,11 @@ class Simulator:
     def title(self) -> str:
         """The name as the first part of the name of a class."""
         return camel(self.name)
+
+    @property
+    def published(self) -> str:
+        """The ports of its topics, for Markdown."""
+        return ", ".join(f"`{one.port}`" for one in self.topics)
 
 
 def simulator(body: Body) -> Simulator:
@@ -148,14 +157,39 @@ def files(made: Simulator, component: Component) -> list[OutputFile]:
     """All files of the component but its descriptions."""
     code = simulator_code(made.source, component, names_of(component), made.topics)
     return [
-        *(one for one in plan(component) if one.path != WORKER),
-        *scene_files(made),
+        *(one for one in plan(component) if one.path not in (WORKER, README)),
+        OutputFile(
+            README,
+            render(f"{FOLDER}{README}.jinja", simulator=made, rows=rows(made.ports)),
+            keep=True,
+        ),
+        *world_files(made),
         OutputFile("generated/simulator.py", render(f"{FOLDER}simulator.py.jinja", code=code)),
         OutputFile(WORKER, render(f"{FOLDER}{WORKER}.jinja", code=code), keep=True),
     ]
 
 
-def scene_files(made: Simulator) -> list[OutputFile]:
+def rows(ports: Sequence[ServedAs]) -> list[tuple[str, str, str]]:
+    """Port, interface and devices, for Markdown."""
+    return [
+        (
+            markdown_cell(one.port),
+            one.interface,
+            markdown_cell(_named([id_ for id_, _ in one.devices])),
+        )
+        for one in ports
+    ]
+
+
+def _named(ids: Sequence[str]) -> str:
+    """Not more than can be read."""
+    if not ids:
+        return "the world"
+    more = f" and {len(ids) - _MOST_NAMED} more" if len(ids) > _MOST_NAMED else ""
+    return ", ".join(ids[:_MOST_NAMED]) + more
+
+
+def world_files(made: Simulator) -> list[OutputFile]:
     """The world as data, and the model that it begins with, if any."""
     data = {"scene": made.scene, "ports": {one.port: one.ids for one in made.ports}}
     found = [OutputFile("generated/scene.json", _text(data))]
