@@ -7,6 +7,7 @@ that is missing is told with the Debian package to install.
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Self
 
@@ -80,14 +81,14 @@ class Camera:
         return self._settings
 
     def picture(self) -> Picture:
-        """The latest picture; a new one when the latest is older than the camera's period.
+        """The latest picture; a new one in each period of the camera.
 
         Takes its turn at the world only for as long as its state is copied.
         """
         with self.turns:
             time = float(self._data.time)
             known = self._latest
-            if known is not None and 0 <= time - known.time < self._settings.period:
+            if known and known.time <= time and self._frame(known.time) == self._frame(time):
                 return known
             model = self._model
             data = mujoco.MjData(model)
@@ -95,6 +96,10 @@ class Camera:
                 setattr(data, kept, getattr(self._data, kept))
         self._latest = self._noisy(self._studio.draw(model, data, self._given or self.name))
         return self._latest
+
+    def _frame(self, time: float) -> int:
+        """Which picture since time began: so many a second, however late each is asked for."""
+        return math.floor(time / self._settings.period + 1e-6)
 
     def _noisy(self, seen: Picture) -> Picture:
         spread = self._settings.noise * self._level.factor
