@@ -112,13 +112,15 @@ class Model:
 
     `start` are positions of joints (one number, four of a ball, seven of a free body) and `held`
     the commands of motors that no device drives, by name, where these are not 0. What moves without
-    mass has at least `boundmass` kg.
+    mass has at least `boundmass` kg. `couplings` of boards whose n joints share motors have n · n
+    numbers: motor angles are `gear` times this matrix, row by row, times joint angles.
     """
 
     file: Path
     boundmass: float = 0.0
     start: Mapping[str, Sequence[float]] = field(default_factory=dict)
     held: Mapping[str, float] = field(default_factory=dict)
+    couplings: Mapping[str, Sequence[float]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -160,3 +160,20 @@ def test_inertial_units_have_the_noise_of_their_sensors(tmp_path: Path) -> None:
 def test_a_gyroscope_alone_is_no_inertial_unit(tmp_path: Path) -> None:
     text = ARM.replace('<accelerometer site="wrist"/>', "")
     assert "wrist" not in settings(tmp_path, text)
+
+
+COUPLINGS = [
+    ("1 1 1 -1", {"arm": [1.0, 1.0, 1.0, -1.0]}, []),
+    ("1 1 1 1", {}, ["no 2 x 2 matrix"]),
+    ("1 0 0", {}, ["no 2 x 2 matrix"]),
+]
+
+
+@pytest.mark.parametrize(("numbers", "couplings", "told"), COUPLINGS)
+def test_motors_that_joints_share(
+    tmp_path: Path, numbers: str, couplings: dict[str, list[float]], told: list[str]
+) -> None:
+    text = ARM.replace("<custom>", f'<custom><numeric name="coupling_arm" data="{numbers}"/>')
+    made = described(tmp_path, text)
+    assert made.scene["model"].get("couplings", {}) == couplings
+    assert [one.said[18:33] for one in made.findings] == told

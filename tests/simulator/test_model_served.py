@@ -68,6 +68,25 @@ def test_joints_of_another_board_are_not_there(arm: Served) -> None:
     assert arm.ports["ControlBoard"].getVariable("speed_limits").tolist() == [1.0]
 
 
+def test_joints_that_share_motors_change_their_modes_together(tmp_path: Path) -> None:
+    """And their motors turn as the file says."""
+    text = ARM.replace("<custom>", '<custom><numeric name="coupling_arm" data="1 1 1 -1"/>')
+    arm = served_model(tmp_path, text)
+    board = arm.ports["arm"]
+    assert [one.coupledSet for one in board.getJoints()] == [0, 0]
+    before = board.getState().motorCounts
+    board.setReferenceSpeed([], [2.0, 2.0])
+    board.positionMove(["shoulder"], [0.9])
+    arm.until(lambda: board.motionDone([]).all())
+    arm.simulation.advance(0.3)
+    one, other = board.getState().motorCounts - before
+    assert one == pytest.approx(-other, rel=0.01)
+    assert abs(one) > 1000
+    board.setControlMode(["shoulder"], arm.types.ControlMode.Velocity)
+    assert set(board.getState().modes) == {arm.types.ControlMode.Velocity}
+    assert arm.ports["ControlBoard"].getState().modes == [arm.types.ControlMode.Position]
+
+
 def test_parking_one_board_leaves_the_other(arm: Served) -> None:
     arm.ports["arm"].park([])
     assert arm.ports["arm"].isBusy()

@@ -105,6 +105,9 @@ def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: World) ->
         assert group == list(wanted.joints)
         for joint, told in limits(wanted.spec).items():
             assert here.get(joint, told) == pytest.approx(told, rel=1e-5), joint
+        at = board.board.select.indices(group)
+        shared = wanted.spec.coupling @ np.linalg.inv(wanted.transmission)
+        assert board.board.spec.coupling[np.ix_(at, at)] == pytest.approx(shared)
     assert set(board.groups.values()) == {*board_names(robot), "finger"}
 
 

@@ -7,23 +7,29 @@ the file have some: it swings freely, as the file means it.
     <custom>
       <tuple name="LArm"> <element objtype="joint" objname="LElbowRoll"/> </tuple>
       <numeric name="speed_LElbowRoll" data="7.2"/>
+      <numeric name="coupling_LArm" data="1"/>
     </custom>
 
-makes a control board `LArm`, and tells the largest speed of a joint in rad/s or m/s.
+makes a control board `LArm`, tells the largest speed of a joint in rad/s or m/s, and how the motors
+of a board turn with its n joints: n · n numbers, row by row.
 """
 
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
 from robocomp_dsl.hardware.mujoco.model_motors import armature_of, force_of, motors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started
 from robocomp_dsl.hardware.mujoco.scene_joints import SPEED
+from robocomp_dsl.hardware.scene import JOINTS
 
 _KINDS = {mujoco.mjtJoint.mjJNT_HINGE: "joint", mujoco.mjtJoint.mjJNT_SLIDE: "prismaticjoint"}
 _MOVES = {"joint": "hinge", "prismaticjoint": "slide"}
@@ -108,6 +114,24 @@ def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:
                     f"`{model.joint(joint).name}` is in `{name}` and stays on the board `{board}`"
                 )
                 findings.append(Finding("joint", model.joint(joint).name, said))
+    return found
+
+
+def couplings_of(model: Any, devices: Sequence[Data], findings: list[Finding]) -> Data:
+    """The matrix of each board that the file tells one of, as a list of numbers."""
+    boards = Counter(one["settings"]["board"] for one in devices if one["kind"] in JOINTS)
+    found: Data = {}
+    for board, n in boards.items():
+        name = f"coupling_{board}"
+        if mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name) < 0 or not board:
+            continue
+        told = model.numeric(name).data
+        fits = len(told) == n * n and np.isfinite(told).all()
+        if fits and np.linalg.matrix_rank(told.reshape(n, n)) == n:
+            found[board] = told.tolist()
+            continue
+        said = f"`{name}` is no {n} x {n} matrix that can be turned round: it is left out"
+        findings.append(Finding("joint", "", said))
     return found
 
 

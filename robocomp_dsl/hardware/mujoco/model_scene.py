@@ -15,7 +15,7 @@ from typing import Any
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
-from robocomp_dsl.hardware.mujoco.model_joints import joints_of
+from robocomp_dsl.hardware.mujoco.model_joints import couplings_of, joints_of
 from robocomp_dsl.hardware.mujoco.model_sensors import sensors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started, begin
 from robocomp_dsl.hardware.scene import ROOT
@@ -41,9 +41,10 @@ def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> Described:
     model = compiled(started.spec, started.findings)
     seen = mirror(model)
     devices = joints_of(model, seen, started)
+    couplings = couplings_of(model, devices, started.findings)
     devices += sensors_of(model, seen, {one["id"] for one in devices} | set(_names(seen)))
     scene: Data = {
-        "model": _model(model, file, started),
+        "model": _model(model, file, started) | ({"couplings": couplings} if couplings else {}),
         "frames": list(_frames(seen)),
         "boxes": [],
         "meshes": [],

@@ -197,6 +197,6 @@ def parts_of(
     if joints:
         former = kept.get(joints[0].name)
         same = former is not None and former.names == tuple(one.name for one in joints)
-        board = former if same else JointBoard(joints, hold_weight=scene.model is not None)
+        board = former if same else JointBoard(joints, scene.model)
         made |= dict.fromkeys((one.name for one in joints), board)
     return made

@@ -9,7 +9,7 @@ them; what a model file weighs is held.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,9 +21,9 @@ from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.control.parking import Parking
 from robocomp_dsl.hardware.mujoco.axes import MM
-from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
+from robocomp_dsl.hardware.mujoco.control_board import Floats, SimulatedBoard
 from robocomp_dsl.hardware.robots.boards import GEAR, SUPPLY, RobotBoard
-from robocomp_dsl.hardware.scene import JOINTS, Device, Frame, Motion, Scene
+from robocomp_dsl.hardware.scene import JOINTS, Device, Frame, Model, Motion, Scene
 
 FORCE = {"hinge": 50.0, "slide": 500.0}
 """Largest torque [N·m] or force [N] where none is given."""
@@ -61,13 +61,18 @@ def driven(scene: Scene) -> list[Driven]:
 
 
 class JointBoard(SimulatedBoard):
-    """The board of `joints`; `homes` (n,) is where each rests [rad, m], `groups` by their names."""
+    """The board of `joints`; `homes` (n,) is where each rests [rad, m], `groups` by their names.
 
-    def __init__(self, joints: Sequence[Driven], *, hold_weight: bool) -> None:
-        spec = BoardSpec(tuple(map(_joint, joints)), tuple(map(_motor, joints)))
+    Joints of a group share motors as in `model.couplings`; only what a model weighs is held.
+    """
+
+    def __init__(self, joints: Sequence[Driven], model: Model | None = None) -> None:
+        motors = tuple(map(_motor, joints))
+        coupling = _coupling(joints, model.couplings if model else {})
+        spec = BoardSpec(tuple(map(_joint, joints)), motors, coupling)
         names = tuple(one.name for one in joints)
         robot_board = RobotBoard(spec, names, np.eye(len(joints)))
-        super().__init__(robot_board, hold_weight=hold_weight)
+        super().__init__(robot_board, hold_weight=model is not None)
         self._driven = tuple(joints)
         self.groups = {one.name: one.group for one in joints}
         self.homes = np.array([one.home for one in joints])
@@ -127,6 +132,15 @@ def _motor_of(spec: Any, joint: str, given: list[Any], taken: set[str]) -> str:
         name += "'"
     spec.add_actuator(name=name, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
     return name
+
+
+def _coupling(joints: Sequence[Driven], couplings: Mapping[str, Sequence[float]]) -> Floats:
+    """The matrix of all joints, (n, n); joints of different groups share nothing."""
+    made = np.eye(len(joints))
+    for group, numbers in couplings.items():
+        here = [i for i, one in enumerate(joints) if one.group == group]
+        made[np.ix_(here, here)] = np.reshape(numbers, (len(here), len(here)))
+    return made
 
 
 def _is_given(device: Device) -> bool:

@@ -135,7 +135,13 @@ def _add_finger(spec: Any, parked: Vector) -> None:
 
 def _add_boards(spec: Any, robot: Robot) -> None:
     for name in board_names(robot):
-        _add_board(spec, name, robot_board(robot, name).joints)
+        board = robot_board(robot, name)
+        _add_board(spec, name, board.joints)
+        # motors from the robot's own joints, which a board may drive by others: eyes by vergence
+        coupling = board.spec.coupling @ np.linalg.inv(board.transmission)
+        if not np.allclose(coupling, np.eye(len(coupling))):
+            numbers = np.round(coupling.ravel(), 12) + 0.0
+            spec.add_numeric(name=f"coupling_{name}", data=numbers, size=len(numbers))
     for joint in robot.motors:
         spec.add_numeric(name=f"speed_{joint.name}", data=[joint.speed], size=1)
 
