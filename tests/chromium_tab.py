@@ -25,7 +25,7 @@ from matplotlib.image import imread
 from websockets.sync.client import connect
 
 LOOPBACK = "127.0.0.1"
-PATIENCE = 60.0
+PATIENCE = 150.0
 
 
 def wait_for(done: Callable[[], object]) -> object:

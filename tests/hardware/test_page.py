@@ -22,7 +22,7 @@ from chromium_tab import CHROMIUM, PATIENCE, Tab, opened_tab, red, wait_for
 from robocomp_dsl.hardware.mujoco.model_file import load_model
 from robocomp_dsl.hardware.mujoco.sight import seen
 from robocomp_dsl.hardware.view.browser import LOOPBACK, Page
-from robocomp_dsl.hardware.view.controls import quaternion, roll_pitch_yaw, tree
+from robocomp_dsl.hardware.view.nodes import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.hardware.view.shapes import colour, triangles
 from robocomp_dsl.hardware.view.stage import relative_poses
 

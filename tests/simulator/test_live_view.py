@@ -23,8 +23,8 @@ from chromium_tab import CHROMIUM, PATIENCE, opened_tab, red, wait_for
 from worlds import CLIENT, Served, rcgen, run, served
 
 from robocomp_dsl.hardware.mujoco import sight
-from robocomp_dsl.hardware.view.controls import quaternion
 from robocomp_dsl.hardware.view.live import LivePage
+from robocomp_dsl.hardware.view.nodes import quaternion
 from robocomp_dsl.hardware.view.running import CannotFollow, look_at
 from robocomp_dsl.runtime.errors import NoServer
 
@@ -103,6 +103,21 @@ def test_its_switches_hold_the_time(live: LivePage) -> None:
     assert not world.simulation.pace.paused
     controls.reset()
     assert world.simulation.time == 0
+
+
+def test_a_step_and_another_speed(live: LivePage) -> None:
+    world, far = world_of(live), live.page.controls._far
+    assert far
+    for n in (1, 2):
+        far.step(0.01)
+        live.look()
+        assert text(live) == f"simulated time {n * 0.01:.2f} s, stands still"
+    assert far.speed() == 1.0
+    far.set_speed(3.0)
+    assert world.simulation.pace.speed == far.speed() == 3.0
+    far.set_speed(-1.0)
+    live.look()
+    assert "work out: `speed` is -1, it cannot be negative" in text(live)
 
 
 def test_a_slider_moves_a_joint_of_the_world(live: LivePage) -> None:
@@ -249,12 +264,14 @@ def test_a_real_browser_sees_a_robot_drive(simulator: Path) -> None:
             told = re.match(r"(http://127\.0\.0\.1:\d+) shows it", view.stdout.readline())
             assert told
             tab("Page.enable")
+            screen = {"width": 600, "height": 400, "deviceScaleFactor": 1, "mobile": False}
+            tab("Emulation.setDeviceMetricsOverride", **screen)
             tab("Page.navigate", url=told[1])
             wait_for(lambda: tab.shows("Let time run", "simulated time"))
             wait_for(lambda: red(tab.picture()) > 0.003)
             before = middle(tab.picture())
             run(simulator, CLIENT + DRIVE, "zenoh", domain, "room_simulator")
-            wait_for(lambda: abs(middle(tab.picture()) - before) > 40)
+            wait_for(lambda: abs(middle(tab.picture()) - before) > 30)
             told_time = lambda: re.search(  # noqa: E731
                 r"simulated time ([\d.]+) s", str(tab.value("document.body.innerText"))
             )

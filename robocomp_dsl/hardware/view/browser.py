@@ -16,7 +16,8 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.mujoco.sight import Seen, seen
-from robocomp_dsl.hardware.view.controls import Controls, Far
+from robocomp_dsl.hardware.view.controls import Controls
+from robocomp_dsl.hardware.view.far import Far
 from robocomp_dsl.hardware.view.picture import Look, surroundings
 from robocomp_dsl.hardware.view.stage import Colours, Floats, Stage
 

@@ -10,42 +10,26 @@ import html
 import math
 import threading
 import time
-from typing import Any, Protocol
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.mujoco.sight import seen
+from robocomp_dsl.hardware.view.far import Far
+from robocomp_dsl.hardware.view.nodes import (
+    kind_of,
+    moves,
+    quaternion,
+    roll_pitch_yaw,
+    tree,
+)
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.stage import Floats, Stage
 
 _MOST_SLIDERS = 80
-_MOST_LISTED = 2000
 _HELD_S = 1.0
 """A slider that was moved stays for so long before it shows where the joint is."""
-_JOINT = mujoco.mjtJoint
-_KINDS = {
-    int(_JOINT.mjJNT_FREE): "free",
-    int(_JOINT.mjJNT_BALL): "ball",
-    int(_JOINT.mjJNT_SLIDE): "slide",
-    int(_JOINT.mjJNT_HINGE): "hinge",
-}
-
-
-class Far(Protocol):
-    """Holds a world that runs elsewhere. What does not work out is told by it, and not raised."""
-
-    def run(self, on: bool) -> None:
-        """Let its time pass, or stand still."""
-
-    def reset(self) -> None:
-        """Let it begin anew."""
-
-    def move(self, joint: str, value: float, turns: bool) -> None:
-        """A joint goes to a position in rad, or m where it does not turn."""
-
-    def place(self, body: str, position: Floats, quat: Floats) -> None:
-        """A body stands elsewhere in its parent: m, (w, x, y, z)."""
 
 
 class Controls:
@@ -76,10 +60,15 @@ class Controls:
     def _view(self, look: Look) -> None:
         stage = self.stage
         self._said = self.gui.add_markdown("", visible=self._far is not None)
+        far = self._far
         self._switch("Frames", look.frames, stage.show_frames)
         self._switch("Names", look.names, stage.show_names)
         self._switch("Contacts", look.contacts, stage.show_contacts)
         self._time = self._switch("Let time run", False, self._run)
+        if far:
+            self.gui.add_button("Step of 10 ms").on_click(lambda _: far.step(0.01))
+            speed = self.gui.add_number("Speed (0: full)", far.speed(), min=0.0, step=0.1)
+            speed.on_update(lambda _: far.set_speed(speed.value))
         self.gui.add_button("Back to the start").on_click(lambda _: self.reset())
 
     def _switch(self, label: str, on: bool, act: Any) -> Any:
@@ -140,7 +129,7 @@ class Controls:
     # -- joints -------------------------------------------------------------------------------
 
     def _joints(self) -> None:
-        simple = [j for j in range(self.model.njnt) if _kind(self.model, j) in {"hinge", "slide"}]
+        simple = [j for j in range(self.model.njnt) if kind_of(self.model, j) in {"hinge", "slide"}]
         if not simple:
             self.gui.add_markdown("Nothing here turns or slides.")
         for j in simple[:_MOST_SLIDERS]:
@@ -150,7 +139,7 @@ class Controls:
 
     def _slider(self, j: int) -> None:
         model = self.model
-        hinge = _kind(model, j) == "hinge"
+        hinge = kind_of(model, j) == "hinge"
         address = int(model.jnt_qposadr[j])
         widest = math.pi if hinge else self.stage.extent
         low, high = model.jnt_range[j].tolist() if model.jnt_limited[j] else (-widest, widest)
@@ -218,7 +207,7 @@ class Controls:
             return
         self.model.body_pos[body], self.model.body_quat[body] = position, quat
         first = int(self.model.body_jntadr[body])
-        if first >= 0 and _kind(self.model, first) == "free":
+        if first >= 0 and kind_of(self.model, first) == "free":
             at = int(self.model.jnt_qposadr[first])
             self.data.qpos[at : at + 7] = (*position, *quat)
         self._changed()
@@ -231,52 +220,4 @@ class Controls:
 
     def _about(self, body: int) -> str:
         above = self.stage.names[self.model.body_parentid[body]]
-        return f"in {above}; {float(self.model.body_mass[body]):.3g} kg; {_moves(self.model, body)}"
-
-
-def tree(model: Any, names: list[str]) -> str:
-    """The bodies as a nested list of Markdown."""
-    depth, lines = [0] * model.nbody, list[str]()
-    below: list[list[int]] = [[] for _ in names]
-    for i in range(1, model.nbody):
-        below[model.body_parentid[i]].append(i)
-        depth[i] = depth[model.body_parentid[i]] + 1
-    todo = below[0][::-1]
-    while todo and len(lines) < _MOST_LISTED:
-        i = todo.pop()
-        indent = "  " * min(depth[i] - 1, 12)
-        lines.append(f"{indent}- {html.escape(names[i])} ({_moves(model, i)})")
-        todo += below[i][::-1]
-    if todo:
-        lines.append(f"\n{model.nbody - 1} nodes, the first {_MOST_LISTED} are listed")
-    return "\n".join(lines)
-
-
-def _moves(model: Any, body: int) -> str:
-    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
-    kinds = [_kind(model, j) for j in range(first, first + count)]
-    return ", ".join(kinds) or "fixed"
-
-
-def _kind(model: Any, joint: int) -> str:
-    # a number of numpy is never equal to one of MuJoCo's
-    return _KINDS[int(model.jnt_type[joint])]
-
-
-def quaternion(turn: Any) -> Any:
-    """(w, x, y, z) of roll, pitch and yaw about the fixed axes."""
-    made = np.zeros(4)
-    mujoco.mju_euler2Quat(made, np.array(turn, dtype=float), "XYZ")
-    return made
-
-
-def roll_pitch_yaw(quat: Any) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of (w, x, y, z)."""
-    flat = np.zeros(9)
-    mujoco.mju_quat2Mat(flat, quat / np.linalg.norm(quat))
-    m = flat.reshape(3, 3)
-    return (
-        math.atan2(m[2, 1], m[2, 2]),
-        math.atan2(-m[2, 0], math.hypot(m[0, 0], m[1, 0])),
-        math.atan2(m[1, 0], m[0, 0]),
-    )
+        return f"in {above}; {float(self.model.body_mass[body]):.3g} kg; {moves(self.model, body)}"

@@ -10,77 +10,21 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
-from functools import partial
-from typing import Any
 
-import mujoco
-import numpy as np
-
-from robocomp_dsl.hardware.mujoco import axes
-from robocomp_dsl.hardware.rotations import angles
 from robocomp_dsl.hardware.simulation_interface import (
     InnerModelManagerProxy,
-    Pose3D,
     SimulationProxy,
 )
 from robocomp_dsl.hardware.view.browser import PLAIN, Page
+from robocomp_dsl.hardware.view.far import FarHand
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.running import View, look_at
-from robocomp_dsl.hardware.view.stage import Floats
-from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
+from robocomp_dsl.runtime.errors import MiddlewareError
 
 LOOKS = 20.0  # per second
 PATIENCE_S = 2.0
 
 log = logging.getLogger("robocomp.view")
-
-
-class FarHand:
-    """Holds a simulation. `said` is what did not work out."""
-
-    def __init__(self, hand: SimulationProxy, nodes: InnerModelManagerProxy | None) -> None:
-        self._hand, self._nodes = hand, nodes
-        self.said = ""
-
-    def run(self, on: bool) -> None:
-        """See `controls.Far`."""
-        self._try(self._hand.resume if on else self._hand.pause)
-
-    def reset(self) -> None:
-        """See `controls.Far`."""
-        self._try(self._hand.reset)
-
-    def move(self, joint: str, value: float, turns: bool) -> None:
-        """See `controls.Far`: its motor takes it there."""
-        goal = np.array([value if turns else value / axes.MM])
-        self._try(partial(self._hand.move, 0, [joint], goal))
-
-    def place(self, body: str, position: Floats, quat: Floats) -> None:
-        """See `controls.Far`."""
-        turned = np.zeros(9)
-        mujoco.mju_quat2Mat(turned, quat)
-        matrix = axes.matrix(position, turned)
-        x, y, z = matrix[:3, 3].tolist()
-        rx, ry, rz = angles(matrix[:3, :3])
-        pose = Pose3D(x, y, z, rx, ry, rz)
-        if self._nodes is None:
-            self.said = "nodes cannot be placed from here"
-            return
-        # the root of MuJoCo has taken the name `world`
-        self._try(partial(self._nodes.setPoseFromParent, body.removesuffix("."), pose))
-
-    def _try(self, ask: Callable[[], Any]) -> None:
-        try:
-            ask()
-        except (MiddlewareError, DeclaredError) as error:
-            self.said = f"that did not work out: {_words(error)}"
-        else:
-            self.said = ""
-
-
-def _words(error: Exception) -> str:
-    """What a simulation declares has a text in one of two places."""
-    return str(getattr(error, "what", "") or getattr(error, "text", "") or error)
 
 
 class LivePage:
