@@ -67,7 +67,7 @@ class Board:
         self._proxy, self._names = proxy, list(joints.names)
         self._count, self._fastest = 0, np.zeros(0)
         self._modes: list[ControlMode] = []  # empty: not known
-        self._changes = 0
+        self._changes, self._pushed = 0, False
 
     def reach(self) -> None:
         """Find the joints on the board. Raises `WrongBoard`, and what the call raises."""
@@ -147,7 +147,7 @@ class Board:
         """End motions; joints that were pushed hold where they are."""
         with self._words():
             self._proxy.stopMotion(self._names)
-            if ControlMode.Torque in self._modes or not self._modes:
+            if self._pushed:
                 self._change(ControlMode.Position)
 
     def springs(self) -> list[Impedance]:
@@ -180,6 +180,7 @@ class Board:
             self._changes += 1
             self._proxy.setControlMode(self._names, mode)
             self._modes = [mode] * len(self._names)
+            self._pushed = mode is ControlMode.Torque
 
     @contextmanager
     def _words(self, about: str = "") -> Iterator[None]:

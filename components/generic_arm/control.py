@@ -6,7 +6,6 @@ that fails makes the whole arm fail, until `update` has gone well again.
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,6 +17,7 @@ from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm, Orders
 from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.errors import TactileError
 
 STILL = 0.02
@@ -51,6 +51,7 @@ class ArmControl:
         self._reached = self._known = False
         self._aiming, self._sent, self._sending = False, 0, 0
         self._glide: Floats | None = None
+        self._springs = _springs(arm.part) if begin.compliant else None
         self._ends = np.inf
 
     def update(self) -> str:
@@ -61,7 +62,7 @@ class ArmControl:
         try:
             warning = "" if self._reached else self._reach()
             self._read()
-            self._go_on()
+            warning = self._go_on() or warning
         except Exception as error:
             self.trouble = str(error) or type(error).__name__
             self._reached, self._glide, self._ends = False, None, np.inf
@@ -74,14 +75,14 @@ class ArmControl:
 
         Raises one of `AWAY`, `Overtaken`.
         """
-        lasts = orders.control in LASTING and self.hold > 0
-        self._glide = glide
-        self._ends = self._clock.now() + self.hold if lasts else np.inf
         self._sending += 1
         try:
             cut = self._boards.send(orders, self.hold)
         finally:
             self._sending -= 1
+        lasts = orders.control in LASTING and self.hold > 0
+        self._ends = self._clock.now() + self.hold if lasts else np.inf
+        self._glide = glide
         self._sent += 1
         self._aiming = orders.control is Control.POSITION
         self.moving |= self._aiming
@@ -91,10 +92,13 @@ class ArmControl:
 
     def soften(self, stiffness: Floats, damping: Floats) -> None:
         """Generic springs and dampers (n,); empty ones make the joints stiff."""
+        springs = None
         if len(stiffness) or len(damping):
-            self._boards.soften(*self.arm.stiffness(stiffness, damping))
+            springs = self.arm.stiffness(stiffness, damping)
+            self._boards.soften(*springs)
         else:
             self._boards.stiffen()
+        self._springs = springs
 
     def stop(self) -> None:
         """End every motion."""
@@ -104,27 +108,25 @@ class ArmControl:
     def _reach(self) -> str:
         self._boards.reach()
         self._read()
-        if self._known:
+        again, self._reached, self._known = self._known, True, True
+        if again:
             self.stop()  # nobody knows what became of the last command
-        self._reached = self._known = True
         if self._begin.what == "nothing":
             return ""
         try:
             self._take_hold()
+            if self._begin.what == "start" and not again:
+                part = self.arm.part
+                self.carry_out(self.arm.move(part.start, part.speed_limits * self._begin.speed))
         except Refusal as error:
             return f"the arm cannot be held: {error}"
         return ""
 
     def _take_hold(self) -> None:
-        """Hold the arm, as a spring if that is asked for, or send it to its start pose."""
-        if self._begin.compliant:
-            servos = [one for one in self.arm.part.servos if one.joint]
-            springs = np.array([(one.stiffness, one.damping) for one in servos])
-            self._boards.soften(springs[:, 0], springs[:, 1])
+        """Hold the arm, by the springs that were set last."""
+        if self._springs is not None:
+            self._boards.soften(*self._springs)
         self._boards.hold(self._begin.speed)
-        if self._begin.what == "start":
-            part = self.arm.part
-            self.carry_out(self.arm.move(part.start, part.speed_limits * self._begin.speed))
 
     def _read(self) -> None:
         sent = self._sent
@@ -135,10 +137,22 @@ class ArmControl:
             self._aiming = under_way
         self.moving = self._aiming or bool((np.abs(state.velocity) > STILL).any())
 
-    def _go_on(self) -> None:
-        """Turn a glide into new joint speeds; end what has lasted long enough."""
+    def _go_on(self) -> str:
+        """Turn a glide into new joint speeds; end what has lasted long enough, or is refused."""
         if self._clock.now() >= self._ends:
             self.stop()
         elif self._glide is not None and not self._sending:
-            with suppress(Overtaken):
+            try:
                 self._boards.send(self.arm.glide(self._glide), self.hold)
+            except Refusal as error:
+                self.stop()
+                return f"the hand glides no further: {error}"
+            except Overtaken:
+                pass  # by a command that will tell what comes next
+        return ""
+
+
+def _springs(part: Part) -> tuple[Floats, Floats]:
+    """Stiffness and damping of the joints that exist, as the description has them."""
+    servos = [one for one in part.servos if one.joint]
+    return np.array([one.stiffness for one in servos]), np.array([one.damping for one in servos])

@@ -13,7 +13,7 @@ import pytest
 from arm_client import ARM, DESCRIPTIONS, arm_on, refused, until
 
 from robocomp_dsl.hardware.control.faults import Fault
-from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.runtime.lifecycle import State
 
 GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
@@ -60,6 +60,41 @@ def test_a_board_that_goes_away_is_an_emergency_until_it_is_there_again(robot: s
         assert arm.getState().position == pytest.approx(rest, abs=0.03)
         arm.move(GOAL, NONE)
         assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
+
+
+def test_springs_come_back_with_the_board_and_the_start_pose_does_not() -> None:
+    with arm_on("nao_h25", "begin=start") as (arm, served):
+        arm.rest()
+        arm.move(GOAL, NONE)
+        arm.rest()
+        arm.setStiffness(np.full(5, 5.0), np.full(5, 0.2))
+        served.away()
+        until(lambda: arm.runner.lifecycle.state is State.EMERGENCY)
+        board = served.part.board
+        board.impedance.stiffness[:] = 0.1  # it has been switched off and on
+        served.connect()
+        until(lambda: arm.runner.lifecycle.state is State.COMPUTE)
+        row = board.spec.names.index("LElbowRoll")
+        assert board.impedance.stiffness[row] == pytest.approx(5.0)
+        assert board.table.interactions[row] is Interaction.COMPLIANT
+        assert arm.rest().position == pytest.approx(GOAL, abs=0.15)
+
+
+def test_a_glide_that_a_board_no_longer_takes_ends_without_an_emergency(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    with arm_on("icub_v2") as (arm, served):
+        arm.glide(0.0, 0.0, 0.02)
+        until(lambda: arm.runner.worker.control._glide is not None)
+        board = served.part.board
+        board.fault(np.array([board.spec.names.index("l_elbow")]), Fault.OVERCURRENT, "burnt")
+        until(lambda: "the hand glides no further" in caplog.text)
+        assert "`l_elbow` has a hardware fault" in caplog.text
+        assert arm.runner.lifecycle.state is State.COMPUTE
+        assert arm.runner.statistics.failures == 0
+        arm.glide(0.0, 0.0, 0.02)  # refused, and not tried again and again
+        until(lambda: "`glide` is not carried out" in caplog.text)
+        assert arm.runner.worker.control._glide is None
 
 
 def test_a_port_that_is_wired_to_the_wrong_board_says_so() -> None:
@@ -179,10 +214,12 @@ def test_a_glide_that_is_renewed_and_other_commands_do_not_disturb_each_other(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with arm_on("icub_v2") as (arm, _):
+        control = arm.runner.worker.control
         for number in range(40):
+            sent, seen = control._sent, len(arm.states)
             arm.glide(0.0, 0.0, 0.01)
-            seen = len(arm.states)
-            until(lambda seen=seen: len(arm.states) > seen + 1)
+            until(lambda sent=sent: control._sent > sent)
+            until(lambda seen=seen: len(arm.states) > seen + 3)  # renewed meanwhile
             if number % 4 == 0:
                 arm.move(arm.getLimits().start, NONE)
         assert "came first" not in caplog.text

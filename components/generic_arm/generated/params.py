@@ -38,7 +38,7 @@ class GenericArmParams(Parameters):
             "choice",
             default="hold",
             choices=("nothing", "hold", "start"),
-            doc="When the boards are reached: leave the arm alone, hold it where it is, or let it go to its start pose.",
+            doc="When the boards are reached: leave the arm alone, hold it where it is, or, the first time, send it to its start pose.",
         ),
         Parameter(
             "begin_speed",
@@ -89,7 +89,7 @@ class GenericArmParams(Parameters):
     part: str
     # Time from one reading of the boards to the next; as often the state is published.
     period: int
-    # When the boards are reached: leave the arm alone, hold it where it is, or let it go to its start pose.
+    # When the boards are reached: leave the arm alone, hold it where it is, or, the first time, send it to its start pose.
     begin: Literal["nothing", "hold", "start"]
     # The share of the speed limits at which that happens; joints beyond the arm go to their places as fast.
     begin_speed: float
