@@ -13,6 +13,8 @@ import numpy as np
 from recording import Answer, Floats, Press, Recording, Skin
 
 _FROZEN = "Frozen"
+_BACK_S = 1.0
+"""Nothing is so late; time that goes back further has begun anew."""
 
 
 class Heard:
@@ -39,6 +41,7 @@ class Heard:
         if len(force) != len(self._mine):
             return
         with self.news:
+            self._from(float(frame.time))
             self._frames.append((float(frame.time), force))
             if force[self._mine].any():
                 self.free_since = float("inf")
@@ -49,6 +52,7 @@ class Heard:
     def arm_state(self, state: Any) -> None:
         """`GenericArmState`."""
         with self.news:
+            self._from(float(state.time))
             angles = np.array(state.position, dtype=np.float64)
             self._arm.append((float(state.time), angles, bool(state.moving)))
             self.news.notify_all()
@@ -71,6 +75,16 @@ class Heard:
         with self.news:
             if not self._fingers or time > self._fingers[-1][0]:
                 self._fingers.append((time, joints))
+
+    def _from(self, time: float) -> None:
+        """Where the simulation has begun anew, what was before counts no more but the latest."""
+        if not (self._frames and self._arm and time < self.now - _BACK_S):
+            return
+        self._frames = deque([(time, self._frames[-1][1])], self._frames.maxlen)
+        self._arm = deque([(time, *self._arm[-1][1:])], self._arm.maxlen)
+        self._fingers.clear()
+        self._answers.clear()
+        self._frozen = float("-inf")
 
     # What is known.
 

@@ -76,7 +76,7 @@ def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Pre
     _go(stage, body, skin - manner.deep * out, manner.push)
     stage.wait(manner.push)
     while stage.now() - max(stage.free_since(), began + manner.push) < manner.free:
-        if stage.now() - began > manner.stay:
+        if not 0.0 <= stage.now() - began <= manner.stay:
             break
         stage.wait(0.02)
     _go(stage, body, skin + manner.off * out, _SHORTEST)

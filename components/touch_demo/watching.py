@@ -40,11 +40,13 @@ _CALM_S, _STILL = 0.15, 0.004
 class Watching:
     """The robot, from the start of its components to `close`; a context manager.
 
-    Raises `DemoFailed` when the components do not come, and later when one has ended.
+    `alive` raises when the deployment has ended. With `most`, only so much is kept of all that is
+    heard, and simulated time may stand still and begin anew. Raises `DemoFailed` when the
+    components do not come, and later when one has ended.
     """
 
     def __init__(self, domain: str, part: str, alive: Callable[[], None], most: int | None) -> None:
-        self._alive, self._lost = alive, ""
+        self._alive, self._lost, self._patience = alive, "", PATIENCE_S
         self._links, self._watch = Links(domain), Watch(domain)
         try:
             self._find(part, most)
@@ -79,6 +81,7 @@ class Watching:
         for joint in FINGER_JOINTS:
             self._asked(self._finger.setPid, joint, board.Pid(**STIFF))
         self._look_at_finger()
+        self._patience = PATIENCE_S if most is None else float("inf")
 
     # What there is.
 
@@ -138,12 +141,13 @@ class Watching:
 
     def wait(self, seconds: float) -> None:
         """Let simulated time pass, and see where the finger is meanwhile."""
-        until = self.now() + seconds
+        since = self.now()
 
         def over() -> bool:
-            if self.now() >= self.heard.finger_seen + _LOOKS_S:
+            now = self.now()
+            if now >= self.heard.finger_seen + _LOOKS_S:
                 self._look_at_finger()
-            return self.now() >= until
+            return not since <= now < since + seconds  # time may begin anew
 
         self._until(over, f"{seconds:.2f} s of simulated time")
 
@@ -186,11 +190,11 @@ class Watching:
             time.sleep(_LOOKS_S)
 
     def _until(self, done: Callable[[], bool], what: str) -> None:
-        deadline = time.monotonic() + PATIENCE_S
+        deadline = time.monotonic() + self._patience
         while not done():
             self._check()
             if time.monotonic() > deadline:
-                raise DemoFailed(f"waited {PATIENCE_S:.0f} s in vain for {what}")
+                raise DemoFailed(f"waited {self._patience:.0f} s in vain for {what}")
             with self._waiting:
                 self._waiting.wait(_LOOKS_S)
 

@@ -87,6 +87,22 @@ def test_a_frozen_reflex_is_remembered(heard) -> None:
     assert not heard.frozen_since(0.15)
 
 
+def test_time_may_begin_anew(heard) -> None:
+    for i in range(300):
+        heard.frame(frame(0.02 * i))
+        heard.arm_state(state(0.02 * i, 0.1))
+    heard.finger_at(5.98, np.ones(3))
+    heard.arm_state(state(5.5, 0.1))  # only late
+    assert heard.now == pytest.approx(5.98)
+    heard.frame(frame(0.02, mine()))
+    assert heard.now == pytest.approx(0.02)
+    assert heard.felt_within(10.0)[mine()] == 0.5
+    assert heard.angles[0] == 0.1
+    assert not heard.stands(0.04, 0.004)  # too short to tell
+    heard.finger_at(0.03, np.zeros(3))
+    assert heard.finger.tolist() == [0, 0, 0]
+
+
 def test_all_of_it_becomes_a_recording(heard) -> None:
     heard.frame(frame(0.02, mine()))
     heard.arm_state(state(0.03, 0.1))
