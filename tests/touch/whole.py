@@ -9,6 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import fingertip
 import mujoco
 import numpy as np
 import shipped_component
@@ -66,18 +67,6 @@ class Whole(Stage):
         self.arm = self.proxy(proxy_of(words.GENERICARM), "generic_arm", "GenericArm")
         simulation = self.world.simulation
         self.model, self.data = simulation.world.model, simulation.world.data
-        self.radius = float(self.model.geom_size[self._finger_geom()][0])
-
-    def _finger_geom(self) -> int:
-        body = self.model.joint("finger_x").bodyid[0]
-        return int(next(g for g in range(self.model.ngeom) if self._is_finger(g, body)))
-
-    def _is_finger(self, geom: int, body: int) -> bool:
-        """Whether the body of the geom hangs on that of the finger's first joint."""
-        at = self.model.geom_bodyid[geom]
-        while at and at != body:
-            at = self.model.body_parentid[at]
-        return bool(at)
 
     @property
     def state(self) -> str:
@@ -116,38 +105,28 @@ class Whole(Stage):
         body = self.data.body(limb.body)
         return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
 
-    def put_finger(self, field: Field, off: float) -> Floats:
-        """Put it `off` before the skin at the field's centre, at rest; the way in, of length 1."""
-        limb = self.part.limb(field.limb)
-        body = self.data.body(limb.body)
-        turn = body.xmat.reshape(3, 3)
-        out = np.array([0.0, *field.centre[1:]])
-        way = turn @ limb.axes @ (out / np.linalg.norm(out))
-        axis = turn @ limb.to_body(np.array([field.centre[0], 0, 0])) + body.xpos
-        start, geom = axis + 0.055 * way, np.zeros(1, np.int32)
-        finger = int(self.model.geom_bodyid[self._finger_geom()])
-        far = mujoco.mj_ray(self.model, self.data, start, -way, None, 1, finger, geom)
-        goal = start - (far - self.radius - off) * way
+    def put_finger(self, field: Field, off: float) -> None:
+        """Put it `off` before the skin at the field's centre, at rest."""
+        goal = fingertip.before_skin(self.model, self.data, self.part, field, off)
         self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
-        at = self.data.geom_xpos[self._finger_geom()]
-        for name, step in zip(("finger_x", "finger_y", "finger_z"), goal - at, strict=True):
-            self.data.joint(name).qpos[0] += step
-            self.data.joint(name).qvel[0] = 0.0
-        mujoco.mj_forward(self.model, self.data)
+        self._slide(goal - self.data.geom_xpos[fingertip.geom_of(self.model)])
         self.run(0.02)
         self.finger.setControlMode([], ARM.interfaces.ControlMode.Position)
-        return -way
 
     def press(self, field: Field, deep: float) -> None:
         """Send the finger in along the normal; it takes about 0.1 s, and stays."""
-        way = self.put_finger(field, 0.003)
-        step = (0.003 + deep) * way
+        self.put_finger(field, 0.003)
+        step = (0.003 + deep) * fingertip.inwards(self.data, self.part, field)
         self.finger.setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
         self.finger.relativeMove([], step)
 
     def take_away(self) -> None:
-        """Where it can touch nothing."""
-        for name in ("finger_x", "finger_y", "finger_z"):
-            joint = self.model.joint(name)
-            self.data.joint(name).qpos[0] = joint.range[1]
+        """Where it can touch nothing; its motors are off, or they would bring it back."""
+        self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
+        self._slide(np.ones(3))
+
+    def _slide(self, way: Floats) -> None:
+        for name, step in zip(fingertip.SLIDES, way, strict=True):
+            self.data.joint(name).qpos[0] += step
             self.data.joint(name).qvel[0] = 0.0
+        mujoco.mj_forward(self.model, self.data)

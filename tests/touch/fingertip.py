@@ -1,0 +1,43 @@
+"""Where the finger of a simulated robot has to be to touch a field, in the state of a model."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.tactile.arrays import Floats
+from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.reflex.law import Field
+
+SLIDES = ("finger_x", "finger_y", "finger_z")
+CLEAR = 0.055
+"""Outside every limb, and nearer to its axis than anything else of the robot [m]."""
+
+
+def body_of(model: Any) -> int:
+    """The body of the finger: the last of its slides moves it."""
+    return int(model.joint(SLIDES[-1]).bodyid[0])
+
+
+def geom_of(model: Any) -> int:
+    return int(model.body_geomadr[body_of(model)])
+
+
+def inwards(data: Any, part: Part, field: Field) -> Floats:
+    """The way into the limb at the field's centre, of length 1, in the world."""
+    limb = part.limb(field.limb)
+    out = np.array([0.0, *field.centre[1:]])
+    return -data.body(limb.body).xmat.reshape(3, 3) @ limb.axes @ (out / np.linalg.norm(out))
+
+
+def before_skin(model: Any, data: Any, part: Part, field: Field, off: float) -> Floats:
+    """Where the finger's centre is when it is `off` before the skin at the field's centre."""
+    limb, way = part.limb(field.limb), inwards(data, part, field)
+    body = data.body(limb.body)
+    axis = np.array([field.centre[0], 0.0, 0.0])
+    start = body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(axis) - CLEAR * way
+    geom = np.zeros(1, np.int32)
+    far = mujoco.mj_ray(model, data, start, way, None, 1, body_of(model), geom)
+    return start + (far - float(model.geom_size[geom_of(model)][0]) - off) * way

@@ -1,0 +1,254 @@
+"""Simulator, generic_arm and reflex as processes over zenoh, deployed; some are held up and killed.
+
+The clock is the machine's: timeouts are long, so that a busy machine is no silent robot, and
+nothing is judged by how long it took.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import fingertip
+import mujoco
+import numpy as np
+import pytest
+from puppet import proxy_of, words
+from shipped_component import COMPONENTS
+from whole import ARM, BOARDS
+
+from robocomp_dsl.runtime.component_interface import ComponentProxy, LifeState
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware import open_middleware
+from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.tactile.description.read import load_robot
+
+DEADLINE = 120.0
+RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
+SIDE = "left_arm"
+DDSL = """
+import "{components}/generic_arm/generic_arm.cdsl";
+import "{components}/reflex/reflex.cdsl";
+import "{components}/{robot}_simulator/{robot}_simulator.cdsl";
+
+Deployment touch
+{{
+    component robot : {robot}_simulator {{ restart on-failure max 9 in 60 s; }};
+    component arm : generic_arm
+    {{
+        restart on-failure max 9 in 60 s;
+        set description = "{description}";
+        set begin = start;
+    }};
+    component reflex
+    {{
+        restart on-failure max 9 in 60 s;
+        set description = "{description}";
+        set threshold = 0.005;
+        set full = 0.02;
+        set withdraw_speed = 0.05;
+        set frame_timeout = 2.0;
+        set arm_timeout = 2.0;
+    }};
+    connect arm.board -> robot.{board};
+    connect reflex.GenericArm -> arm.GenericArm;
+    connect reflex.Skin -> robot.Skin;
+    connect robot.SkinFrame -> reflex.SkinFrame;
+    connect arm.GenericArmState -> reflex.GenericArmState;
+}};
+"""
+
+pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themselves
+
+
+def until(condition: Callable[[], Any], what: str) -> None:
+    end = time.monotonic() + DEADLINE
+    while time.monotonic() < end:
+        with contextlib.suppress(MiddlewareError, ARM.interfaces.NotPossible):
+            if condition():
+                return
+        time.sleep(0.01)
+    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+
+
+class Deployed:
+    """The deployment, and proxies of it from outside."""
+
+    def __init__(self, robot: str, folder: Path) -> None:
+        self.name = f"reflex-{robot}-{os.getpid()}"
+        home = COMPONENTS / f"{robot}_simulator"
+        description = home / "tactile.yaml"
+        file, self.said = folder / "touch.ddsl", folder / "said.txt"
+        board = BOARDS[robot, SIDE]
+        said = {"components": COMPONENTS, "description": description, "robot": robot}
+        file.write_text(DDSL.format(**said, board=board), encoding="utf-8")
+        self.part = load_robot(description).part(SIDE)
+        self.model = mujoco.MjModel.from_xml_path(str(home / f"{robot}.xml"))
+        self.data = mujoco.MjData(self.model)
+        mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
+        mujoco.mj_forward(self.model, self.data)
+        host = Host("looker", self.name, Execution(), Statistics())
+        self._middleware = open_middleware("zenoh", host)
+        self.reflex = self._proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
+        self.finger = self._proxy(proxy_of(ARM.interfaces.CONTROLBOARD), "robot", "finger")
+        self.arm = self._proxy(proxy_of(words.GENERICARM), "arm", "GenericArm")
+        self.about = {
+            one: self._proxy(ComponentProxy, one, "Component") for one in ("robot", "arm", "reflex")
+        }
+        self.pids: set[int] = set()
+        self.process = subprocess.Popen(
+            [
+                str(RCDEPLOY),
+                str(file),
+                "up",
+                "--name",
+                self.name,
+                "--domain",
+                self.name,
+                "--no-table",
+            ],
+            stdout=self.said.open("w"),
+            stderr=subprocess.STDOUT,
+        )
+
+    def _proxy(self, kind: Any, component: str, port: str) -> Any:
+        at = Endpoint(kind.INTERFACE, "looker", port, (f"{component}.{port}",))
+        made = kind(self._middleware.proxy(at))
+        made.set_timeout(2.0)
+        return made
+
+    def pid(self, name: str) -> int:
+        pid = int(self.about[name].getInfo().pid)
+        self.pids.add(pid)
+        return pid
+
+    def state(self) -> str:
+        info = self.about["reflex"].getInfo()
+        if info.state == LifeState.Emergency and info.states == ["Frozen"]:
+            return "Emergency"
+        return " ".join(info.states)  # none before it has begun
+
+    def awake(self) -> None:
+        until(lambda: self.state() == "Watching", "a reflex that watches")
+
+    def touch(self, place: str) -> None:
+        """Bring the finger before a field, and into the skin."""
+        field = next(one for one in self.part.fields if one.name == place)
+        for off, seconds in ((0.12, 1.0), (0.004, 0.5), (-0.006, 0.1)):
+            goal = fingertip.before_skin(self.model, self.data, self.part, field, off)
+            here = self.finger.getState().position
+            self.finger.setReferenceSpeed([], np.maximum(np.abs(goal - here) / seconds, 0.01))
+            self.finger.positionMove([], goal)
+            if off > 0:
+                until(lambda: self.finger.motionDone([]).all(), "a finger before the skin")
+
+    def park(self) -> None:
+        self.finger.setReferenceSpeed([], [0.3, 0.3, 0.3])
+        self.finger.positionMove([], [0.4, 0.3, 0.55])
+
+    def end(self) -> int:
+        for pid in self.pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGCONT)
+        self.process.send_signal(signal.SIGINT)
+        try:
+            return self.process.wait(DEADLINE)
+        finally:
+            self.process.kill()
+            self._middleware.close()
+
+
+@pytest.fixture(scope="module", params=["nao", "icub"])
+def deployed(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Deployed]:
+    made = Deployed(request.param, tmp_path_factory.mktemp(request.param))
+    code = None
+    try:
+        made.awake()
+        for one in made.about:
+            made.pid(one)
+        yield made
+    finally:
+        code = made.end()
+        print(made.said.read_text(encoding="utf-8"))  # shown where something failed
+    assert code == 0
+    assert not [pid for pid in made.pids if Path(f"/proc/{pid}").exists()]
+
+
+def test_the_finger_touches_and_the_arm_withdraws_and_comes_back(deployed: Deployed) -> None:
+    start = deployed.arm.getState().position
+    deployed.touch("lower_arm_outer")
+    until(lambda: deployed.reflex.getStatistics().withdrawals, "a withdrawal")
+    far = deployed.part.fields[0].motion
+    until(
+        lambda: np.abs(deployed.arm.getState().position - start).max() > 0.3 * np.abs(far).max(),
+        "an arm that is away",
+    )
+    deployed.park()
+    deployed.awake()
+    assert deployed.arm.getState().position == pytest.approx(start, abs=0.06)
+    seen = deployed.reflex.getStatistics()
+    assert (seen.framesNotFinite, seen.framesWrongLength, seen.framesOtherGeometry) == (0, 0, 0)
+
+
+@pytest.mark.parametrize("who", ["arm", "robot"])
+def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who: str) -> None:
+    deployed.awake()
+    os.kill(deployed.pid(who), signal.SIGSTOP)
+    try:
+        until(lambda: deployed.state() == "Emergency", "an emergency")
+        assert deployed.about["reflex"].getInfo().reason
+        frames = deployed.reflex.getStatistics().framesAccepted
+        if who == "arm":  # the skin is there all the time, and heard
+            until(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
+        else:
+            assert deployed.reflex.getStatistics().framesAccepted == frames
+    finally:
+        for pid in deployed.pids:
+            os.kill(pid, signal.SIGCONT)
+    deployed.awake()
+
+
+def test_an_arm_that_hangs_on_its_way_is_stopped_when_it_is_back(deployed: Deployed) -> None:
+    deployed.awake()
+    count = deployed.reflex.getStatistics().withdrawals
+    deployed.touch("lower_arm_outer")
+    until(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
+    hanging = deployed.pid("arm")
+    os.kill(hanging, signal.SIGSTOP)
+    try:
+        deployed.park()
+        until(lambda: deployed.state() == "Emergency", "an emergency")
+        frozen = deployed.reflex.getStatistics()
+    finally:
+        os.kill(hanging, signal.SIGCONT)
+    deployed.awake()
+    start = deployed.arm.getLimits().start
+    assert deployed.arm.getState().position == pytest.approx(start, abs=0.06)
+    assert frozen.state == words.ReflexState.Frozen
+
+
+@pytest.mark.parametrize("who", ["arm", "robot", "reflex"])
+def test_one_that_is_killed_is_started_again_and_all_goes_on(deployed: Deployed, who: str) -> None:
+    deployed.awake()
+    before = deployed.pid(who)
+    os.kill(before, signal.SIGKILL)
+    until(lambda: deployed.pid(who) != before, f"another {who}")
+    deployed.pids.discard(before)
+    until(lambda: deployed.state() in ("Emergency", "Frozen", "Watching"), "a reflex that lives")
+    deployed.awake()
+    count = deployed.reflex.getStatistics().withdrawals
+    deployed.touch("lower_arm_outer")
+    until(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
+    deployed.park()
+    deployed.awake()
