@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from robocomp_dsl.hardware.control.acceleration import SMOOTHING, Acceleration
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
@@ -116,6 +117,23 @@ def test_velocities_ramp_and_time_out():
     assert speeds[310] == pytest.approx(1 - 5 * 0.01, abs=0.02)
     assert speeds[-1] == 0.0
     assert not ramp.active
+
+
+@pytest.mark.parametrize("asked_each", [1, 7, 1000])
+def test_accelerations_are_those_of_a_filter_whoever_asks(asked_each):
+    random, velocity, expected = np.random.default_rng(0), np.zeros(3), np.zeros(3)
+    acceleration = Acceleration(velocity)
+    for k in range(200):
+        dt = DT if k < 120 else 2 * DT
+        faster = velocity + random.normal(size=3) * 0.01
+        expected = (expected * SMOOTHING + faster - velocity) / (dt + SMOOTHING)
+        velocity = faster
+        acceleration.add(velocity, dt)
+        if k % asked_each == 0:
+            assert acceleration.now(velocity) == pytest.approx(expected, abs=1e-9)
+    assert acceleration.now(velocity) == pytest.approx(expected, abs=1e-9)
+    acceleration.begin(velocity)
+    assert not acceleration.now(velocity).any()
 
 
 def test_regulators_have_proportion_integral_damping_and_bounds():

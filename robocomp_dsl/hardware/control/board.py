@@ -52,7 +52,7 @@ class Board:
     @property
     def acceleration(self) -> Floats:
         """Accelerations (n,) of the joints [rad/s²], smoothed."""
-        return self._acceleration.now()
+        return self._acceleration.now(self.velocity)
 
     @property
     def current(self) -> Floats:

@@ -113,6 +113,8 @@ class Calibrator:
 
     def step(self, dt: float) -> None:
         """Called by the board at every step."""
+        if not self._runs:
+            return
         for joint, run in list(self._runs.items()):
             if self._board.table.modes[joint] is not Mode.CALIBRATING:
                 del self._runs[joint]  # force-idle or a fault took the joint away

@@ -25,6 +25,8 @@ class ModeTable:
     @property
     def interactions(self) -> tuple[Interaction, ...]:
         """Interaction modes; a joint with a fault reads stiff and gets its own back afterwards."""
+        if Mode.HW_FAULT not in self.modes:
+            return tuple(self._interactions)
         return tuple(
             Interaction.STIFF if mode is Mode.HW_FAULT else interaction
             for mode, interaction in zip(self.modes, self._interactions, strict=True)

@@ -37,13 +37,18 @@ class Motors:
         self._per_amp = self.to_motor.T * self.torque_constant
         bemf = self.torque_constant**2 / self.resistance
         self.back_emf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
+        self._to_counts = (self.counts / (2 * np.pi))[:, None] * self.to_motor
+        self._to_current = self._torque_to_motor / self.torque_constant[:, None]
+        share = 100.0 / self.supply
+        self._duty_of_torque = (share * self.resistance)[:, None] * self._to_current
+        self._duty_of_speed = (share * self.torque_constant)[:, None] * self.to_motor
         most = np.abs(self._torque_to_motor) @ spec.column("torque_limit")
         self._most_current = most / self.torque_constant
         self.overloadable = self._may_overload()
 
     def current(self, torque: Floats) -> Floats:
         """Motor currents [A] that make the joint torques (n,) [N m]."""
-        current: Floats = (self._torque_to_motor @ torque) / self.torque_constant
+        current: Floats = self._to_current @ torque
         return current
 
     def torque_of_current(self, current: Floats) -> Floats:
@@ -64,14 +69,12 @@ class Motors:
 
     def duty(self, torque: Floats, joint_velocity: Floats) -> Floats:
         """Duty cycles [%] behind joint torques at the joints' velocities, within +-100."""
-        emf = self.torque_constant * (self.to_motor @ joint_velocity)
-        volts = self.current(torque) * self.resistance + emf
-        return np.clip(100.0 * volts / self.supply, -100.0, 100.0)
+        duty: Floats = self._duty_of_torque @ torque + self._duty_of_speed @ joint_velocity
+        return np.minimum(np.maximum(duty, -100.0), 100.0)
 
     def encoder(self, joint_angles: Floats) -> Floats:
         """Encoder counts of the motors, whole numbers."""
-        turns = self.to_motor @ joint_angles / (2 * np.pi)
-        return np.asarray(np.floor(turns * self.counts) + self.zero)
+        return np.asarray(np.floor(self._to_counts @ joint_angles) + self.zero)
 
     def set_encoder(self, motors: Ints, counts: Floats, joint_angles: Floats) -> None:
         """Let the counters of `motors` stand at `counts` now."""
@@ -79,7 +82,7 @@ class Motors:
 
     def speed(self, joint_velocities: Floats) -> Floats:
         """Encoder counts per second."""
-        return np.asarray(self.to_motor @ joint_velocities / (2 * np.pi) * self.counts)
+        return np.asarray(self._to_counts @ joint_velocities)
 
     def set_temperature(self, temperature: Floats) -> None:
         """What thermometers (n,) tell now [degC]."""

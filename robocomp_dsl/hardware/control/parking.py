@@ -40,6 +40,7 @@ class Parking:
         self.states = [ParkState.AWAY] * n
         self._board, self._speed, self._timeout = board, speed, timeout
         self._elapsed = np.zeros(n)
+        self._leading = False
         board.leaders.append(self.step)
 
     def park(self, joints: Ints | None = None) -> None:
@@ -52,6 +53,7 @@ class Parking:
         self._elapsed[chosen] = 0.0
         for joint in chosen.tolist():
             self.states[joint] = ParkState.PARKING
+        self._leading = True
 
     def quit(self, joints: Ints | None = None) -> None:
         """Stop parking; joints on their way stay where they are, in position mode."""
@@ -72,11 +74,12 @@ class Parking:
 
     def step(self, dt: float) -> None:
         """Called by the board at every step."""
-        if not self.busy:
+        if not self._leading:
             return
         for joint, state in enumerate(self.states):
             if state is ParkState.PARKING:
                 self._watch(joint, dt)
+        self._leading = self.busy
 
     def _watch(self, joint: int, dt: float) -> None:
         board = self._board

@@ -153,6 +153,7 @@ class World:
             self.data.mocap_quat[here] = before.data.mocap_quat[there]
 
     def _check(self) -> None:
+        numbers = self.data.warning.number
         for kind in _BAD:
-            if self.data.warning[kind].number:
+            if numbers[kind]:
                 raise Diverged(f"the simulation diverged before {self.time:.3f} s ({kind.name})")

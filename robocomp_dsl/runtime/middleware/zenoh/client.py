@@ -279,6 +279,8 @@ class TopicLink:
         self._host = host
         self._at = at
         self._publishers: list[zenoh.Publisher] = []
+        self._listeners: list[Any] = []
+        self._stale, self._heard = True, False
 
     def bind(self, operation: Operation) -> Bound:
         """See `base.Link`."""
@@ -311,7 +313,16 @@ class TopicLink:
 
     def heard(self) -> bool:
         """See `base.Link`; foreign subscribers count, too."""
-        return any(one.matching_status.matching for one in self._publishers)  # type: ignore[attr-defined]
+        for publisher in self._publishers[len(self._listeners) :]:
+            told = zenoh.handlers.Callback(self._matched, indirect=False)
+            self._listeners.append(publisher.declare_matching_listener(told))
+        if self._stale:
+            self._stale = False  # first, so that a change that comes meanwhile is not missed
+            self._heard = any(one.matching_status.matching for one in self._publishers)  # type: ignore[attr-defined]
+        return self._heard
+
+    def _matched(self, _status: object) -> None:
+        self._stale = True
 
     def _hears(self, one: Present) -> bool:
         return one.component != self._at.component and related(self._at.component, one.component)
