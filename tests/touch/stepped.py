@@ -81,9 +81,7 @@ class Stage:
 
     def _runner(self, one: Cast) -> Runner:
         params = one.worker.SPEC.parameters.load(None, one.said)
-        settings = replace(
-            one.settings, domain=self.domain, middleware="inproc", clock=self._clock
-        )
+        settings = replace(one.settings, domain=self.domain, middleware="inproc", clock=self._clock)
         return Runner(one.worker, params, settings)
 
     @property

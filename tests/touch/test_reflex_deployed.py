@@ -180,7 +180,7 @@ def deployed(
         yield made
     finally:
         code = made.end()
-        print(made.said.read_text(encoding="utf-8"))  # shown where something failed
+        sys.stdout.write(made.said.read_text(encoding="utf-8"))  # shown where something failed
     assert code == 0
     assert not [pid for pid in made.pids if Path(f"/proc/{pid}").exists()]
 

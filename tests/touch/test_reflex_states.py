@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+import sys
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -44,3 +48,17 @@ def test_a_touch_withdraws_holds_and_returns(touched: Touched) -> None:
 def test_the_states_of_the_machine_are_those_that_the_interface_tells() -> None:
     machine = REFLEX.worker.SPEC.machine
     assert {one.name for one in machine.states} == {one.name for one in words.ReflexState}
+
+
+def test_its_page_draws_the_machine(tmp_path: Path) -> None:
+    rcgen = Path(sys.executable).with_name("rcgen")
+    file = REFLEX.folder / "reflex.cdsl"
+    subprocess.run([rcgen, "doc", "-q", file, "-o", tmp_path / "doc"], check=True, timeout=60)
+    page = (tmp_path / "doc" / "components" / "reflex.html").read_text(encoding="utf-8")
+    drawings = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+    (drawn,) = [one for one in drawings if ">Withdrawing<" in one]
+    said = re.findall(r"<text[^>]*>([^<]+)", drawn)
+    assert sorted(said) == sorted(
+        [one.name for one in words.ReflexState]
+        + [one.event for one in REFLEX.worker.SPEC.machine.transitions]
+    )
