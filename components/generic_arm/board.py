@@ -64,7 +64,8 @@ class Board:
     def __init__(self, port: str, proxy: ControlBoardProxy, joints: Joints) -> None:
         self.port, self.joints = port, joints
         self.rows: Ints = np.zeros(0, np.int64)
-        self._proxy, self._names = proxy, list(joints.names)
+        self._proxy = proxy
+        self._names, self._held = list(joints.names), list(joints.held)
         self._count, self._fastest = 0, np.zeros(0)
         self._modes: list[ControlMode] = []  # empty: not known
         self._changes, self._pushed = 0, False
@@ -72,18 +73,22 @@ class Board:
     def reach(self) -> None:
         """Find the joints on the board. Raises `WrongBoard`, and what the call raises."""
         joints = self._proxy.getJoints()
-        found = {one.name: i for i, one in enumerate(joints)}
-        missing = [name for name in (*self._names, *self.joints.held) if name not in found]
+        # a description may count joints instead of naming them
+        found = {str(i): i for i in range(len(joints))}
+        found |= {one.name: i for i, one in enumerate(joints)}
+        missing = [name for name in (*self.joints.names, *self.joints.held) if name not in found]
         if missing:
+            has = ", ".join(one.name for one in joints)
             raise WrongBoard(
                 f"the board at `{self.port}` has no joint `{missing[0]}`, which the description"
-                f" expects on `{self.joints.part}`; it has {', '.join(found)}: is the port wired"
-                " to another board?"
+                f" expects on `{self.joints.part}`; it has {has}: is the port wired to another board?"
             )
         self._count = len(joints)
-        self.rows = np.array([found[name] for name in self._names], np.int64)
-        fastest = [joints[found[name]].speedLimit for name in self.joints.held]
-        self._fastest = np.array(fastest, np.float64)
+        self.rows = np.array([found[name] for name in self.joints.names], np.int64)
+        self._names = [joints[row].name for row in self.rows]
+        held = [joints[found[name]] for name in self.joints.held]
+        self._held = [one.name for one in held]
+        self._fastest = np.array([one.speedLimit for one in held])
 
     def read(self) -> BoardState:
         """Everything it measured last. Raises `WrongBoard`, and `Refusal` for what is no number."""
@@ -132,7 +137,7 @@ class Board:
 
     def hold_others(self, share: float) -> None:
         """Send the held joints to where they stay, at a share of their speed limits."""
-        names, angles = list(self.joints.held), np.array(list(self.joints.held.values()))
+        names, angles = self._held, np.array(list(self.joints.held.values()))
         if names:  # an empty list would be all joints of the board
             with self._words():
                 self._proxy.setControlMode(names, ControlMode.Position)

@@ -157,6 +157,43 @@ def test_what_fails_in_a_stream_is_told_once(caplog: pytest.LogCaptureFixture) -
         assert caplog.text.count("5 values are needed, 3 were given") == 1
 
 
+# -- the form of the paper ------------------------------------------------------------------------
+
+SERVO = """
+  <generic_servo id="{index}">
+    <destination_servo_id>{joint}</destination_servo_id>
+    <transform_factor>{gamma}</transform_factor>
+    <transform_displacement>{sigma}</transform_displacement>
+    <speed>4.0</speed>
+    <limits min="-3" max="3"/>
+  </generic_servo>"""
+
+
+def test_an_arm_that_the_papers_listing_describes(tmp_path: Path) -> None:
+    """Joints by their numbers on the board, two servos left out, and its misspelt tag."""
+    servos = "".join(
+        SERVO.format(index=index, joint=joint, gamma=gamma, sigma=sigma)
+        for index, joint, gamma, sigma in ((0, 0, -1, 1.5708), (1, 1, 1, 0), (3, 3, -1, 0))
+    )
+    (tmp_path / "arm.xml").write_text(
+        f"""<Generic_Robot_Part>left_arm</Generic_Robot_Part>
+<generic_servo_number>5</generic_servo_number>{servos}
+<initial_positions>
+  <servo type="rad" destination_servo_id="3" pos="-0.6"/>
+  <servo type="rad" destination_servo_id="5" pos="0.4"/>
+</initial_postions>"""
+    )
+    with arm_on("nao_h25", description=tmp_path / "arm.xml") as (arm, served):
+        limits = arm.getLimits()
+        assert limits.available.tolist() == [True, True, False, True, False]
+        assert "no chain" in refused(arm.getChain)
+        outcome = arm.move(GOAL, NONE)
+        assert outcome.dropped.tolist() == [False, False, True, False, True]
+        assert arm.rest().position == pytest.approx([0.5, 0.6, 0, 0.9, 0], abs=0.05)
+        hand = served.part.board.spec.names.index("LHand")
+        until(lambda: abs(served.part.board.position[hand] - 0.4) < 0.03)
+
+
 # -- several boards -------------------------------------------------------------------------------
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from robocomp_dsl.runtime.config.data_file import data_file
 from robocomp_dsl.runtime.parameters import ConfigError, Finding, Place
 from robocomp_dsl.runtime.parameters.findings import Text, did_you_mean
+from robocomp_dsl.tactile.description.listing import read_listing
 from robocomp_dsl.tactile.description.model import GENERIC_ARM, Part, Robot
 from robocomp_dsl.tactile.description.read import read_robot
 from robocomp_dsl.tactile.errors import DescriptionError
@@ -25,7 +26,7 @@ def arm_part(description: str, part: str, config: Path | None) -> Part:
     source = _source(file)
     text = Text(str(file), tuple(source.splitlines()))
     try:
-        robot = read_robot(source, file)
+        robot = _robot(source, file)
     except DescriptionError as error:
         raise ConfigError(_shown(error, text)) from None
     found = next((one for one in robot.parts if one.name == part), None)
@@ -35,6 +36,14 @@ def arm_part(description: str, part: str, config: Path | None) -> Part:
         said = f"`{part}` is no arm: it has {len(found.servos)} servos"
         raise ConfigError([_at(found, text, said, f"an arm has {', '.join(GENERIC_ARM)}")])
     return found
+
+
+def _robot(source: str, file: Path) -> Robot:
+    """The robot of a file in YAML, or the one part of a listing in XML."""
+    if not source.lstrip().startswith("<"):
+        return read_robot(source, file)
+    part = read_listing(source, file)
+    return Robot(part.name, (part,), file)
 
 
 def _source(file: Path) -> str:
