@@ -81,7 +81,8 @@ class Board:
             has = ", ".join(one.name for one in joints)
             raise WrongBoard(
                 f"the board at `{self.port}` has no joint `{missing[0]}`, which the description"
-                f" expects on `{self.joints.part}`; it has {has}: is the port wired to another board?"
+                f" expects on `{self.joints.part}`; it has {has}: is the port wired to another"
+                " board?"
             )
         self._count = len(joints)
         self.rows = np.array([found[name] for name in self.joints.names], np.int64)
