@@ -71,6 +71,15 @@ def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> No
     assert {"components/Base.html", "components/base-2.html"} <= set(made)
 
 
+def test_a_port_that_may_stay_alone_says_so(tmp_path: Path) -> None:
+    ports = "requires Laser, Laser as spare optional;"
+    text = COMPONENT.format(file="Laser.idsl", name="base", ports=ports)
+    _write(tmp_path, {"base.cdsl": text})
+    said = _text(pages(tmp_path / "base.cdsl"), "components/base")
+    assert "Laser requires Laser" in said
+    assert "spare requires, optional Laser" in said
+
+
 def test_types_of_all_sorts(tmp_path: Path) -> None:
     _write(
         tmp_path,
