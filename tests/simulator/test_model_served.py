@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -294,6 +295,20 @@ def test_reset_snapshot_and_fork(arm: Served) -> None:
     world.reset()
     assert world.getJoints(0, ["shoulder", "elbow"]).tolist() == [0.5, -1.0]
     assert world.getState().time == 0.0
+
+
+def test_a_file_that_changes_is_read_again(tmp_path: Path) -> None:
+    """A world that is built again does not read its file again, but for another one."""
+    arm = served_model(tmp_path, ARM)
+    model = arm.simulation.world.model
+    arm.ports["Simulation"].reset()
+    assert arm.simulation.world.model is not model
+    file = tmp_path / "generated" / "model.xml"
+    file.write_text(ARM.replace('mass="0.3"', 'mass="0.6"'))
+    stamp = file.stat().st_mtime_ns + 1_000_000_000
+    os.utime(file, ns=(stamp, stamp))
+    arm.ports["Simulation"].reset()
+    assert arm.simulation.world.model.body("lower").mass[0] == pytest.approx(0.6)
 
 
 def test_the_same_seed_and_commands_give_the_same_bits(tmp_path: Path) -> None:

@@ -8,7 +8,8 @@ as it was.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,17 @@ def begin(path: Path, packages: Sequence[Path] = ()) -> Started:
     for key in list(spec.keys):
         spec.delete(key)
     return started
+
+
+def begin_again(path: Path) -> Started:
+    """As `begin`, of a file that is read once: meshes take long, and worlds are built again."""
+    known = _begun(path, path.stat().st_mtime_ns)
+    return replace(known, spec=known.spec.copy(), findings=list(known.findings))
+
+
+@lru_cache(maxsize=2)
+def _begun(path: Path, _: int) -> Started:
+    return begin(path)
 
 
 def _name(spec: Any) -> None:

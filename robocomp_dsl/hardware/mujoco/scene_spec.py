@@ -18,7 +18,7 @@ from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.memory import make_room
-from robocomp_dsl.hardware.mujoco.model_start import begin
+from robocomp_dsl.hardware.mujoco.model_start import begin_again
 from robocomp_dsl.hardware.mujoco.scene_shapes import add_box, add_mesh
 from robocomp_dsl.hardware.rotations import rotation
 from robocomp_dsl.hardware.scene import ROOT, Frame, Model, Motion, Scene, Triple
@@ -70,7 +70,7 @@ def _begun(model: Model | None) -> tuple[Any, list[str]]:
         lightest = _LIGHTEST
     else:
         try:
-            started = begin(model.file)
+            started = begin_again(model.file)
         except OSError as error:
             said = f"`{model.file}` cannot be read: {error.strerror or error}"
             raise SceneError(said) from None
