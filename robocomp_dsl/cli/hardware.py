@@ -78,7 +78,8 @@ def command(
 def _make(
     world: Simulator, ids: list[str], name: str, folder: Path, workspace: Workspace, form: str
 ) -> None:
-    from robocomp_dsl.generate.hardware import NoTwin, twin  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.cli.made import put  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.generate.hardware import NoTwin, twin  # noqa: PLC0415
 
     try:
         made = twin(world, ids, name)
@@ -90,7 +91,8 @@ def _make(
     options.show(report.sorted(), form, sys.stderr)
     if report.failed:
         sys.exit(FINDINGS)
-    _write(folder, files, made)
+    then = f"fill in {folder / 'driver.py'}, then cd {folder} && python3 -m pytest"
+    put(folder, files, len(made.made.ports), then)
 
 
 def _files(made: Twin, folder: Path, workspace: Workspace, report: Report) -> list[OutputFile]:
@@ -120,16 +122,3 @@ def known(made: Twin) -> dict[str, object]:
     if made.motors:
         return {"spec": device.board.spec.part(made.ids)}
     return {name: getattr(device, name) for name in ("settings", "limits") if hasattr(device, name)}
-
-
-def _write(folder: Path, files: list[OutputFile], made: Twin) -> None:
-    from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - late
-
-    try:
-        changes = write(folder, files)
-    except CannotWrite as error:
-        options.complain(str(error))
-        sys.exit(FINDINGS)
-    written = sum(one.pending for one in changes)
-    print(f"{folder}: {written} of {len(changes)} files written; {len(made.made.ports)} ports")
-    print(f"next: fill in {folder / 'driver.py'}, then cd {folder} && python3 -m pytest")

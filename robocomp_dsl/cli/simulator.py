@@ -88,7 +88,9 @@ def command(
     if dry_run:
         print(table(made))
     else:
-        _write(folder, files, made)
+        from robocomp_dsl.cli.made import put  # noqa: PLC0415 - late
+
+        put(folder, files, len(made.ports), f"cd {folder} && python3 main.py")
 
 
 def simulated(
@@ -191,19 +193,6 @@ def _files(made: Simulator, folder: Path, workspace: Workspace, report: Report) 
         workspace.files.open_buffer(folder / one.path, one.text)
     component = check_cdsl(folder / described[0].path, workspace, report)
     return [*described, *files(made, component)] if component and not report.failed else []
-
-
-def _write(folder: Path, files: list[OutputFile], made: Simulator) -> None:
-    from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - late
-
-    try:
-        changes = write(folder, files)
-    except CannotWrite as error:
-        options.complain(str(error))
-        sys.exit(FINDINGS)
-    written = sum(one.pending for one in changes)
-    print(f"{folder}: {written} of {len(changes)} files written; {len(made.ports)} ports")
-    print(f"next: cd {folder} && python3 main.py")
 
 
 def table(made: Simulator) -> str:
