@@ -24,7 +24,7 @@ from robocomp_dsl.hardware.simulation_interface import (
 )
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.running import CannotFollow, look_at
-from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.errors import AmbiguousServer, MiddlewareError
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware
@@ -53,6 +53,9 @@ def show(
                 view.photograph(seen.model, seen.data(), screenshot, size, look)
             else:
                 _serve(component or "simulation", hand, nodes, look, port)
+        except AmbiguousServer as error:
+            names = [one.partition(".")[0] for one in error.servers]
+            _fail(f"{' and '.join(names)} run there: say which, as in `--live {names[0]}`")
         except (MiddlewareError, CannotFollow) as error:
             _fail(str(error))
 

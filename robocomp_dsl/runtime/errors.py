@@ -29,7 +29,14 @@ class NoServer(MiddlewareError):
 
 
 class AmbiguousServer(MiddlewareError):
-    """Several components serve the interface and the required port is not wired to one of them."""
+    """Several components serve the interface and the required port is not wired to one of them.
+
+    `servers` are their ports, as `component.Port`.
+    """
+
+    def __init__(self, said: str, servers: tuple[str, ...] = ()) -> None:
+        super().__init__(said)
+        self.servers = servers
 
 
 class Timeout(MiddlewareError):  # the name that users of every middleware know

@@ -295,11 +295,21 @@ def test_the_only_simulation_is_found_and_one_that_is_not_there_is_told(simulato
     assert "nobody" in none.stderr
     assert domain in none.stderr
     assert "Traceback" not in none.stderr
-    with command(sys.executable, "main.py", "--domain", domain, cwd=simulator):
-        deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline:
-            done = subprocess.run(ask, capture_output=True, text=True, check=False)
-            if done.returncode == 0:
-                break
+    main = [sys.executable, "main.py", "--domain", domain, "--name"]
+    with command(*main, "one", cwd=simulator):
+        done = asked(ask, 0)
         assert done.returncode == 0, done.stderr
-    assert picture.stat().st_size > 1000
+        assert picture.stat().st_size > 1000
+        with command(*main, "other", cwd=simulator):
+            done = asked(ask, 1)
+            assert "one and other run there: say which, as in `--live one`" in done.stderr
+            assert asked([*ask, "other"], 0).returncode == 0
+
+
+def asked(ask: list[str], code: int) -> subprocess.CompletedProcess[str]:
+    """The command, again until it ends so, as simulators need a while to start."""
+    deadline = time.monotonic() + PATIENCE
+    while True:
+        done = subprocess.run(ask, capture_output=True, text=True, check=False)
+        if done.returncode == code or time.monotonic() > deadline:
+            return done

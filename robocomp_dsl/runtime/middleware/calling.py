@@ -66,7 +66,8 @@ def pick(at: Endpoint, candidates: Sequence[str]) -> str:
     first = f"{'/' if '/' in at.component else ''}{min(candidates).partition('.')[0]}"
     raise AmbiguousServer(
         f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
-        f" say which: --connect {at.port}={first}"
+        f" say which: --connect {at.port}={first}",
+        tuple(sorted(candidates)),
     )
 
 
