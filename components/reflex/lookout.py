@@ -33,7 +33,7 @@ class Lookout(Served):
     """
 
     arm: ArmFacts | None = None
-    away = False
+    away = doubted = False
     refusal = ignorance = ""
     reason = "skin and arm have not been heard of yet"
 
@@ -48,10 +48,12 @@ class Lookout(Served):
         """See whether all is there; what is to be done then is up to the states."""
         now = self._now()
         if not self.machine.is_in("Frozen"):
-            reason = self._missing(now)
+            reason, doubted = self._missing(now), self.doubted
+            # Who was held up itself has messages waiting; by the next look they are handled.
+            self.doubted = bool(reason)
             if not reason and self.sense.gate.behind:
-                reason = self.tried(self._learn_geometry)
-            if reason:
+                reason, doubted = self.tried(self._learn_geometry), True
+            if reason and doubted:
                 self.freeze(reason)
         if self.machine.is_in("Frozen"):
             self.declare_emergency(self.reason)

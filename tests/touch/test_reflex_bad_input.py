@@ -227,6 +227,16 @@ def test_while_nothing_happens_it_freezes_and_goes_on_watching(touched, lost) ->
     assert touched.robot.moves == []  # the arm was where it belongs
 
 
+@pytest.mark.parametrize(("lost", "state"), [(10, "Watching"), (11, "Watching"), (12, "Frozen")])
+def test_it_looks_twice_before_it_freezes(touched, lost, state) -> None:
+    """Eleven frames are more than 0.2 s; but one that was held up itself has them waiting."""
+    touched.robot.feels = False
+    touched.run(0.02 * lost)
+    touched.robot.feels = True
+    touched.run(0.02)
+    assert touched.state == state
+
+
 @pytest.mark.parametrize("lost", ["feels", "tells"])
 def test_an_arm_on_its_way_is_stopped_and_comes_back_later(touched, lost) -> None:
     touched.press("lower_arm_outer", 20.0)
