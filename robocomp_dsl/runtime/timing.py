@@ -75,7 +75,12 @@ def timing_of(settings: ClockSettings, owner: Owner, middleware: Middleware) -> 
 
 
 def _source(settings: ClockSettings, owner: Owner, middleware: Middleware, port: str) -> Timing:
-    tell = ClockProxy(middleware.advertise(Endpoint(CLOCK, owner.name, port))).tick
+    told = ClockProxy(middleware.advertise(Endpoint(CLOCK, owner.name, port)))
+
+    def tell(tick: Tick) -> None:
+        if told.is_heard():
+            told.tick(tick)
+
     if settings.kind != LOCKSTEP:
         return Timing(ClockSource(tell), middleware)
 

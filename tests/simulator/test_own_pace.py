@@ -30,7 +30,7 @@ class World:
 
     def advance(self, seconds: float) -> None:
         self._owed += seconds
-        steps = int(self._owed / self.dt)
+        steps = int(self._owed / self.dt + 1e-9)
         self._owed -= steps * self.dt
         self.time += steps * self.dt
         if steps:
@@ -41,15 +41,19 @@ class World:
     def tell(self) -> None: ...
 
 
-def test_a_command_has_its_step_when_that_is_due(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_command_has_its_step_at_once_and_time_does_not_run_away(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(own, "SLICE", 2 * DEADLINE)
     monkeypatch.setattr(own, "MOST_BEHIND", 2 * DEADLINE)
     world = World()
     pace = own.OwnPace(world, 1.0)
+    start = time.perf_counter()
     pace.start()
     try:
         for command in range(1, 50):
             with world.turns:
+                assert world.time <= time.perf_counter() - start + 2 * world.dt
                 world.asked = command
             until = time.monotonic() + DEADLINE
             while world.done < command:
@@ -71,6 +75,9 @@ def test_turns_are_told_to_the_worker_once() -> None:
         with turns:
             pass
     assert turns.rest(DEADLINE)
+    assert not turns.rest(0.0)
+    with turns.quiet:
+        pass
     assert not turns.rest(0.0)
     with turns:
         pass

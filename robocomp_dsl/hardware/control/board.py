@@ -46,7 +46,7 @@ class Board:
         self.position, self.velocity = np.zeros(n), np.zeros(n)
         self._acceleration = Acceleration(self.velocity)
         self.torque = np.zeros(n)
-        self._started = False
+        self._started = self._shifted = False
         self.refresh()
 
     @property
@@ -70,7 +70,7 @@ class Board:
     def step(
         self, position: Floats, velocity: Floats, dt: float, feedforward: Floats | None = None
     ) -> Floats:
-        """Torques (n,) [N m] for the next `dt` seconds; all inputs (n,).
+        """Torques (n,) [N m] for the next `dt` seconds; all inputs (n,), not to be changed later.
 
         `feedforward` are torques that hold the weight; they are used where a position is held.
         """
@@ -119,6 +119,8 @@ class Board:
     def set_encoders(self, joints: Ints, position: Floats) -> None:
         """Let the encoders of `joints` stand at `position` now; references move along."""
         self.offset[joints] += position - self.position[joints]
+        self._shifted = True
+        self.position = self.position.copy()
         self.position[joints] = position
         self.references.reset(joints, position)
 
@@ -158,7 +160,7 @@ class Board:
     def _sense(self, position: Floats, velocity: Floats, dt: float) -> None:
         if not math.isfinite(float(position.dot(velocity))):
             position, velocity = self._without_broken(position, velocity)
-        self.position = position + self.offset
+        self.position = position + self.offset if self._shifted else position
         if not self._started:
             self.begin(position, velocity)
         self._acceleration.add(velocity, dt)

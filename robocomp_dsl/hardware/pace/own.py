@@ -1,7 +1,7 @@
 """A world that lives by the clock of the machine: it advances in a thread of its own.
 
-In: a world and a wished speed. Out: time that passes, and how fast it does. Who has had a turn at
-the world, with a command maybe, sees it go on as soon as a step is due.
+In: a world and a wished speed. Out: time that passes, and how fast it does. When somebody has had a
+turn at the world, with a command maybe, it makes its next step at once: it may be one step ahead.
 """
 
 from __future__ import annotations
@@ -72,29 +72,38 @@ class OwnPace:
             self._thread.join()
 
     def _live(self) -> None:
-        last, owed = time.perf_counter(), 0.0
+        last, owed, hurried = time.perf_counter(), 0.0, False
         while not self._stopping.is_set():
             begun = time.perf_counter()
             owed, last = min(owed + begun - last, MOST_BEHIND), begun
             with self._world.turns.at_work():
-                passed = self._slice(min(owed, SLICE))
-                due = self._world.left
+                seconds = self._due(owed, hurried=hurried)
+                passed = self._slice(seconds)
+            owed, hurried = owed - seconds, False
             self._world.tell()
-            owed = max(owed - SLICE, 0.0)
             if self.paused or self._world.failure:
                 self._stopping.wait(SLICE)
             elif self.speed and owed < SLICE:
-                since = begun - owed
-                self._rest(since + SLICE, since + due / self.speed)
+                hurried = self._rest(begun - owed)
             self._measure(passed, time.perf_counter() - begun)
 
-    def _rest(self, end: float, due: float) -> None:
-        """Until `end`; or until somebody has had a turn and the next step is `due`."""
-        if self._world.turns.rest(end - time.perf_counter()):
-            time.sleep(max(min(due, end) - time.perf_counter(), 0.0))
+    def _due(self, owed: float, *, hurried: bool) -> float:
+        """Seconds of the wall clock to live in one turn; where it is `hurried`, a step at least."""
+        usual = min(max(owed, 0.0), SLICE)
+        return max(usual, self._world.left / self.speed) if hurried and self.speed else usual
+
+    def _rest(self, since: float) -> bool:
+        """Until a slice after `since`; or, where somebody had a turn, no longer than to `since`.
+
+        Tells whether that was so.
+        """
+        called = self._world.turns.rest(since + SLICE - time.perf_counter())
+        if called:
+            time.sleep(max(since - time.perf_counter(), 0.0))
+        return called
 
     def _slice(self, seconds: float) -> float:
-        """One turn of so many seconds of the wall clock; the simulated seconds that have passed."""
+        """So many seconds of the wall clock; the simulated seconds that have passed."""
         world = self._world
         if self.paused or world.failure:
             return 0.0
