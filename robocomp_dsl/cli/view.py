@@ -30,7 +30,7 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
 
 @click.command()
 @click.argument(
-    "file", type=click.Path(readable=False, path_type=Path), metavar="FILE", required=False
+    "file", type=click.Path(readable=False, path_type=Path), metavar="[FILE]", required=False
 )
 @click.option(
     "--live", is_flag=True, help="FILE is a component that simulates; without: the only one."
