@@ -1,43 +1,37 @@
 """The live page of the touch demo: its taxels have the colours of what they feel."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
-import mujoco
 import numpy as np
 import pytest
 
 pytest.importorskip("viser", reason="needs the extra `view`")
 
 from chromium_tab import CHROMIUM, opened_tab, wait_for
-from touched import ARM, demo, part, recording, world
+from parts import COMPONENTS
+from touched import ARM, demo, part, recording
 
-from robocomp_dsl.hardware.mujoco.model_file import load_model
-from robocomp_dsl.hardware.mujoco.sight import VERSION, seen, written
-from robocomp_dsl.hardware.simulation_interface import Model, Sight
+from robocomp_dsl.hardware.mujoco.simulation import Simulation, read_data
+from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.hardware.simulation_interface import SIMULATION
+from robocomp_dsl.runtime import ServedPort
 
 
 class Hand:
-    """A simulation that stands still, in the place of its proxy."""
+    """The port of the shipped simulator, in this process; its world stands still."""
 
-    def __init__(self, path: Path) -> None:
-        model = load_model(path).model
-        data = mujoco.MjData(model)
-        for joint, angle in recording().rest.items():
-            data.joint(joint).qpos[0] = angle
-        mujoco.mj_forward(model, data)
-        it = seen(model, data)
-        self.sight = Sight(0.0, 1.0, False, 1, it.positions, it.poses.ravel(), np.empty(0))
-        self.model = Model(VERSION, 1, written(model))
-
-    def getModel(self) -> Model:  # noqa: N802 - as in the interface
-        return self.model
-
-    def getSight(self) -> Sight:  # noqa: N802
-        return self.sight
+    def __init__(self) -> None:
+        data = COMPONENTS / "nao_simulator" / "generated" / "scene.json"
+        scene = Scene.of_data(read_data(data)["scene"], data.parent)
+        simulation = Simulation(scene)
+        port = ServedPort("Simulation", SIMULATION)
+        self._port = simulation.serve([port], {"Simulation": [""]})["Simulation"]
 
     def set_timeout(self, _: float) -> None:
         pass
+
+    def __getattr__(self, operation: str) -> object:
+        return getattr(self._port, operation)
 
 
 def heard_of(it: object) -> object:
@@ -50,12 +44,12 @@ def frame(time: float, force: np.ndarray) -> SimpleNamespace:
     return SimpleNamespace(time=time, force=force)
 
 
-def test_only_limbs_that_feel_something_else_are_sent_again(tmp_path: Path, monkeypatch) -> None:
+def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
     sent = []
-    with demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live:
+    with demo().live.Live("NAO", Hand(), it.skin, heard, 0) as live:
         live.close()  # no more pictures of its own
         monkeypatch.setattr(
             live._page.page, "show_points", lambda name, *rest: sent.append((name, rest))
@@ -76,14 +70,14 @@ def test_only_limbs_that_feel_something_else_are_sent_again(tmp_path: Path, monk
     assert (colours[felt, 0] > colours[felt, 2] + 60).all()
 
 
-def test_a_port_that_is_taken_is_told(tmp_path: Path) -> None:
+def test_a_port_that_is_taken_is_told() -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
-    with demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live:
+    with demo().live.Live("NAO", Hand(), it.skin, heard, 0) as live:
         port = int(live.url.rpartition(":")[2])
         with pytest.raises(demo().failure.DemoFailed, match=f"no page at port {port}"):
-            demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, port)
+            demo().live.Live("NAO", Hand(), it.skin, heard, port)
 
 
 def warm(picture: np.ndarray) -> int:
@@ -93,12 +87,12 @@ def warm(picture: np.ndarray) -> int:
 
 
 @pytest.mark.skipif(not CHROMIUM, reason="needs Chromium: apt install chromium")
-def test_a_real_browser_shows_the_touch(tmp_path: Path) -> None:
+def test_a_real_browser_shows_the_touch() -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
     with (
-        demo().live.Live("NAO", Hand(world(tmp_path)), it.skin, heard, 0) as live,
+        demo().live.Live("NAO", Hand(), it.skin, heard, 0) as live,
         opened_tab() as tab,
     ):
         tab("Page.enable")
