@@ -9,7 +9,9 @@ from __future__ import annotations
 import logging
 import threading
 import time
+from collections.abc import Mapping
 from contextlib import AbstractContextManager
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import numpy as np
@@ -47,7 +49,12 @@ class MotorBus(Protocol):
 
 
 class DrivenBoard:
-    """A control board on real motors. `homes` (n,) is where each joint rests [rad, m]."""
+    """A control board on real motors. `homes` (n,) is where each joint rests [rad, m].
+
+    All joints are one group, so that nothing stands in `groups`.
+    """
+
+    groups: Mapping[str, str] = MappingProxyType({})
 
     def __init__(self, bus: MotorBus, turn: AbstractContextManager[Any]) -> None:
         self._bus, self._turn = bus, turn

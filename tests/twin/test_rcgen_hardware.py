@@ -167,6 +167,58 @@ finally:
 """
 
 
+BUS = """
+import time
+import numpy as np
+from driver import Driver
+from generated import interfaces as i
+from generated.hardware import IDS, PORTS
+from generated.params import ArmParams
+from robocomp_dsl.hardware.driven import Hardware
+from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.runtime import ServedPort
+
+class Free(Driver):
+    "Joints without load."
+    torque = np.zeros(6)
+    at, speed, last = np.array([1.2, 0.2, 0, -0.5, 0, 0.5]), np.zeros(6), time.perf_counter()
+
+    def open(self):
+        self.last = time.perf_counter()
+
+    def read(self):
+        now = time.perf_counter()
+        for _ in range(min(round((now - self.last) / 5e-4), 100)):
+            self.speed = self.speed + (self.torque - 0.02 * self.speed) / 5e-3 * 5e-4
+            self.at = self.at + self.speed * 5e-4
+        self.last = now
+        return self.at.copy(), self.speed.copy()
+
+    def write(self, torque):
+        self.torque = torque
+
+hardware = Hardware(Free(ArmParams()), IDS, motors=True)
+served = [ServedPort("LArm", i.CONTROLBOARD), ServedPort("JointMotor", i.JOINTMOTOR)]
+ports = hardware.serve(served, PORTS)
+try:
+    ports["LArm"].getState()
+    raise SystemExit("a state of motors that are not there")
+except HardwareError as error:
+    assert "has not been opened yet" in str(error), error
+hardware.open()
+assert [one.name for one in ports["LArm"].getJoints()] == IDS
+ports["LArm"].setControlMode([], i.ControlMode.Position)
+ports["LArm"].setReferenceSpeed(["LShoulderPitch"], np.array([1.0]))
+ports["LArm"].positionMove(["LShoulderPitch"], np.array([0.9]))
+end = time.monotonic() + 20
+while abs(ports["LArm"].getState().position[0] - 0.9) > 0.02:
+    assert time.monotonic() < end, ports["LArm"].getState().position
+    time.sleep(0.01)
+assert abs(ports["JointMotor"].getMotorState("LShoulderPitch").pos - 0.9) < 0.05
+hardware.close()
+"""
+
+
 def talk(folder: Path, name: str, domain: str, cable: str) -> None:
     """The client against the component in `folder`, which ends in order."""
     options = ("--name", name, "--domain", domain, "--middleware", "zenoh")
@@ -226,6 +278,8 @@ def test_a_board_of_a_model_file_has_a_twin(home: Path) -> None:
     options = ("-q", "-p", "no:cacheprovider", "-p", "no:xdist", "--rootdir=.")
     done = run(sys.executable, "-m", "pytest", *options, cwd=home / "arm", PYTEST_ADDOPTS="")
     assert "4 passed, 4 skipped" in done.stdout, done.stdout
+    done = run(sys.executable, "-c", BUS, cwd=home / "arm")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize(

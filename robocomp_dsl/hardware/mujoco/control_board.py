@@ -7,6 +7,8 @@ offset (`encoder_zero`), so that calibration has something to find.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import mujoco
@@ -33,7 +35,12 @@ HEAT_PERIOD = 0.1
 
 
 class SimulatedBoard:
-    """A part of a `World`: `board` has the state, `commands` takes orders, `settings` adjusts."""
+    """A part of a `World`: `board` has the state, `commands` takes orders, `settings` adjusts.
+
+    `groups` tells of joints that are served apart from the others.
+    """
+
+    groups: Mapping[str, str] = MappingProxyType({})
 
     def __init__(
         self,
