@@ -26,6 +26,10 @@ There is a model, with something simpler in place of what was described: a mesh 
 in a format that is not read becomes a box (`.obj` and `.stl` are read; of `.dae`, `.osg` and
 `.3ds` the size), a missing texture is left out, a body that moves and has no mass gets one.
 
+`rcgen simulator` tells so, too, when a joint is too light for the torque of its motor at the step
+of the file (it gets more `armature`: no regulator could hold it), when a joint is in the tuples of
+two boards, and when a `speed_JOINT` or `coupling_BOARD` is none.
+
 `package://NAME/…` is looked for in the folders given with `--packages`, in those that
 ROBOCOMP_PACKAGE_PATH, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and GAZEBO_MODEL_PATH list, and in the
 folders above the file and beside those.

@@ -174,6 +174,21 @@ def test_a_touch_sensor_feels_a_push(arm: Served) -> None:
     assert peak > 0.5
 
 
+def test_cameras_see_what_the_file_has_in_front_of_them(arm: Served) -> None:
+    """A door, as far away as a ray says; one of them has a depth, as its `output` says."""
+    it = arm.ports["CameraRGBDSimple"].getDepth("eye")
+    assert (it.width, it.height, it.focalx) == (64, 48, 58)
+    depth = it.depth.view(np.float32).reshape(48, 64)
+    ahead = np.array([(36 - 31.5) / 57.94, 1.0, (23.5 - 24) / 57.94])
+    world, hit = arm.simulation.world, np.array([-1], np.int32)
+    away = mujoco.mj_ray(world.model, world.data, [0, -2, 0.5], ahead, None, 1, -1, hit)
+    assert world.model.geom(hit[0]).name == "door"
+    assert depth[24, 36] == pytest.approx(1000 * away, rel=2e-3)
+    image = arm.ports["far"].getImage()
+    assert (image.width, image.height, image.depth) == (640, 480, 3)
+    assert len(np.unique(image.image)) > 10
+
+
 # -- nodes --------------------------------------------------------------------------------------
 
 
