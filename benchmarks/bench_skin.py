@@ -1,18 +1,26 @@
-"""What 4000 taxels cost on a humanoid of 23 joints at 1 kHz, with 40 fingers pressing on its arms.
+"""What 4000 taxels cost on a humanoid at 1 kHz.
 
-The same world with and without skin takes turns; all figures are CPU time.
+In the library, iCub with 23 joints and 40 fingers that press on its arms: the same world with and
+without skin takes turns; all figures are CPU time. As a generated simulator, NAO with 31 joints in
+a process of its own, heard over zenoh at 50 Hz of simulated time: how fast it lives, how long a
+touch takes to its subscriber, and what reading a frame costs there.
 """
 
 from __future__ import annotations
 
+import tempfile
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
 from statistics import median
 from typing import Any
 
 import mujoco
 import numpy as np
 
+from benchmarks.skin_heard import interfaces, latencies, pace, urgent
+from benchmarks.skin_world import make
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
 from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin
@@ -31,6 +39,8 @@ SPAN = 0.1
 
 FINGERS = 10
 """On each of the four limbs."""
+
+TAPS = 300
 
 
 def _dense(part: Part, first: int) -> Part:
@@ -89,7 +99,79 @@ def _cpu(world: World) -> float:
     return time.thread_time() - start
 
 
-def run() -> list[dict[str, Any]]:
+def run() -> Iterator[dict[str, Any]]:
+    """All rows."""
+    yield from _library()
+    for fingers in (1, 10):
+        with tempfile.TemporaryDirectory() as folder:
+            made = make(Path(folder), fingers)
+            yield from _paced(made, 4 * fingers)
+            if fingers == 1:
+                yield from _tapped(made, Path(folder) / "taps")
+                yield from _decoded(made)
+
+
+def _paced(made: Path, fingers: int) -> Iterator[dict[str, Any]]:
+    """The quietest of all windows: what else the machine does is no part of it."""
+    found = pace(made)
+    name = f"generated simulator, 4000 taxels, 31 joints, {fingers} fingers, over zenoh"
+    higher: dict[str, Any] = {"unit": "x", "better": "higher"}
+    goal = {"goal": 5.0} if fingers == 4 else {}
+    yield {"name": f"{name}: real-time factor", "value": max(found.wall), **higher, **goal}
+    yield {"name": "  median of all windows", "value": median(found.wall), **higher}
+    yield {"name": "  on one core, by CPU time of all threads", "value": max(found.cpu), **higher}
+    yield {"name": "  frames lost", "value": found.lost, "unit": "", "goal": 0}
+
+
+def _tapped(made: Path, file: Path) -> Iterator[dict[str, Any]]:
+    with urgent() as first:
+        found = latencies(made, file, TAPS)
+    yield {
+        "name": f"the machine's own lateness{' at real-time priority' if first else ''}, p99",
+        "value": float(np.percentile(found.lateness, 99)),
+        "unit": "ms",
+    }
+    name = "contact in the physics to subscriber's handler, frame period included"
+    for share, goal in ((50, None), (90, None), (99, 25.0)):
+        value = float(np.percentile(found.way, share))
+        yield {"name": f"{name}, p{share}", "value": value, "unit": "ms", "goal": goal}
+    yield {
+        "name": "  touches that were not heard of",
+        "value": found.made - len(found.way),
+        "unit": "",
+    }
+
+
+def _decoded(made: Path) -> Iterator[dict[str, Any]]:
+    types, random = interfaces(made), np.random.default_rng(1)
+    force, x, y, z = random.random((4, 4000)).astype(np.float32)
+    raw = random.integers(0, 256, 4000).astype(np.uint8)
+    operation = types.SkinFrameProxy.INTERFACE.operations[0]
+    for name, given in (
+        ("forces", {}),
+        ("forces, shear and raw values", {"shearX": x, "shearY": y, "shearZ": z, "raw": raw}),
+    ):
+        sent = operation.encode_request((types.Frame(force=force, geometry=1, **given),))
+        yield {
+            "name": f"reading a frame of 4000 taxels: {name}",
+            "value": _best(lambda sent=sent: operation.decode_request(sent)),
+            "unit": "us",
+            "goal": 5.0,
+        }
+
+
+def _best(call: Callable[[], Any]) -> float:
+    """The quietest of many rounds [us]."""
+    rounds = []
+    for _ in range(50):
+        start = time.perf_counter()
+        for _ in range(500):
+            call()
+        rounds.append((time.perf_counter() - start) / 500 * 1e6)
+    return min(rounds)
+
+
+def _library() -> list[dict[str, Any]]:
     """Real-time factors, and what the skin adds."""
     read = description("icub_v2")
     parts = tuple(_dense(part, 2000 * i) for i, part in enumerate(read.parts))

@@ -21,6 +21,8 @@ Ints = NDArray[np.int64]
 GRAIN = 0.00025
 """Contacts of one frame nearer together than about this are taken as one [m]."""
 
+_TRUE = np.array([True])
+
 _EDGES = np.arange(10)
 """The most edges that the friction pyramid of a contact can have."""
 
@@ -145,15 +147,15 @@ def merge(touch: Touch) -> Touch:
 
     Forces are summed, so that nothing is lost; the place is their mean by normal force.
     """
-    grain = np.floor(touch.points / GRAIN).astype(np.int64) + (1 << 15)
+    grain = np.floor(touch.points * (1.0 / GRAIN)).astype(np.int64) + (1 << 15)
     key = ((touch.limb * (1 << 16) + grain[:, 0]) * (1 << 16) + grain[:, 1]) * (1 << 16)
     key += grain[:, 2]
-    _, first, group = np.unique(key, return_index=True, return_inverse=True)
-    count, normal = len(first), touch.normal
-    total = np.asarray(np.bincount(group, normal, count), dtype=np.float64)
-
-    def summed(columns: Floats) -> Floats:
-        return np.stack([np.bincount(group, columns[:, i], count) for i in range(3)], axis=1)
-
-    middle = summed(touch.points * normal[:, None]) / total[:, None]
-    return Touch(touch.limb[first], middle, total, summed(touch.along))
+    order = key.argsort(kind="stable")
+    key = key[order]
+    begins = np.flatnonzero(np.concatenate((_TRUE, key[1:] != key[:-1])))
+    columns = np.empty((len(key), 7))
+    columns[:, 0], columns[:, 4:] = touch.normal, touch.along
+    np.multiply(touch.points, touch.normal[:, None], out=columns[:, 1:4])
+    total = np.add.reduceat(columns[order], begins, axis=0)
+    middle = total[:, 1:4] / total[:, :1]
+    return Touch(touch.limb[order[begins]], middle, total[:, 0], total[:, 4:])

@@ -141,16 +141,8 @@ class SimulatedSkin:
                 hear(self.frame)
 
     def _make_frame(self) -> SkinFrame:
-        n, steps, dt = self.geometry.size, self._steps, self._elapsed
-        force, shear, missed = np.zeros(n), np.zeros((n, 3)), 0.0
-        taken = self._recorder.take()
-        if taken is not None:
-            touch = merge(taken)
-            columns = np.column_stack((touch.normal, touch.along))
-            used = columns if self.settings.shear else touch.normal[:, None]
-            share = self.kernel.share(touch.points, touch.limb, used / steps)
-            force, missed = share.felt[:, 0], float(share.missed[0])
-            shear = share.felt[:, 1:] if self.settings.shear else shear
+        dt, steps = self._elapsed, self._steps
+        force, shear, missed = self._felt(steps)
         self._steps, self._elapsed = 0, 0.0
         self.sequence += 1
         told, raw = self._measured(force, dt)
@@ -159,10 +151,24 @@ class SimulatedSkin:
             time=float(self._data.time),
             geometry=self.geometry.version,
             force=told,
-            shear=shear if self.settings.shear else None,
+            shear=shear,
             raw=raw,
             off_skin=missed,
         )
+
+    def _felt(self, steps: int) -> tuple[Floats, Floats | None, float]:
+        """Mean forces of so many steps: of each taxel into the limb and along it, and of none."""
+        n, both = self.geometry.size, self.settings.shear
+        taken = self._recorder.take()
+        if taken is None:
+            return np.zeros(n), np.zeros((n, 3)) if both else None, 0.0
+        touch = merge(taken)
+        forces = np.empty((len(touch.limb), 4 if both else 1))
+        forces[:, 0] = touch.normal
+        if both:
+            forces[:, 1:] = touch.along
+        share = self.kernel.share(touch.points, touch.limb, forces / steps)
+        return share.felt[:, 0], share.felt[:, 1:] if both else None, float(share.missed[0])
 
     def _measured(self, force: Floats, dt: float) -> tuple[Floats, Raw | None]:
         """What the sensors tell of the true forces: newtons, and raw values if asked for."""
