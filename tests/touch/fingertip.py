@@ -32,11 +32,16 @@ def inwards(data: Any, part: Part, field: Field) -> Floats:
     return -data.body(limb.body).xmat.reshape(3, 3) @ limb.axes @ (out / np.linalg.norm(out))
 
 
-def before_skin(model: Any, data: Any, part: Part, field: Field, off: float) -> Floats:
-    """Where the finger's centre is when it is `off` before the skin at the field's centre."""
+def before_skin(
+    model: Any, data: Any, part: Part, field: Field, off: float, along: float = 0.0
+) -> Floats:
+    """Where the finger's centre is when it is `off` before the skin.
+
+    At the field's centre, or so far along the limb.
+    """
     limb, way = part.limb(field.limb), inwards(data, part, field)
     body = data.body(limb.body)
-    axis = np.array([field.centre[0], 0.0, 0.0])
+    axis = np.array([field.centre[0] + along, 0.0, 0.0])
     start = body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(axis) - CLEAR * way
     geom = np.zeros(1, np.int32)
     far = mujoco.mj_ray(model, data, start, way, None, 1, body_of(model), geom)

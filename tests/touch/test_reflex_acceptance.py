@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from equations import gain
 from puppet import ROBOTS, Central, Touched, words
 
 from robocomp_dsl.tactile.arrays import Floats
@@ -20,7 +21,7 @@ ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
 CENTRE = np.array([0.05, 0.0, 0.03])
 RADIUS = 0.03
-FORCES = {"threshold": 1.0, "full": 10.0, "least_change": 0.0005}
+FORCES = {"threshold": 1.0, "full": 10.0, "least_change": 0.0005, "withdraw_speed": 1.0}
 TOLERANCE = 1e-6
 
 Rows = list[tuple[float, float, float]]
@@ -108,20 +109,6 @@ def test_the_table(stage, robot, side, rows, motion) -> None:
 # The same on the real skins: every field of the description, at its own taxels.
 
 
-def law(points: Floats, forces: Floats, centre: Floats, radius: float) -> tuple[float, float]:
-    """Mean force and distance (equation 7) of one touch, all its taxels within the diameter."""
-    middle = (forces[:, None] * points).sum(0) / forces.sum()
-    weights = 2 * radius - np.sqrt(((points - middle) ** 2).sum(1))
-    assert (weights > 0).all()
-    mean = (forces * weights).sum() / weights.sum()
-    return float(mean), float(np.sqrt(((middle - centre) ** 2).sum()))
-
-
-def gain(force: float, distance: float, radius: float) -> float:
-    """Equations 5 and 6, as the text of the paper means them."""
-    return float(np.clip((force - 1.0) / 9.0, 0, 1) * max(1 - distance / radius, 0.0))
-
-
 class OwnSkin:
     """The taxels of one field's limb, from its centre outwards."""
 
@@ -152,8 +139,7 @@ class OwnSkin:
 
     def expected(self, *taxels: tuple[int, float]) -> float:
         index, forces = np.array([t for t, _ in taxels]), np.array([f for _, f in taxels])
-        felt, far = law(self.points[index], forces, self.field.centre, self.field.radius)
-        return gain(felt, far, self.field.radius)
+        return gain(self.points[index], forces, self.field.centre, self.field.radius, 1.0, 10.0)
 
     def answer(self, *taxels: tuple[int, float]) -> float:
         """The gain of this field when these taxels feel so much: what the arm was told to do."""

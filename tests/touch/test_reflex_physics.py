@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from equations import gain
 from pressed import Pressed
 from puppet import Touched, words
 from stepped import TICK
@@ -119,13 +120,9 @@ def test_every_answer_is_what_the_equations_say_of_the_frame(stage, robot) -> No
     for event in told:
         force = it.frames[event.time].astype(float)
         index = np.flatnonzero((force > 0) & (geometry.limb == geometry.limbs.index(event.limb)))
-        points, felt = geometry.points[index], force[index]
-        centre = felt @ points / felt.sum()
-        weights = 2 * field.radius - np.linalg.norm(points - centre, axis=1)
         assert len(index) > 3
-        assert (weights > 0).all()
-        mean, far = felt @ weights / weights.sum(), np.linalg.norm(centre - field.centre)
-        expected = np.clip((mean - 0.03) / 4.97, 0, 1) * max(1 - far / field.radius, 0)
+        points = geometry.points[index]
+        expected = gain(points, force[index], field.centre, field.radius, 0.03, 5.0)
         assert event.gain == pytest.approx(expected, abs=1e-5)
         assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from equations import gain
 from whole import BOARDS, Whole
 
 from robocomp_dsl.runtime.lifecycle import State
@@ -81,6 +82,30 @@ def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
     bad = (seen.framesNotFinite, seen.framesWrongLength, seen.framesOutOfOrder)
     assert bad == (0, 0, 0)
     assert seen.framesOtherGeometry == 0
+
+
+def test_every_answer_is_what_the_equations_say_of_the_frame(whole: Whole) -> None:
+    """The forces that physics makes, through the simulated skin; a little off the centre."""
+    whole.until("Watching")
+    whole.run(1.0)
+    known, geometry = len(whole.events()), whole.world.simulation.skin.geometry
+    whole.reflex.setForces(0.0, 0.5)
+    whole.press(whole.field("lower_arm_outer"), 0.003, along=0.006)
+    whole.run(0.4)
+    told = whole.events()[known:]
+    assert told
+    for event in told:
+        force = whole.world.frames[event.time].astype(np.float32).astype(float)
+        index = np.flatnonzero((force > 0) & (geometry.limb == geometry.limbs.index(event.limb)))
+        field = whole.field(event.field)
+        assert len(index) > 1
+        points, forces = geometry.points[index], force[index]
+        expected = gain(points, forces, field.centre, field.radius, 0.0, 0.5)
+        assert event.gain == pytest.approx(expected, abs=1e-5)
+        assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
+    whole.take_away()
+    whole.reflex.setForces(0.005, 0.02)
+    whole.until("Watching")
 
 
 def test_a_skin_that_dies_on_the_way_stops_the_arm_and_all_recovers(whole: Whole) -> None:

@@ -6,6 +6,7 @@ is the simulator's own: it is put before a place and then moved by its control b
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,10 @@ import mujoco
 import numpy as np
 import shipped_component
 from puppet import REFLEX, proxy_of, words
-from stepped import Cast, Stage, Stepped
+from stepped import DEADLINE, Cast, Stage, Stepped
 
+from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.middleware.base import Endpoint
 from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.located import UNITS
@@ -38,11 +41,15 @@ def held(worker: Any) -> Any:
         def initialize(self) -> None:
             worker.initialize(self)
             self.recorded: list[tuple[Floats, Floats]] = []
+            self.frames: dict[float, Floats] = {}
 
         def tick(self) -> None:
             worker.compute(self)
             data = self.simulation.world.data
             self.recorded.append((data.qpos.copy(), data.qvel.copy()))
+            frame = self.simulation.skin.frame
+            if frame is not None:
+                self.frames[frame.time] = frame.force
 
     return Held
 
@@ -64,6 +71,9 @@ class Whole(Stage):
         )
         self.reflex = self.proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
         self.finger = self.proxy(proxy_of(ARM.interfaces.CONTROLBOARD), self.name, "finger")
+        self._events: list[Any] = []
+        at = Endpoint(words.REFLEXEVENTS, "looker", "ReflexEvents")
+        self._middleware.subscribe(at, {"reflex": self._events.append}, Execution())
         self.arm = self.proxy(proxy_of(words.GENERICARM), "generic_arm", "GenericArm")
         simulation = self.world.simulation
         self.model, self.data = simulation.world.model, simulation.world.data
@@ -95,6 +105,15 @@ class Whole(Stage):
         low, high = (unit * [getattr(s, end) for s in made] for end in ("low", "high"))
         return (angles - low) / (high - low), np.abs(speeds) / (unit * [s.speed for s in made])
 
+    def events(self) -> list[Any]:
+        """What fields have answered so far; an onlooker hears it a moment later."""
+        count = self.runners[1].statistics.of("ReflexEvents", "reflex")
+        end = time.monotonic() + DEADLINE
+        while len(self._events) < count.calls:
+            assert time.monotonic() < end, "events were published and not heard"
+            time.sleep(0.001)
+        return list(self._events)
+
     def felt(self) -> float:
         """What the whole skin feels, in N."""
         return float(self.world.simulation.skin.frame.force.sum())
@@ -105,17 +124,17 @@ class Whole(Stage):
         body = self.data.body(limb.body)
         return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
 
-    def put_finger(self, field: Field, off: float) -> None:
-        """Put it `off` before the skin at the field's centre, at rest."""
-        goal = fingertip.before_skin(self.model, self.data, self.part, field, off)
+    def put_finger(self, field: Field, off: float, along: float) -> None:
+        """Put it `off` before the skin at the field's centre, or `along` the limb, at rest."""
+        goal = fingertip.before_skin(self.model, self.data, self.part, field, off, along)
         self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
         self._slide(goal - self.data.geom_xpos[fingertip.geom_of(self.model)])
         self.run(0.02)
         self.finger.setControlMode([], ARM.interfaces.ControlMode.Position)
 
-    def press(self, field: Field, deep: float) -> None:
+    def press(self, field: Field, deep: float, along: float = 0.0) -> None:
         """Send the finger in along the normal; it takes about 0.1 s, and stays."""
-        self.put_finger(field, 0.003)
+        self.put_finger(field, 0.003, along)
         step = (0.003 + deep) * fingertip.inwards(self.data, self.part, field)
         self.finger.setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
         self.finger.relativeMove([], step)
