@@ -11,6 +11,8 @@ from model_worlds import ARM, BOT
 from robocomp_dsl.generate.simulator.offers import not_served, served
 from robocomp_dsl.hardware.findings import ModelFileError
 from robocomp_dsl.hardware.mujoco.model_scene import Described, describe
+from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
+from robocomp_dsl.hardware.scene import Scene
 
 
 def described(folder: Path, text: str, name: str = "robot.xml") -> Described:
@@ -177,3 +179,21 @@ def test_motors_that_joints_share(
     made = described(tmp_path, text)
     assert made.scene["model"].get("couplings", {}) == couplings
     assert [one.said[18:33] for one in made.findings] == told
+
+
+def test_motors_of_tendons_keep_their_command(tmp_path: Path) -> None:
+    """They are on no board; what the key frame commands them is what they do."""
+    tendon = '<tendon><fixed name="t"><joint joint="grip" coef="1"/></fixed></tendon><actuator>'
+    text = ARM.replace("<actuator>", tendon).replace(
+        "</actuator>", '<motor name="pull" tendon="t"/></actuator>'
+    )
+    text = text.replace('name="home"', 'name="home" ctrl="0.5 0.5 0.5 0.5 0.7"')
+    made = described(tmp_path, text)
+    assert [one.said for one in made.findings] == [
+        "not on one joint, so on no control board; they keep the commands of the start: `pull`"
+    ]
+    assert made.scene["model"]["held"] == {"pull": 0.7}
+    file = {"model": made.scene["model"] | {"file": "robot.xml"}}
+    it = Simulation(Scene.of_data(made.scene | file, tmp_path), Options(step=0.001))
+    it.advance(0.01)
+    assert it.world.data.actuator("pull").ctrl[0] == 0.7

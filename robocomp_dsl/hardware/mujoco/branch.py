@@ -30,6 +30,7 @@ class Branch:
     world: World
     devices: dict[str, Any]
     _mirror: Mirror | None = field(default=None, repr=False)
+    _bodies: dict[str, int] = field(default_factory=dict, repr=False)
 
     def copy(self, shared: Iterable[object] = ()) -> Branch:
         """Another world that would go on in the same way."""
@@ -44,19 +45,19 @@ class Branch:
     def matrix(self, frame: str) -> Matrix:
         """What takes points of `frame` to the root, shape (4, 4), mm. Raises `FrameError`."""
         mirrored = self._mirrored()
-        if mirrored is None or frame not in mirrored.tree or frame in mirrored.bodies:
+        if mirrored is None or frame in self._bodies or frame not in mirrored.tree:
             return self._place(self.body(frame))
         # a joint or a mark: its place in the body that holds it, which a mocap body may carry
-        holder = next(one for one in mirrored.tree.path(frame) if one in mirrored.bodies)
+        holder = next(one for one in mirrored.tree.path(frame) if one in self._bodies)
         mirrored.follow(self.world.data.qpos)
         seen: Matrix = self._place(self.body(holder)) @ mirrored.tree.matrix(frame, holder)
         return seen
 
     def body(self, frame: str) -> int:
         """The body of a frame. Raises `FrameError`."""
-        mirrored = self._mirrored()
-        if mirrored is not None and frame in mirrored.bodies:
-            return mirrored.bodies.index(frame)
+        self._mirrored()
+        if frame in self._bodies:
+            return self._bodies[frame]
         name = body_name(frame)
         found = mujoco.mj_name2id(self.world.model, mujoco.mjtObj.mjOBJ_BODY, name)
         if found < 0:
@@ -78,6 +79,7 @@ class Branch:
         """The frames of a model file and of what was added to it."""
         if self._mirror is None and self.scene.model is not None:
             self._mirror = mirror(self.world.model)
+            self._bodies = {name: i for i, name in enumerate(self._mirror.bodies)}
         return self._mirror
 
     def _place(self, body: int) -> Matrix:

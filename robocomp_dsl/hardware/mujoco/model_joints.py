@@ -26,7 +26,7 @@ import numpy as np
 
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
-from robocomp_dsl.hardware.mujoco.model_motors import armature_of, force_of, motors_of
+from robocomp_dsl.hardware.mujoco.model_motors import armature_of, force_of, motors_of, others
 from robocomp_dsl.hardware.mujoco.model_start import Started
 from robocomp_dsl.hardware.mujoco.scene_joints import SPEED
 from robocomp_dsl.hardware.scene import JOINTS
@@ -58,8 +58,14 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
         settings = _settings(model, joint, kind, motors.get(joint, []), started, light)
         settings["board"] = boards.get(joint, "")
         made.append({"id": name, "kind": kind, "frame": frames[name], "settings": settings})
+    told = started.findings
     if light:
-        started.findings.append(_told(light))
+        each = [f"`{name}` ({armature:.2g})" for name, armature in light]
+        said = f"too light for their motors at this step, they get more `armature`: {_few(each)}"
+        told.append(Finding("joint", light[0][0], said))
+    if left := [f"`{name}`" for name in others(model)]:
+        said = "not on one joint, so on no control board; they keep the commands of the start"
+        told.append(Finding("joint", "", f"{said}: {_few(left)}"))
     return made
 
 
@@ -148,9 +154,7 @@ def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
     return 0.0
 
 
-def _told(light: list[tuple[str, float]]) -> Finding:
-    """One finding for all joints that are too light."""
-    named = ", ".join(f"`{name}` ({armature:.2g})" for name, armature in light[:_MOST_NAMED])
-    more = f" and {len(light) - _MOST_NAMED} more" if len(light) > _MOST_NAMED else ""
-    said = f"too light for their motors at this step, they get more `armature`: {named}{more}"
-    return Finding("joint", light[0][0], said)
+def _few(told: list[str]) -> str:
+    """The first of many."""
+    more = f" and {len(told) - _MOST_NAMED} more" if len(told) > _MOST_NAMED else ""
+    return ", ".join(told[:_MOST_NAMED]) + more

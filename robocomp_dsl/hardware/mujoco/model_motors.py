@@ -34,6 +34,15 @@ def motors_of(model: Any) -> dict[int, list[int]]:
     return found
 
 
+def others(model: Any) -> list[str]:
+    """The actuators that act on something else."""
+    return [
+        model.actuator(motor).name
+        for motor in range(model.nu)
+        if int(model.actuator_trntype[motor]) not in _ON_JOINTS
+    ]
+
+
 def force_of(model: Any, joint: int, kind: str, motors: list[int]) -> float:
     """What the file gives it, or else what is usual and holds what it carries."""
     known = [most for one in motors if (most := _most(model, one)) < math.inf]

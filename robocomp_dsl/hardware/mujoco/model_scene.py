@@ -16,6 +16,7 @@ from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
 from robocomp_dsl.hardware.mujoco.model_joints import couplings_of, joints_of
+from robocomp_dsl.hardware.mujoco.model_motors import others
 from robocomp_dsl.hardware.mujoco.model_sensors import sensors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started, begin
 from robocomp_dsl.hardware.scene import ROOT
@@ -63,9 +64,8 @@ def _model(model: Any, file: str, started: Started) -> Data:
         for joint, places in started.start.items()
         if list(places) != list(model.joint(joint).qpos0)
     }
-    return data | {
-        name: given for name, given in (("start", start), ("held", started.held)) if given
-    }
+    held = {name: started.held[name] for name in others(model) if name in started.held}
+    return data | {name: given for name, given in (("start", start), ("held", held)) if given}
 
 
 def _names(seen: Mirror) -> list[str]:
