@@ -25,17 +25,17 @@ class Port:
         self._servant = servant
         self._turn = turn
 
-    def current(self, operation: str, *given: Any) -> list[Any]:
+    def current(self, operation: str) -> list[Any]:
         """The answer of an operation, to be published; none where its device has been removed."""
         try:
             with self._turn:
-                return [getattr(self._servant, operation)(*given)]
+                return [getattr(self._servant, operation)()]
         except DeviceGone:
             return []
 
-    def news(self, *given: Any) -> list[tuple[Any, ...]]:
+    def news(self) -> list[tuple[Any, ...]]:
         """What there is to publish since the last time, each as the inputs of the topic."""
-        told = self.current("news", *given)
+        told = self.current("news")
         return told[0] if told else []
 
     def __getattr__(self, operation: str) -> Callable[..., Any]:
@@ -68,12 +68,17 @@ def serve(
     chosen: Mapping[str, Sequence[str]],
     devices: Mapping[str, Any],
     turn: Turn,
+    in_step: Callable[[], bool] = bool,
 ) -> dict[str, Port]:
-    """The ports by their names. `chosen` lists the devices of each, `turn` guards them all."""
+    """The ports by their names. `chosen` lists the devices of each, `turn` guards them all.
+
+    `in_step` tells whether nothing may depend on how long something takes.
+    """
     made = {}
     for port in ports:
         servant = SERVANTS[port.interface.name](
             port.interface, port.name, tuple(chosen[port.name]), devices
         )
+        servant.in_step = in_step
         made[port.name] = Port(servant, turn if servant.TAKES_TURNS else _Always())
     return made

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from worlds import Served, served
 
 from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.full_pose import OnFloor
 from robocomp_dsl.hardware.rotations import pose_rows
 
 WORLD = """\
@@ -108,3 +110,21 @@ def test_a_laser_tells_how_it_is_set_up(world: Served) -> None:
     assert (it.device, it.maxMeasures, it.minRange, it.maxRange) == ("laser", 11, 0, 4000)
     assert (it.maxDegrees, it.iniRange, it.endRange, it.sampleRate) == (58, -29, 29, 50)
     assert (it.angleRes, it.angleIni) == pytest.approx((5.7296, -28.648), abs=1e-3)
+
+
+def test_a_base_that_knows_only_the_floor_has_a_full_pose_too(world: Served) -> None:
+    base = world.simulation.devices["platform"]
+    base.set_speed(100.0, 300.0, 0.4)
+    world.simulation.advance(1.5)
+    flat, full = OnFloor(base).full_pose(), base.full_pose()
+    world.simulation.devices["platform"] = SimpleNamespace(state=base.state)  # as drivers are
+    told = world.ports["platform_pose"].getFullPoseEuler()
+    assert (told.x, told.ry) == pytest.approx((flat.matrix[0, 3], base.state().corrected.alpha))
+    assert np.allclose(flat.matrix, full.matrix, atol=1e-6)
+    assert flat.velocity == pytest.approx(full.velocity, abs=1.0)
+    assert flat.turning == pytest.approx(full.turning, abs=1e-3)
+    moved = np.eye(4)
+    moved[:3] = pose_rows((1.0, 0.0, 2.0, 0.0, 0.3, 0.0))
+    OnFloor(base).set_full_pose(moved)
+    corrected = base.state().corrected
+    assert (corrected.x, corrected.z, corrected.alpha) == pytest.approx((1, 2, 0.3), abs=1e-6)

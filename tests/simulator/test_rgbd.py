@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from worlds import Served, served
+
+from robocomp_dsl.hardware.mujoco.camera import Camera
+from robocomp_dsl.hardware.mujoco.simulation import Simulation
+from robocomp_dsl.hardware.view.screenless import NoRendering
 
 WORLD = """\
 <innerModel>
@@ -82,30 +87,46 @@ def test_a_camera_that_stands_alone_has_no_states(tmp_path: Path) -> None:
     assert (told.talkToBase, told.talkToJointMotor) == (False, False)
 
 
-def test_a_picture_is_news_once(world: Served) -> None:
+def test_a_picture_is_news_once(world: Served, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where time is simulated, it is waited for."""
+    monkeypatch.setattr(Simulation, "in_step", True)
     port = world.ports["CameraRGBDSimple"]
-    ((image, depth),) = port.news(True)
+    ((image, depth),) = port.news()
     assert (image.width, image.alivetime) == (80, depth.alivetime)
-    assert port.news(True) == []
+    assert port.news() == []
     world.simulation.advance(0.08)
-    ((later, _),) = port.news(True)
+    ((later, _),) = port.news()
     assert later.alivetime == image.alivetime + 80
 
 
 def test_nobody_waits_for_a_picture_where_time_is_the_machines_own(world: Served) -> None:
     port = world.ports["CameraRGBDSimple"]
-    assert port.news(False) == []  # it is being taken
-    end, made = time.monotonic() + 60, []
+    assert port.news() == []  # it is being taken
+    end, made = time.monotonic() + 60, list[Any]()
     while not made:
         assert time.monotonic() < end
-        made = port.news(False)
+        made = port.news()
     assert made[0][0].alivetime == round(world.simulation.world.time * 1000)
+
+
+def test_a_machine_that_cannot_draw_publishes_the_rest(
+    world: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def cannot(_: object) -> None:
+        raise NoRendering("no library")
+
+    monkeypatch.setattr(Camera, "picture", cannot)
+    monkeypatch.setattr(Simulation, "in_step", True)
+    assert world.ports["CameraRGBDSimple"].news() == []
+    monkeypatch.undo()
+    monkeypatch.setattr(Simulation, "in_step", True)
+    assert world.ports["CameraRGBDSimple"].news() == []  # it is not tried again
 
 
 def test_a_camera_that_was_removed_is_not_published(world: Served) -> None:
     port = world.ports["CameraRGBDSimple"]
     world.ports["InnerModelManager"].removeNode("stand")
-    assert port.news(True) == []
+    assert port.news() == []
     with pytest.raises(Exception, match="removed"):
         world.ports["eye"].getDepth()
     assert not math.isnan(world.simulation.world.time)

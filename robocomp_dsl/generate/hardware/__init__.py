@@ -126,7 +126,9 @@ def descriptions(made: Twin) -> list[OutputFile]:
 
 def files(made: Twin, component: Component, known: Mapping[str, object]) -> list[OutputFile]:
     """All files but the descriptions. `known` has the values of the properties of the device."""
-    code = simulator_code(made.made.source, component, names_of(component), made.made.topics)
+    called, topics = names_of(component), made.made.topics
+    # a device that nobody listens to is looked after as well
+    code = simulator_code(made.made.source, component, called, topics, unheard=True)
     module, protocol = PROTOCOLS[made.kind]
     bones: Skeleton = skeleton(module, protocol, known)
     context: dict[str, Any] = {"twin": made, "code": code, "bones": bones}

@@ -51,9 +51,14 @@ class SimulatorCode:
 
 
 def simulator_code(
-    source: str, component: Component, called: Called, topics: Sequence[Published]
+    source: str,
+    component: Component,
+    called: Called,
+    topics: Sequence[Published],
+    *,
+    unheard: bool = False,
 ) -> SimulatorCode:
-    """Everything that the templates print."""
+    """Everything that the templates print; `unheard`: it is also published where nobody hears."""
     proxies = {port.name: attribute for port, attribute in called.proxies.items()}
     served = [p for p in component.ports if p.role in SERVED]
     return SimulatorCode(
@@ -62,7 +67,9 @@ def simulator_code(
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
         imports=tuple(specific_imports(called)),
         methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
-        topics=tuple(_publications([one for one in topics if not one.topic.at_once], proxies)),
+        topics=tuple(
+            _publications([one for one in topics if not one.topic.at_once], proxies, unheard)
+        ),
         streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
         skin=_skin_parameters(component),
     )
@@ -83,7 +90,9 @@ def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
     return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
 
 
-def _publications(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
+def _publications(
+    topics: Sequence[Published], proxies: Mapping[str, str], unheard: bool
+) -> Iterator[str]:
     """The lines that publish; topics of a longer period in every so many rounds."""
     usual = period_of(topics)
     for every in sorted({one.topic.period // usual for one in topics}):
@@ -92,19 +101,19 @@ def _publications(topics: Sequence[Published], proxies: Mapping[str, str]) -> It
         for one in topics:
             if one.topic.period == every * usual:
                 indent = STEP if every > 1 else ""
-                yield from _publication(one, f"self.{proxies[one.port]}", indent)
+                yield from _publication(one, f"self.{proxies[one.port]}", indent, unheard)
 
 
-def _publication(one: Published, proxy: str, indent: str) -> Iterator[str]:
+def _publication(one: Published, proxy: str, indent: str, unheard: bool) -> Iterator[str]:
     """Where it is heard, what a port answers or its servant has to tell is published."""
     port = f"self.ports[{literals.quoted(one.source)}]"
     asking = layout.call(f"{port}.current", literals.quoted(one.topic.asked), tail="):")
     told = "told"
     if one.topic.news:
-        given = ("self.simulation.in_step",) if one.topic.dear else ()
-        asking, told = layout.call(f"{port}.news", *given, tail="):"), "*told"
-    yield f"{indent}if {proxy}.is_heard():"
-    indent += STEP
+        asking, told = layout.call(f"{port}.news", tail="):"), "*told"
+    if not unheard:
+        yield f"{indent}if {proxy}.is_heard():"
+        indent += STEP
     yield indent + layout.statement("for told in ", asking, BODY + indent)
     indent += STEP
     telling = layout.call(f"{proxy}.{one.topic.operation}", told)

@@ -232,7 +232,7 @@ class Simulation:
 
     def serve(self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]) -> dict[str, Port]:
         """The ports of a component, answered by the devices that `chosen` lists for each."""
-        return serve(ports, chosen, self.devices, self.turns)
+        return serve(ports, chosen, self.devices, self.turns, lambda: self.in_step)
 
     def start(self, clock: Clock | None = None) -> None:
         """Let it run: by `clock`, or by that of the machine. Raises `CommandRefused`."""

@@ -11,9 +11,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from robocomp_dsl.hardware.camera import CameraDevice, Picture, points
-from robocomp_dsl.hardware.errors import CommandRefused, DeviceGone, HardwareError
+from robocomp_dsl.hardware.errors import CommandRefused, DeviceGone
 from robocomp_dsl.hardware.servants.exposure import Exposure
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.view.screenless import NoRendering
 from robocomp_dsl.runtime import types as rt
 
 _MS = 1000.0
@@ -46,16 +47,16 @@ class RgbdServant(Servant):
         super().__init__(interface, port, ids, devices)
         self._exposures = {name: Exposure() for name in ids}
 
-    def news(self, wait: bool) -> list[tuple[Any, ...]]:
-        """Colour and depth of every camera that has a new picture; `wait`: that is to have one."""
+    def news(self) -> list[tuple[Any, ...]]:
+        """Colour and depth of every camera that has a new picture."""
         made = []
         for name, exposure in tuple(self._exposures.items()):
             try:
                 camera = self._camera(name)
-                seen = exposure.next(camera, wait=wait)
+                seen = exposure.next(camera, wait=self.in_step())
             except DeviceGone:
                 continue
-            except HardwareError as error:  # it will not be otherwise the next time
+            except NoRendering as error:  # it will not be otherwise the next time
                 log.error("`%s` is not published: %s", name, error)  # noqa: TRY400
                 del self._exposures[name]
                 continue

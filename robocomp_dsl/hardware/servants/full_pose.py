@@ -1,4 +1,7 @@
-"""`FullPoseEstimation` over what knows the pose of a robot; in a simulator that is the true one."""
+"""`FullPoseEstimation` over a base: where it is in space if it knows that, else on the floor.
+
+In a simulator that is the true pose; the driver of a real base tells its corrected pose.
+"""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -9,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from robocomp_dsl.hardware.errors import finite
-from robocomp_dsl.hardware.full_pose import FullPoseDevice
+from robocomp_dsl.hardware.full_pose import FullPoseDevice, OnFloor
 from robocomp_dsl.hardware.rotations import angles, pose_rows
 from robocomp_dsl.hardware.servants.servant import Servant
 
@@ -22,8 +25,9 @@ class FullPoseServant(Servant):
 
     @property
     def _robot(self) -> FullPoseDevice:
-        found: FullPoseDevice = self.device()
-        return found
+        found: Any = self.device()
+        made: FullPoseDevice = found if hasattr(found, "full_pose") else OnFloor(found)
+        return made
 
     def setInitialPose(self, x: float, y: float, z: float, rx: float, ry: float, rz: float) -> None:
         """Where the robot is now."""

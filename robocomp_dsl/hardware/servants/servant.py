@@ -6,7 +6,7 @@ own; the methods of the classes below are the operations.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar
 
 from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
@@ -76,6 +76,7 @@ class Servant:
         self.types = Types(interface)
         self.port = port
         self.ids = ids
+        self.in_step: Callable[[], bool] = bool
         self._devices = devices
         self._throws = {one.name: one.throws for one in interface.operations}
 
