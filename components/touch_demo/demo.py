@@ -98,7 +98,12 @@ def _arguments() -> argparse.Namespace:
         "--live", action="store_true", help="one robot in the browser, touched until Ctrl-C"
     )
     parser.add_argument("--port", type=int, default=0, help="of the page; 0: any that is free")
-    return parser.parse_args()
+    given = parser.parse_args()
+    if given.touches < 1:
+        parser.error("--touches: one at least")
+    if not given.picture.absolute().parent.is_dir():
+        parser.error(f"--picture: there is no folder {given.picture.absolute().parent}")
+    return given
 
 
 def touched(subject: Subject, touches: int) -> Recording:

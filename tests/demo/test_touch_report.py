@@ -58,6 +58,24 @@ def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys)
 
 
 @pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--touches", "0"], "--touches: one at least"),
+        (["--picture", "/nowhere/at/all/a.png"], "there is no folder /nowhere/at/all"),
+        (["--robot", "asimo"], "invalid choice: 'asimo'"),
+    ],
+)
+def test_what_cannot_be_done_is_told_before_anything_starts(
+    monkeypatch, capsys, options, said
+) -> None:
+    monkeypatch.setattr("sys.argv", ["demo.py", *options])
+    with pytest.raises(SystemExit) as ended:
+        program.main()
+    assert ended.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
     ("frozen", "touches", "lines"),
     [([False], 1, 0), ([True, False], 2, 1), ([True, True, True], 3, 2)],
 )
