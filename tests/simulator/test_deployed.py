@@ -23,8 +23,11 @@ SECONDS = 3.0
 WORLD = ROOM.replace('<differentialrobot id="robot"', '<differentialrobot noise="0.02" id="robot"')
 WORLD = WORLD.replace('tz="-300"', 'tz="700"')
 WORLD = WORLD.replace('<imu id="inertia"/>', '<imu id="inertia"/><gps id="sky" noise="30"/>')
+EYE = '<camera id="eye" width="32" height="24" focal="20"/>'
+WORLD = WORLD.replace('<laser id="laser"', f'{EYE}<laser id="laser"')
 
 CDSL = """\
+import "CameraSimple.idsl";
 import "DifferentialRobot.idsl";
 import "GPS.idsl";
 import "IMUPub.idsl";
@@ -39,6 +42,7 @@ Component patrol
     Communications
     {
         requires Laser, DifferentialRobot, JointMotor, GPS, InnerModelManager, Simulation;
+        requires CameraSimple;
         subscribesTo IMUPub;
     };
     language Python;
@@ -80,6 +84,7 @@ class SpecificWorker(GenericWorker):
         self.lines = open(self.params.file, "w", encoding="utf-8")
         self.imu = DataImu()
         self.begun: float | None = None
+        self.rounds = 0
         self.past: list[tuple[int, float]] = []
 
     def compute(self) -> None:
@@ -99,12 +104,19 @@ class SpecificWorker(GenericWorker):
             self.meddle(now)
         if self.lines.closed:
             return
-        told = (now, self.clock.epoch, near, state, neck, here, self.imu, scan.dist.tobytes())
+        seen = self.camerasimple_proxy.getImage().image.tobytes() if self.looks() else b""
+        dist = scan.dist.tobytes()
+        told = (now, self.clock.epoch, near, state, neck, here, self.imu, dist, seen)
         self.lines.write(f"{now!r};{near!r};{told!r}\\n")
         self.lines.flush()
         if now - self.begun >= self.params.last:
             self.lines.close()
             self.log.info("all is written")
+
+    def looks(self) -> bool:
+        """Every now and then."""
+        self.rounds = (self.rounds + 1) % 10
+        return not self.rounds
 
     def meddle(self, now: float) -> None:
         """A wall comes at 1 s; at 2 s it is 1 s again, without it; at 2.5 s all begins anew."""
@@ -142,6 +154,7 @@ Deployment demo
     connect patrol.Laser -> room_simulator.laser;
     connect patrol.DifferentialRobot -> room_simulator.robot;
     connect patrol.JointMotor -> room_simulator.JointMotor;
+    connect patrol.CameraSimple -> room_simulator.eye;
     connect patrol.GPS -> room_simulator.sky;
     connect patrol.InnerModelManager -> room_simulator.InnerModelManager;
     connect patrol.Simulation -> room_simulator.Simulation;
