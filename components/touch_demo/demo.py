@@ -11,58 +11,22 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from body import Body
 from deployed import deployed
 from failure import DemoFailed
 from live import Live
-from outcome import Outcome, outcomes, table, words
-from photograph import before_and_after, best_seen
-from poster import PHOTO_PIXELS, Column, draw
+from outcome import words
 from pressing import park, press
 from recording import Place, Press, Recording, save
+from report import report
+from subject import PART, SUBJECTS, Subject
 from watching import Watching
 from way import NoWay
 
-from robocomp_dsl.hardware.view.screenless import NoRendering
-from robocomp_dsl.tactile.description.model import Part
-from robocomp_dsl.tactile.description.read import load_robot
-
-HERE = Path(__file__).parent
-KEPT = HERE.parents[1] / "build" / "touch_demo"
-PART = "left_arm"
-TITLE = "A finger touches, the arm withdraws: one reflex, two robots"
 LIVE_FRAMES = 500
 ATTEMPTS = 3
-_LEAST_SCALE = 0.1  # N
-
-
-@dataclass(frozen=True, slots=True)
-class Subject:
-    """A robot that can be touched: its name, its deployment and its world."""
-
-    name: str
-    ddsl: Path
-    world: Path
-
-    @property
-    def part(self) -> Part:
-        """The arm that is touched, by the description beside the world."""
-        return load_robot(self.world.with_name("tactile.yaml")).part(PART)
-
-    @property
-    def kept(self) -> Path:
-        """What its recording and its log are called, but for the ending."""
-        return KEPT / self.ddsl.stem
-
-
-SUBJECTS = {
-    key: Subject(name, HERE / f"{key}.ddsl", HERE.parent / f"{key}_simulator" / f"{key}.xml")
-    for key, name in (("nao", "NAO"), ("icub", "iCub"))
-}
 
 
 def main() -> int:
@@ -155,59 +119,6 @@ def watch_live(subject: Subject, port: int) -> None:
 
 def _name(subject: Subject) -> str:
     return f"touch-{subject.ddsl.stem}-{os.getpid()}"
-
-
-def report(
-    subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
-) -> list[str]:
-    """Print the table, draw the picture; returns what went wrong."""
-    highest = max(_LEAST_SCALE, *(float(one.force.max(initial=0.0)) for one in recordings))
-    columns = [
-        _column(subject, recording, highest)
-        for subject, recording in zip(subjects, recordings, strict=True)
-    ]
-    rows = [row for column in columns for row in column.outcomes]
-    print()
-    for line in table(rows):
-        print(line)
-    print()
-    for why in dict.fromkeys(one.why_not for one in columns if one.why_not):
-        print(f"no photographs in the picture: {why}")
-    draw(columns, TITLE, facts(rows), highest, picture)
-    print(f"picture: {picture.resolve()}")
-    return [row.trouble for row in rows if row.trouble]
-
-
-def _column(subject: Subject, recording: Recording, highest: float) -> Column:
-    body = Body(subject.world, recording.skin, subject.part)
-    found = outcomes(recording, body)
-    shown = best_seen(recording, body, found)
-    if shown.trouble:
-        return Column(recording, found, shown, None, f"no arm of {subject.name} withdrew")
-    try:
-        photos = before_and_after(recording, body, shown, highest, PHOTO_PIXELS)
-    except NoRendering as error:
-        return Column(recording, found, shown, None, str(error))
-    return Column(recording, found, shown, photos)
-
-
-def facts(rows: Sequence[Outcome]) -> str:
-    """The outcomes of all touches in one line."""
-    good = [row for row in rows if not row.trouble]
-    said = [f"{len(good)} of {len(rows)} touches: the arm withdrew"]
-    for before, values, after in (
-        ("by ", [row.withdrawn for row in good], "mm"),
-        ("first motion ", [row.moved_after for row in good], "ms after the contact"),
-        ("free after ", [row.cleared_after for row in good], "ms"),
-    ):
-        if values:
-            said.append(f"{before}{_span(values)} {after}")
-    return said[0] + (" " + " · ".join(said[1:]) if good else "")
-
-
-def _span(values: Sequence[float]) -> str:
-    ends = dict.fromkeys(f"{one:.0f}" for one in (min(values), max(values)))
-    return " to ".join(ends)
 
 
 if __name__ == "__main__":

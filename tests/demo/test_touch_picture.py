@@ -18,7 +18,7 @@ def body(tmp_path_factory: pytest.TempPathFactory) -> object:
 def column(body, photos, why_not="", **changes):
     it = recording(**changes)
     found = demo().outcome.outcomes(it, body)
-    return demo().poster.Column(it, found, found[0], photos, why_not)
+    return demo().sheet.Column(it, found, found[0], photos, why_not)
 
 
 def like(picture: np.ndarray, colour) -> np.ndarray:

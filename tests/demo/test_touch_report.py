@@ -7,24 +7,25 @@ from touched import demo, recording
 from robocomp_dsl.hardware.view.screenless import NoRendering
 
 program = demo().demo
-NAO = program.SUBJECTS["nao"]
+report = demo().report
+NAO = demo().subject.SUBJECTS["nao"]
 
 
 def test_the_facts_of_all_touches_in_a_line() -> None:
     body = demo().body.Body(NAO.world, recording().skin, NAO.part)
     rows = demo().outcome.outcomes(recording(), body)
-    assert program.facts(rows) == (
+    assert report.facts(rows) == (
         "2 of 2 touches: the arm withdrew by 58 to 92 mm"
         " · first motion 60 ms after the contact · free after 140 ms"
     )
     some = demo().outcome.outcomes(recording(answers=recording().answers[2:]), body)
-    assert program.facts(some).startswith("1 of 2 touches: the arm withdrew by 92 mm · ")
+    assert report.facts(some).startswith("1 of 2 touches: the arm withdrew by 92 mm · ")
     none = demo().outcome.outcomes(recording(force=0.0), body)
-    assert program.facts(none) == "0 of 2 touches: the arm withdrew"
+    assert report.facts(none) == "0 of 2 touches: the arm withdrew"
 
 
 def test_table_picture_and_no_trouble(tmp_path, capsys) -> None:
-    assert program.report([NAO], [recording()], tmp_path / "a.png") == []
+    assert report.report([NAO], [recording()], tmp_path / "a.png") == []
     said = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in said if line.strip()][:4] == ["robot", "N", "NAO", "NAO"]
     assert said[-1] == f"picture: {tmp_path / 'a.png'}"
@@ -38,7 +39,7 @@ def test_where_nothing_can_draw_the_picture_is_made_without_photographs(
         raise NoRendering("pictures cannot be made without a screen: none")
 
     monkeypatch.setattr(demo().photograph, "Painter", nothing)
-    assert program.report([NAO, NAO], [recording(), recording()], tmp_path / "a.png") == []
+    assert report.report([NAO, NAO], [recording(), recording()], tmp_path / "a.png") == []
     said = capsys.readouterr().out
     why = "no photographs in the picture: pictures cannot be made without a screen: none\n"
     assert said.count(why) == 1
@@ -47,12 +48,12 @@ def test_where_nothing_can_draw_the_picture_is_made_without_photographs(
 
 def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys) -> None:
     still = recording(motion=0.0)
-    assert program.report([NAO], [still], tmp_path / "a.png") == [
+    assert report.report([NAO], [still], tmp_path / "a.png") == [
         "NAO, lower arm outer: the arm went away by 0 mm only",
         "NAO, lower arm under: the arm went away by 0 mm only",
     ]
     untouched = recording(force=0.0, answers=())
-    troubles = program.report([NAO], [untouched], tmp_path / "b.png")
+    troubles = report.report([NAO], [untouched], tmp_path / "b.png")
     assert [one.rpartition(": ")[2] for one in troubles] == ["the skin felt nothing"] * 2
     assert imread(tmp_path / "b.png").shape[1] == 1600
 

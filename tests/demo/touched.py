@@ -15,8 +15,8 @@ from robocomp_dsl.hardware.robots.catalog import ROBOTS, description
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 
 NAMES = ("recording", "way", "outcome", "body", "heard", "skin_map", "colours", "photograph",
-         "poster", "pressing", "deployed", "failure", "links", "watching", "live",
-         "demo")  # fmt: skip
+         "sheet", "curves", "poster", "pressing", "deployed", "failure", "links", "watching",
+         "live", "subject", "report", "demo")  # fmt: skip
 ARM = "left_arm"
 STEP = 0.02
 PRESSED, FELT, MOVED, FREE = 1.0, 1.06, 1.12, 1.20

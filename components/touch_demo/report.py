@@ -1,0 +1,77 @@
+"""What the demo says and draws at its end.
+
+In: recordings. Out: a table on the terminal, a picture, and what went wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isnan
+from pathlib import Path
+
+from body import Body
+from outcome import Outcome, outcomes, table
+from photograph import before_and_after, best_seen
+from poster import PHOTO_PIXELS, draw
+from recording import Recording
+from sheet import Column
+from subject import Subject
+
+from robocomp_dsl.hardware.view.screenless import NoRendering
+
+TITLE = "A finger touches, the arm withdraws: one reflex, two robots"
+_LEAST_SCALE = 0.1  # N
+
+
+def report(
+    subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
+) -> list[str]:
+    """Print the table, draw the picture; returns what went wrong."""
+    highest = max(_LEAST_SCALE, *(float(one.force.max(initial=0.0)) for one in recordings))
+    columns = [
+        _column(subject, recording, highest)
+        for subject, recording in zip(subjects, recordings, strict=True)
+    ]
+    rows = [row for column in columns for row in column.outcomes]
+    print()
+    for line in table(rows):
+        print(line)
+    print()
+    for why in dict.fromkeys(one.why_not for one in columns if one.why_not):
+        print(f"no photographs in the picture: {why}")
+    draw(columns, TITLE, facts(rows), highest, picture)
+    print(f"picture: {picture.resolve()}")
+    return [row.trouble for row in rows if row.trouble]
+
+
+def _column(subject: Subject, recording: Recording, highest: float) -> Column:
+    body = Body(subject.world, recording.skin, subject.part)
+    found = outcomes(recording, body)
+    shown = best_seen(recording, body, found)
+    if shown.trouble:
+        return Column(recording, found, shown, None, f"no arm of {subject.name} withdrew")
+    try:
+        photos = before_and_after(recording, body, shown, highest, PHOTO_PIXELS)
+    except NoRendering as error:
+        return Column(recording, found, shown, None, str(error))
+    return Column(recording, found, shown, photos)
+
+
+def facts(rows: Sequence[Outcome]) -> str:
+    """The outcomes of all touches in one line."""
+    good = [row for row in rows if not row.trouble]
+    said = [f"{len(good)} of {len(rows)} touches: the arm withdrew"]
+    for before, values, after in (
+        ("by ", [row.withdrawn for row in good], "mm"),
+        ("first motion ", [row.moved_after for row in good], "ms after the contact"),
+        ("free after ", [row.cleared_after for row in good], "ms"),
+    ):
+        known = [one for one in values if not isnan(one)]
+        if known:
+            said.append(f"{before}{_span(known)} {after}")
+    return said[0] + (" " + " · ".join(said[1:]) if good else "")
+
+
+def _span(values: Sequence[float]) -> str:
+    ends = dict.fromkeys(f"{one:.0f}" for one in (min(values), max(values)))
+    return " to ".join(ends)

@@ -1,0 +1,38 @@
+"""The robots that can be touched, and where all that belongs to them is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.read import load_robot
+
+HERE = Path(__file__).parent
+KEPT = HERE.parents[1] / "build" / "touch_demo"
+PART = "left_arm"
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A robot that can be touched: its name, its deployment and its world."""
+
+    name: str
+    ddsl: Path
+    world: Path
+
+    @property
+    def part(self) -> Part:
+        """The arm that is touched, by the description beside the world."""
+        return load_robot(self.world.with_name("tactile.yaml")).part(PART)
+
+    @property
+    def kept(self) -> Path:
+        """What its recording and its log are called, but for the ending."""
+        return KEPT / self.ddsl.stem
+
+
+SUBJECTS = {
+    key: Subject(name, HERE / f"{key}.ddsl", HERE.parent / f"{key}_simulator" / f"{key}.xml")
+    for key, name in (("nao", "NAO"), ("icub", "iCub"))
+}
