@@ -25,6 +25,7 @@ from robocomp_dsl.model.body import (
     Taxel,
     Transform,
     Ultrasound,
+    children,
 )
 from robocomp_dsl.source import Span
 
@@ -48,7 +49,7 @@ def _place(node: Node) -> Span:
 def _complaints(node: Node, parent: Node | None) -> list[str]:
     match node:
         case Skin():
-            return _skin(node)
+            return _skin(node, parent)
         case Patch():
             return _patch(node)
         case Taxel() if isinstance(parent, Patch):
@@ -98,10 +99,13 @@ def _mesh(node: Mesh) -> list[str]:
     return said
 
 
-def _skin(node: Skin) -> list[str]:
+def _skin(node: Skin, parent: Node | None) -> list[str]:
     said = [] if node.children else [f"the skin `{node.id}` has no `<patch>`"]
     if node.rate <= 0:
         said.append(f"`rate` is {node.rate:g} Hz")
+    first = next(one for one in children(parent) if isinstance(one, Skin)) if parent else node
+    if first is not node:
+        said.append(f"this frame has the skin `{first.id}` already: give it the patches here")
     return said
 
 

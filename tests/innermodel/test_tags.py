@@ -78,6 +78,8 @@ HISTORY: list[tuple[str, str, dict[str, object]]] = [
 
 
 def read(folder: Path, text: str) -> tuple[Body, Report]:
+    for positions in ("a", "b", "left_forearm.txt"):
+        (folder / positions).write_text("0.005 0 0.005 0 0 1\n")
     path = folder / "world.xml"
     path.write_text(f"<innerModel>{text}</innerModel>")
     report = Report()
@@ -176,6 +178,13 @@ def test_skin(tmp_path: Path) -> None:
     assert first.theta == pytest.approx(math.pi / 2)
     assert top.id == "top"
     assert len(nodes) == 10
+
+
+def test_a_frame_has_one_skin(tmp_path: Path) -> None:
+    second = '</skin><skin id="t"><patch id="p"><taxel nx="1"/></patch></skin>'
+    _, report = read(tmp_path, SKIN.replace("</skin>", second))
+    found = [one.message for one in report if "already" in one.message]
+    assert found == ["this frame has the skin `s` already: give it the patches here"]
 
 
 CONE = 'x0="0" x1="9" r0="5" r1="5"'

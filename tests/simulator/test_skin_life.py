@@ -13,7 +13,11 @@ from worlds import Served, served
 
 from robocomp_dsl.hardware.skin import SkinSettings
 from robocomp_dsl.hardware.skin_parameters import known_taxels, taxel_ids
+from robocomp_dsl.hardware.transforms import TransformTree
+from robocomp_dsl.runtime.clock_interface import Tick
+from robocomp_dsl.runtime.clock_source import ClockSource
 from robocomp_dsl.runtime.parameters import Refused
+from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 from robocomp_dsl.tactile.skin.manager import Compensation
 from robocomp_dsl.tactile.skin.sensor import Imperfections
 
@@ -65,6 +69,59 @@ def test_patches_of_one_skin_share_the_frame_of_the_first(it: Touched) -> None:
     assert [one.gain for one in geometry.patches] == pytest.approx([0.05, 0.1])
     last = [getattr(geometry, axis)[-1] for axis in ("x", "y", "z", "nx", "ny", "nz")]
     assert last == pytest.approx([0.31, 0, 0, 0, 1, 0], abs=1e-6)
+
+
+TILTED = """\
+<innerModel>
+  <transform id="arm" tx="100" ty="200" tz="-50" rx="0.3" ry="-0.8" rz="0.5">
+    <joint id="bend" axis="x" min="-1" max="1" tz="40">
+      <translation id="inner" ty="10"/>
+      <skin id="touch">
+        <patch id="ringed" x0="20" x1="100" r0="32" r1="26" rings="33,87" count="4"
+               tx="5" ty="-8" tz="12" rx="1.1" ry="0.2" rz="-0.4"/>
+        <patch id="lone" firstid="200" rz="90 deg"><taxel x="3" y="4" z="5" ny="1"/></patch>
+      </skin>
+    </joint>
+  </transform>
+</innerModel>
+"""
+
+
+def test_taxels_are_where_the_tree_of_the_body_has_them(tmp_path: Path) -> None:
+    it = served(tmp_path, TILTED)
+    geometry = it.ports["Skin"].getGeometry()
+    (limb,) = geometry.limbs
+    turn = np.array([[getattr(limb, f"r{i}{j}") for j in range(3)] for i in range(3)])
+    assert np.linalg.det(turn) == pytest.approx(1.0)
+    points = np.column_stack((geometry.x, geometry.y, geometry.z)).astype(float)
+    in_frame = (points @ turn.T + [limb.x, limb.y, limb.z]) * 1000
+    assert in_frame[-1] == pytest.approx([-4, 3, 5], abs=1e-3)
+    tree = TransformTree(it.simulation.branch.scene.frames)
+    world = np.array([tree.transform(tuple(one), limb.body, "root") for one in in_frame])
+    part = it.simulation.branch.devices["touch"]
+    (mount,) = part.mounts
+    assert set(mount.covers) == {"inner"}
+    body = it.simulation.world.data.body(mount.body)
+    there = (points @ mount.axes.T + mount.origin) @ body.xmat.reshape(3, 3).T + body.xpos
+    assert there[:, [0, 2, 1]] * 1000 == pytest.approx(world, abs=1e-3)
+    cone = np.column_stack((geometry.nx, geometry.ny, geometry.nz))[:-1]
+    away = points[:-1].copy()
+    away[:, 0] = 0.0
+    assert ((away * cone).sum(axis=1) > 0.02).all()  # normals look out
+
+
+@pytest.mark.parametrize("kind", ["makes", "follows"])
+def test_frames_are_told_whoever_makes_the_time(it: Touched, kind: str) -> None:
+    clock = ClockSource(lambda tick: None) if kind == "makes" else SimulatedClock()
+    it.simulation.start(clock)
+    pace = it.simulation.pace
+    for k in range(1, 21):
+        if isinstance(clock, ClockSource):
+            pace._along(0.01 * k, clock.told.epoch)
+        else:
+            clock.hear(Tick(10_000_000 * k, 0, 1.0, False))
+        pace.keep_up()
+    assert numbers(it) == list(range(1, 11))
 
 
 def test_before_the_first_frame_there_is_none(it: Touched) -> None:
