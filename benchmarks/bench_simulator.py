@@ -125,7 +125,7 @@ def _speeds(it: Run, name: str, goal: float) -> Iterator[dict[str, Any]]:
 def _tapped() -> Iterator[dict[str, Any]]:
     """From a call of the client to the step in which the motor has the torque, at real time."""
     random, sent, late = np.random.default_rng(1), {}, []
-    with tempfile.TemporaryDirectory() as folder, simulator(Path(folder)) as it:
+    with tempfile.TemporaryDirectory() as folder, simulator(Path(folder), tap=True) as it:
         board = it.proxy("ControlBoard")
         it.hear(*JOINTS)
         _await(it, 1.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -26,6 +27,7 @@ from robocomp_dsl.runtime.statistics import Statistics
 STEP_MS = 1.0
 PATIENCE = 60.0
 NAME = "humanoid_simulator"
+TAP = "BENCH_TAP"  # as in the worker, which is no module of ours
 WORKER = Path(__file__).with_name("simulator_worker.py")
 
 
@@ -77,7 +79,9 @@ class Run:
 
 
 @contextmanager
-def simulator(folder: Path, *options: str, camera: bool = False) -> Iterator[Run]:
+def simulator(
+    folder: Path, *options: str, camera: bool = False, tap: bool = False
+) -> Iterator[Run]:
     """Generate into `folder`, start, and end it; all is told when the block has ended."""
     home = _generated(folder, camera=camera)
     domain = f"bench-{uuid.uuid4().hex[:8]}"
@@ -87,6 +91,7 @@ def simulator(folder: Path, *options: str, camera: bool = False) -> Iterator[Run
         cwd=home,
         stdout=subprocess.PIPE,
         text=True,
+        env=os.environ | ({TAP: "1"} if tap else {}),
     )
     execution = Execution()
     middleware = open_middleware("zenoh", Host("client", domain, execution, Statistics()))

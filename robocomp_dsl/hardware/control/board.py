@@ -87,8 +87,9 @@ class Board:
         if not self.ease.holds(ahead, self.velocity, torque):
             torque = self.law.bounded(error, late, self.velocity, feedforward)
             torque = self.limits.guard(self.position, self.velocity, torque)
-        self.torque = self.law.of_driven(torque)
-        self._watch(error)
+        self.torque = torque if self.law.all_driven else torque * self.law.driven
+        if self.motors.overloadable or self.motors.hot or self.pid.tracks:
+            self._watch(error)
         return self.torque
 
     def set_modes(self, joints: Ints, modes: Sequence[Mode]) -> None:

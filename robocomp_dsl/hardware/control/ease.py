@@ -29,7 +29,7 @@ class Ease:
         every = np.concatenate((ahead, velocity, torque, pid.output, pid.integral))
         kept = np.maximum(every, self._low)
         np.minimum(kept, self._high, out=kept)
-        return bool(np.count_nonzero(kept == every) == len(every))
+        return b"\0" not in (kept == every).tobytes()  # the fastest way to ask whether all are true
 
     def _look(self) -> None:
         limits, pid = self._limits, self._pid

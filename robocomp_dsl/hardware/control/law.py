@@ -33,8 +33,8 @@ class Law:
         self._modes: tuple[Mode, ...] = (Mode.IDLE,) * n
         self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
         self._back_emf: Floats | None = None
-        self._commanded = False
-        self._stiff = self._comply = self._all_driven = False
+        self._commanded = self._alone = False
+        self._stiff = self._comply = self.all_driven = False
 
     def choose(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
         """Work out which terms each joint uses."""
@@ -47,7 +47,7 @@ class Law:
         self._held, self._spring = self.positioned.astype(float), soft.astype(float)
         direct = self._mask(Mode.TORQUE) + self._mask(Mode.PWM) + self._mask(Mode.CURRENT)
         self.driven = self._held + direct
-        self._all_driven = bool(self.driven.all())
+        self.all_driven = bool(self.driven.all())
         duty = self._mask(Mode.PWM)
         self._back_emf = duty[:, None] * self._motors.back_emf if duty.any() else None
         self.apply()
@@ -61,6 +61,7 @@ class Law:
         self._direct += duty * self._motors.torque_of_current(stalled)
         self._direct += current * self._motors.torque_of_current(self.current * current)
         self._commanded = bool(self._direct.any())
+        self._alone = not (self._commanded or self._comply or self._back_emf is not None)
 
     def step(
         self,
@@ -75,6 +76,8 @@ class Law:
         `feedforward` (n,) is added where a position is held: weight, mostly.
         """
         held = self._pid.propose(error, velocity_error, dt) if self._stiff else None
+        if held is not None and feedforward is None and self._alone:
+            return held
         return self._sum(held, error, velocity_error, velocity, feedforward)
 
     def bounded(
@@ -102,10 +105,6 @@ class Law:
         if self._back_emf is not None:
             wished = wished - self._back_emf @ velocity
         return wished
-
-    def of_driven(self, torque: Floats) -> Floats:
-        """`torque` (n,) where motors are on, else 0."""
-        return torque if self._all_driven else torque * self.driven
 
     def _mask(self, mode: Mode) -> Floats:
         return np.array([float(one is mode) for one in self._modes])

@@ -88,6 +88,9 @@ class SimulatedBoard:
         torque = self.board.step(q, dq, dt, weight)
         data = self._data
         data.ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
+        self._unheated += dt
+        if self._unheated >= HEAT_PERIOD:
+            self._warm()
 
     def _measure(self) -> tuple[Floats, Floats]:
         """Angles as the encoders tell them, and speeds."""
@@ -109,11 +112,8 @@ class SimulatedBoard:
         weight: Floats = self._to_board @ (bias + drag)
         return weight
 
-    def after_step(self, dt: float) -> None:
+    def _warm(self) -> None:
         """Motors warm up by their current and cool down in the room; slowly, so now and then."""
-        self._unheated += dt
-        if self._unheated < HEAT_PERIOD:
-            return
         motors, current = self.board.motors, self.board.current
         final = ROOM_TEMPERATURE + WARMING * motors.resistance * current * current
         warmer = (final - motors.temperature) * (self._unheated / COOLING)

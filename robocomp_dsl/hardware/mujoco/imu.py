@@ -88,9 +88,6 @@ class Imu:
         self._site = int(model.site(self._site_name).id)
         self._first = {what: int(model.sensor(f"{self.name}.{what}").adr[0]) for what in _SENSORS}
 
-    def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
-
     def after_step(self, dt: float) -> None:
         """Draw other errors when they are due."""
         if self._noise is not None and self._data.time >= self._due - dt / 2:

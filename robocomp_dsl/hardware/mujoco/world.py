@@ -41,6 +41,8 @@ class Part(Protocol):
 class World:
     """Bodies under physics. Not thread-safe: one thread, or one lock, drives it.
 
+    `step` is the length of one step of the physics in s.
+
     It begins as `start` says. A world that comes after another one (`before`) goes on with its time
     and with the state of all joints of the same name but those in `forget`; parts of both are told
     by `find` where they are.
@@ -67,6 +69,7 @@ class World:
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self.data = mujoco.MjData(self.model)
+        self.step = float(self.model.opt.timestep)
         self._owed = 0.0
         if start is not None:
             self._begin(start)
@@ -81,11 +84,6 @@ class World:
                 continue
             # a stream of its own for each, so that one device's noise does not shift another's
             part.bind(self.model, self.data, np.random.default_rng([seed, i]))
-
-    @property
-    def step(self) -> float:
-        """Length of one step of the physics in s."""
-        return float(self.model.opt.timestep)
 
     @property
     def time(self) -> float:
