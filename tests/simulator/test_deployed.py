@@ -301,9 +301,12 @@ print("held")
 """
 
 
-def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(home: Path) -> None:
-    name = f"sim-{os.getpid()}"
-    with deployed(home, name, "clock sim;", last=1000) as (process, written):
+@pytest.mark.parametrize("clock", ["clock sim;", "clock sim lockstep;"])
+def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(
+    home: Path, clock: str
+) -> None:
+    name = f"sim-{len(clock)}-{os.getpid()}"
+    with deployed(home, name, clock, last=1000) as (process, written):
         until(lambda: bool(times(written)), process, "the first line")
         until(lambda: "times real time" in status(name), process, "the factor")
         until(lambda: " 0.00 times" not in status(name), process, "a factor")
