@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from robocomp_dsl.check import codes_body as codes
-from robocomp_dsl.diagnostics import Diagnostic, Severity
+from robocomp_dsl.diagnostics import Code, Diagnostic, Severity
 
 _DONE = {
     codes.BODY_DUPLICATE: ("node", "renamed"),
@@ -24,12 +24,22 @@ _DONE = {
 _FORM = ("place", "repaired in its XML")
 """All that is wrong with the form."""
 
+_SKIN = ("place of skin", "simplified")
+_SKIN_CODES = "RC82"
+
 
 def consequences(findings: Iterable[Diagnostic]) -> str:
     """`2 nodes renamed, 1 tag left out`; the errors alone are counted."""
-    counts = Counter(
-        _DONE.get(one.code, _FORM) for one in findings if one.severity is Severity.ERROR
-    )
-    return ", ".join(
-        f"{count} {what}{'s' if count > 1 else ''} {done}" for (what, done), count in counts.items()
-    )
+    counts = Counter(_done(one.code) for one in findings if one.severity is Severity.ERROR)
+    return ", ".join(_counted(count, *done) for done, count in counts.items())
+
+
+def _done(code: Code) -> tuple[str, str]:
+    usual = _SKIN if code.id.startswith(_SKIN_CODES) else _FORM
+    return _DONE.get(code, usual)
+
+
+def _counted(count: int, what: str, done: str) -> str:
+    """`2 places of skin simplified`."""
+    noun, *rest = what.split(" ", 1)
+    return " ".join((str(count), noun + ("s" if count > 1 else ""), *rest, done))

@@ -163,7 +163,12 @@ SKIN = """
 """
 
 
+TAXEL = "0 0 0.01 0 0 1\n"
+"""One row of a file of positions."""
+
+
 def test_skin(tmp_path: Path) -> None:
+    (tmp_path / "left_forearm.txt").write_text(TAXEL)
     found, report = read(tmp_path, SKIN)
     assert said(report) == []
     nodes = {node.id: node for node, _ in found.nodes()}
@@ -205,12 +210,14 @@ CONE = 'x0="0" x1="9" r0="5" r1="5"'
         ('<patch id="p"><taxel x="1" theta="1"/></patch>', ["RC808 <taxel"]),
         (f'<patch id="p" {CONE}><taxel theta="1" nz="1"/></patch>', ["RC808 <taxel"]),
         ('<patch id="p" file="a" firstid="-1"/>', ["RC808 <patch"]),
+        ('<patch id="p" file="gone"/>', ["RC821 <patch"]),
         ('<patch id="p" file="a"/><imu id="i"/>', ["RC807 imu"]),
         ('<patch id="p" file="a"/><taxel x="1"/>', ["RC807 taxel"]),
         ('<patch id="p" file="a"/><include path="a.xml"/>', ["RC807 include"]),
     ],
 )
 def test_what_a_skin_may_not_say(tmp_path: Path, inside: str, findings: list[str]) -> None:
+    (tmp_path / "a").write_text(TAXEL)
     _, report = read(tmp_path, f'<transform id="a"><skin id="s">{inside}</skin></transform>')
     assert said(report) == findings
 

@@ -70,6 +70,10 @@ WRONG = {
         "world.xml:1:33: error[RC802]",
         "1 attribute left out or taken as another, 1 file not included",
     ),
+    '<innerModel><skin id="s"><patch file="a"/><patch file="b"/></skin></innerModel>': (
+        "world.xml:1:26: error[RC821]",
+        "2 places of skin simplified",
+    ),
     '<innerModel><joint id="a" min="2" max="1"/></innerModel>': (
         "world.xml:1:13: error[RC808]",
         "1 node simplified",
