@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.errors import SceneError
+from robocomp_dsl.hardware.mujoco.contact_forces import ContactRecorder
 from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin
 from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.robots.build import add_robot, new_world, quaternion
@@ -183,6 +184,22 @@ def test_two_balls_are_two_touches_on_both_limbs():
     world.advance(0.02)
     assert {one.limb for one in skin.contacts()} == {"left_arm/lower_arm", "right_arm/upper_arm"}
     assert all(one.force > 0.1 for one in skin.contacts())
+
+
+def test_a_contact_that_parts_without_force_is_none():
+    text = """<mujoco><option gravity="0 0 0"/><worldbody><geom size=".1"/>
+      <body name="limb" pos="0 0 .1999"><freejoint/><geom size=".1"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    data.qvel[2] = 5.0  # so fast that nothing has to push
+    recorder = ContactRecorder(
+        model, np.array([-1, 0]), np.array([1]), np.zeros((1, 3)), np.eye(3)[None]
+    )
+    mujoco.mj_step(model, data)
+    recorder.record(data)
+    assert data.ncon == 1
+    assert data.contact.efc_address[0] >= 0
+    assert recorder.take() is None
 
 
 def test_raw_values_and_compensation_follow_the_electronics():

@@ -74,7 +74,7 @@ class ContactRecorder:
     def take(self) -> Touch | None:
         """The contacts of all steps since the last call, in the frames of their limbs.
 
-        None if no limb was touched. A contact between two limbs counts on both.
+        None if no limb feels any force. A contact between two limbs counts on both.
         """
         written, self._written = self._written, []
         if not written:
@@ -103,6 +103,8 @@ class ContactRecorder:
         along = into(along, turn)
         if pressing.all():
             return Touch(mine, here, normal, along)
+        if not pressing.any():
+            return None  # they have only just met, or part again
         return Touch(mine[pressing], here[pressing], normal[pressing], along[pressing])
 
     def _limb_poses(self, place: Floats, turn: Floats) -> tuple[Floats, Floats]:
