@@ -7,21 +7,21 @@ clock in every period of its component.
 from __future__ import annotations
 
 from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.pace.held import Held
 from robocomp_dsl.hardware.pace.pace import Paced
 from robocomp_dsl.runtime.clock import Clock
 
 
-class FollowsTime:
+class FollowsTime(Held):
     """The time of the deployment comes from elsewhere; the world goes along in every period."""
 
     speed = 1.0
 
     def __init__(self, world: Paced, clock: Clock) -> None:
-        self._world = world
+        super().__init__(world)
         self._clock = clock
         self._epoch = max(clock.epoch, 0)
         self._at = clock.now()
-        self.paused = False
 
     @property
     def factor(self) -> float:
@@ -37,21 +37,6 @@ class FollowsTime:
         """See `Pace`."""
         if why := self.refusal(speed):
             raise CommandRefused(why)
-
-    def pause(self) -> None:
-        """The world alone; the time of the others goes on."""
-        with self._world.turns:
-            self.paused = True
-
-    def resume(self) -> None:
-        """See `Pace`."""
-        with self._world.turns:
-            self.paused = False
-
-    def step(self, seconds: float) -> None:
-        """See `Pace`."""
-        with self._world.turns:
-            self._world.advance(seconds)
 
     def anew(self, seconds: float) -> None:
         """The clock of the deployment goes on as it does."""

@@ -11,6 +11,7 @@ import threading
 import time
 
 from robocomp_dsl.hardware.errors import Diverged
+from robocomp_dsl.hardware.pace.held import Held
 from robocomp_dsl.hardware.pace.pace import Paced
 
 SLICE = 0.002
@@ -20,13 +21,12 @@ MOST_BEHIND = 0.1
 """Seconds of the wall clock that it makes up for; behind a longer pause the machine was asleep."""
 
 
-class OwnPace:
+class OwnPace(Held):
     """By the clock of the machine, in a thread of its own."""
 
     def __init__(self, world: Paced, speed: float) -> None:
-        self._world = world
+        super().__init__(world)
         self.speed = speed
-        self.paused = False
         self.factor = 0.0
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
@@ -38,21 +38,6 @@ class OwnPace:
     def set_speed(self, speed: float) -> None:
         """See `Pace`."""
         self.speed = speed
-
-    def pause(self) -> None:
-        """See `Pace`."""
-        with self._world.turns:
-            self.paused = True
-
-    def resume(self) -> None:
-        """See `Pace`."""
-        with self._world.turns:
-            self.paused = False
-
-    def step(self, seconds: float) -> None:
-        """See `Pace`."""
-        with self._world.turns:
-            self._world.advance(seconds)
 
     def anew(self, seconds: float) -> None:
         """Its only clock is that of the world."""
