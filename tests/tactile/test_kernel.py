@@ -51,6 +51,27 @@ def test_the_grid_gives_what_the_plain_rule_gives(places, seed):
     assert share.felt.sum() + share.missed == pytest.approx(forces.sum())
 
 
+@pytest.mark.parametrize("sigma", [0.001, 0.0049, 0.0051, 0.03])
+def test_a_kernel_of_any_width_gives_what_the_plain_rule_gives(sigma):
+    rng = np.random.default_rng(1)
+    points = SKIN.points[::7] + rng.normal(0.0, sigma, SKIN.points[::7].shape)
+    forces = rng.uniform(0, 10, len(points))
+    kernel = Kernel(SKIN.points, ONE_LIMB, 1, sigma)
+    share = kernel.share(points, np.zeros(len(points), np.int64), forces)
+    felt, missed = slow(points, forces, sigma)
+    assert share.felt == pytest.approx(felt, abs=1e-9)
+    assert share.missed == pytest.approx(missed)
+
+
+def test_taxels_a_kilometre_apart_cost_no_more_than_others():
+    points = np.array([[0.0, 0, 0], [1000.0, 500.0, -700.0]])
+    share = Kernel(points, np.zeros(2, np.int64), 1).share(
+        np.array([[1000.0, 500.0, -700.001], [500.0, 0, 0]]), np.zeros(2, np.int64), np.ones(2)
+    )
+    assert share.felt.tolist() == [0.0, 1.0]
+    assert share.missed == 1.0
+
+
 def test_vectors_are_spread_with_the_same_weights():
     points = CONE.points(np.array([0.05, 0.07]), np.array([0.3, 1.3]))
     vectors = np.array([[1.0, -2.0], [0.5, 4.0]])

@@ -22,7 +22,7 @@ CUTOFF = 3.0
 """Taxels further away than this many sigma feel nothing."""
 
 CELL = 0.005
-"""Edge of the grid's cubes [m]."""
+"""Edge of the grid's cubes [m]; of a wider kernel they are as wide as that."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,13 +39,14 @@ class Kernel:
     def __init__(self, points: Floats, limb: Ints, limbs: int, sigma: float = SIGMA) -> None:
         self._points, self._sigma = points, sigma
         self._reach = CUTOFF * sigma
+        self._cell = max(CELL, sigma)
         self._low, self._shape = np.zeros((limbs, 3)), np.zeros((limbs, 3), np.int64)
         for one in range(limbs):
             mine = points[limb == one]
             if len(mine):
                 self._low[one] = mine.min(axis=0) - self._reach
                 extent = mine.max(axis=0) + self._reach - self._low[one]
-                self._shape[one] = np.ceil(extent / CELL).astype(np.int64) + 1
+                self._shape[one] = np.ceil(extent / self._cell).astype(np.int64) + 1
         self._first = np.concatenate(([0], np.cumsum(self._shape.prod(axis=1))))
         self._fill(limb)
 
@@ -82,27 +83,28 @@ class Kernel:
         return contact[near], taxel[near], weight
 
     def _cells(self, points: Floats, limb: Ints) -> Ints:
-        """Number of the cube that holds each point; the empty last one for points outside."""
-        place = np.floor((points - self._low[limb]) * (1.0 / CELL)).astype(np.int64)
+        """Which of the cubes near to taxels holds each point; the empty last one for others."""
+        place = np.floor((points - self._low[limb]) * (1.0 / self._cell)).astype(np.int64)
         shape = self._shape[limb]
         inside = ((place >= 0) & (place < shape)).all(axis=1)
         x, y, z = place.T
         number = self._first[limb] + (x * shape[:, 1] + y) * shape[:, 2] + z
-        cell: Ints = np.where(inside, number, self._first[-1])
-        return cell
+        cell = np.searchsorted(self._known, number)
+        inside &= self._known[cell] == number
+        return np.where(inside, cell, len(self._known) - 1)
 
     def _fill(self, limb: Ints) -> None:
         """For every cube the taxels that any point in it may reach."""
-        far = self._reach + CELL * np.sqrt(3.0) / 2.0
-        steps = int(np.ceil(far / CELL))
+        far = self._reach + self._cell * np.sqrt(3.0) / 2.0
+        steps = int(np.ceil(far / self._cell))
         axis = np.arange(-steps, steps + 1)
         offsets = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
         cells, taxels = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
         for block in np.array_split(np.arange(len(self._points)), len(self._points) // 512 + 1):
             low = self._low[limb[block]]
-            home = np.floor((self._points[block] - low) / CELL).astype(np.int64)
+            home = np.floor((self._points[block] - low) / self._cell).astype(np.int64)
             place = home[:, None] + offsets
-            middle = low[:, None] + (place + 0.5) * CELL
+            middle = low[:, None] + (place + 0.5) * self._cell
             close = np.linalg.norm(middle - self._points[block][:, None], axis=2) <= far
             shape = self._shape[limb[block]][:, None]
             close &= ((place >= 0) & (place < shape)).all(axis=2)
@@ -113,5 +115,6 @@ class Kernel:
         cell, taxel = np.concatenate(cells), np.concatenate(taxels)
         order = np.argsort(cell, kind="stable")
         self._taxels = taxel[order]
-        counts = np.bincount(cell, minlength=int(self._first[-1]) + 1)
-        self._start = np.concatenate(([0], np.cumsum(counts)))
+        known, counts = np.unique(cell, return_counts=True)
+        self._known = np.append(known, np.iinfo(np.int64).max)
+        self._start = np.concatenate(([0], np.cumsum(np.append(counts, 0))))
