@@ -129,7 +129,7 @@ class Patch(Node):
     Their surface is a truncated cone about x, from `x0` with radius `r0` to `x1` with `r1`
     (Ma and Dahl 2016, equations 3 and 4), or what the taxels themselves say. They are laid out as
     `count` triangle modules round the cone at each x in `rings`, by a `file` of positions, or one
-    by one as `children`. A count of a sensor is `gain` newtons, from `floor` to `saturation` counts.
+    by one as `children`. A count is `gain` newtons, from `floor` to `saturation` counts.
     """
 
     tx: float = 0.0
