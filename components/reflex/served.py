@@ -21,7 +21,6 @@ class Served(GenericWorker):
     sense: Sense
     part: str
     size: int
-    state = ReflexState.Frozen
     withdrawals = 0
 
     # implements RoboCompReflex::Reflex
@@ -30,7 +29,7 @@ class Served(GenericWorker):
         """What it is doing, and what it has seen."""
         gate = self.sense.gate
         return Statistics(
-            state=self.state,
+            state=ReflexState[self.machine.states[0]],
             withdrawals=self.withdrawals,
             framesAccepted=gate.accepted,
             framesNotFinite=gate.rejected[FrameFault.NOT_FINITE],

@@ -32,6 +32,7 @@ class SpecificWorker(Lookout):
     """Withdraws an arm from touches; `machine` says what it is doing."""
 
     withdrawal: Withdrawal | None = None
+    told_state = ReflexState.Frozen
 
     def initialize(self) -> None:
         """Read the fields."""
@@ -53,9 +54,9 @@ class SpecificWorker(Lookout):
     # The states of reflex.smdsl; compute and what else has to do with `Frozen` is in lookout.py.
 
     def on_enter_Frozen(self) -> None:
-        """Stop."""
-        self.let_go()
+        """Stop; the arm may take its time to answer."""
         self._tell(ReflexState.Frozen)
+        self.let_go()
 
     def state_Frozen(self) -> None:
         """Until `emergency` finds what was missing."""
@@ -170,8 +171,8 @@ class SpecificWorker(Lookout):
             self.machine.go("arrived")
 
     def _tell(self, state: ReflexState) -> None:
-        if state != self.state:
-            self.state = state
+        if state != self.told_state:
+            self.told_state = state
             self.reflexevents_proxy.stateChanged(state)
 
     def begin_anew(self) -> None:

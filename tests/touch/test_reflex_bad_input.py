@@ -299,6 +299,8 @@ def test_the_emergency_can_be_seen_from_outside_with_its_reason(touched) -> None
     assert info.state == LifeState.Emergency
     assert info.reason == "the arm has told no state for 0.5 s"
     assert info.states == ["Frozen"]
+    assert touched.reflex.getStatistics().state == words.ReflexState.Frozen
+    assert touched.robot.heard[-1] == words.ReflexState.Frozen
     touched.robot.tells, touched.robot.feels = True, False
     touched.run(0.3)
     assert about.getInfo().reason == "the skin has sent no usable frame for 0.2 s"
