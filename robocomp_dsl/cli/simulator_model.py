@@ -32,7 +32,7 @@ def model_world(
     """The simulator of the model at `path`, as `complete` makes it whole; None after errors."""
     source = read_source(path)
     try:
-        file = f"model{MODELS[outermost(path.read_bytes())]}"
+        file = f"model{MODELS.get(outermost(path.read_bytes()), '.xml')}"
         described = describe(path, file, packages)
         text = copy_of(path, packages)
     except ModelFileError as error:

@@ -144,6 +144,8 @@ BAD = {
     "</worldbody></mujoco>": ("RC653", "`in` and"),
     '<mujoco><worldbody><body name="b"><joint name="j"/><geom size=".1"/></body></worldbody>'
     '<keyframe><key name="k" qpos="1 2"/></keyframe></mujoco>': ("RC651", "`k`"),
+    '<mujoco><worldbody><body name="b" pos="0 nan 0"><joint/><geom size=".1"/></body></worldbody>'
+    "</mujoco>": ("RC651", "the body `b` has a `pos` that is no finite number"),
     "<mujocoinclude/>": ("RC651", "give the file that includes it"),
     '<mujoco><compiler settotalmass="3"/><worldbody><body><freejoint/><geom size=".1"/></body>'
     "</worldbody></mujoco>": ("RC652", "settotalmass"),

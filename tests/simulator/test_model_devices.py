@@ -141,7 +141,7 @@ def test_names_that_things_share(tmp_path: Path) -> None:
     ]
 
 
-BAD_KEYS = ('qpos="1 2"', 'ctrl="1 2 3"')
+BAD_KEYS = ('qpos="1 2"', 'ctrl="1 2 3"', 'qpos="nan"')
 
 
 @pytest.mark.parametrize("key", BAD_KEYS)

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from robocomp_dsl.hardware.findings import Finding, ModelFileError
 from robocomp_dsl.hardware.model_kind import outermost
@@ -67,8 +68,35 @@ def compiled(spec: Any, findings: list[Finding]) -> Any:
         spec.compiler.boundmass, spec.compiler.boundinertia = _LIGHTEST, _LIGHTEST * 1e-3
         model = _compile(spec, findings)
         findings += _light(model)
+    _judge(model)
     findings += overlaps(model)
     return model
+
+
+_NUMBERS = {
+    "body": ("pos", "quat", "mass", "inertia", "ipos", "iquat"),
+    "jnt": ("pos", "axis", "range", "stiffness"),
+    "geom": ("pos", "quat", "size"),
+    "site": ("pos", "quat"),
+    "cam": ("pos", "quat", "fovy"),
+}
+"""What MuJoCo takes as it is, also where it is no number."""
+
+
+def _judge(model: Any) -> None:
+    """Raises `ModelFileError` for what is not made of finite numbers."""
+    for kind, names in _NUMBERS.items():
+        for name in names:
+            numbers = getattr(model, f"{kind}_{name}")
+            if np.isfinite(numbers).all():
+                continue
+            at = int(np.argwhere(~np.isfinite(numbers))[0][0])
+            one = getattr(model, _KINDS[kind])(at)
+            said = f"the {_KINDS[kind]} `{one.name or at}` has a `{name}` that is no finite number"
+            raise ModelFileError(said)
+
+
+_KINDS = {"body": "body", "jnt": "joint", "geom": "geom", "site": "site", "cam": "camera"}
 
 
 def _compile(spec: Any, findings: list[Finding]) -> Any:

@@ -7,6 +7,7 @@ as it was.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -94,6 +95,8 @@ def _take(key: Any, started: Started) -> None:
         if given and len(given) != needed:
             said = f"the key frame `{key.name}` has {len(given)} numbers in `{what}`, not {needed}"
             raise ModelFileError(said)
+        if not all(map(math.isfinite, given)):
+            raise ModelFileError(f"`{what}` of the key frame `{key.name}` is not finite")
     for joint, size in zip(joints, sizes, strict=True):
         if qpos:
             started.start[joint.name], qpos = qpos[:size], qpos[size:]
