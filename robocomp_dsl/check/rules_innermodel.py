@@ -10,6 +10,7 @@ import math
 from robocomp_dsl.check import codes_body as codes
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.body import (
+    MOST_MODULES,
     Battery,
     Body,
     Gps,
@@ -124,6 +125,8 @@ def _patch(node: Patch) -> list[str]:
         said.append("`rings` go round a cone: give `x0`, `x1`, `r0` and `r1`")
     if node.rings and node.count < 1:
         said.append("`rings` need the `count` of modules in each")
+    if node.rings and node.count > MOST_MODULES:
+        said.append(f"a ring has at most {MOST_MODULES} modules, not {node.count}")
     if node.firstid < 0:
         said.append(f"taxels are numbered from 0, not {node.firstid}")
     return said

@@ -14,7 +14,7 @@ from robocomp_dsl.check import codes
 from robocomp_dsl.check.tactile import tell
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.rotations import rotation
-from robocomp_dsl.model.body import Body, Patch, Taxel
+from robocomp_dsl.model.body import MOST_MODULES, Body, Patch, Taxel
 from robocomp_dsl.source import Span
 from robocomp_dsl.tactile.arrays import Floats, Ints
 from robocomp_dsl.tactile.errors import DescriptionError
@@ -61,7 +61,8 @@ def _read(patch: Patch, report: Report) -> TaxelPositions | None:
 
 def _ids(patch: Patch, read: TaxelPositions | None) -> Ints:
     if patch.rings:
-        modules = np.arange(len(patch.rings) * max(patch.count, 0)) * CHANNELS
+        count = min(max(patch.count, 0), MOST_MODULES)
+        modules = np.arange(len(patch.rings) * count) * CHANNELS
         found: Ints = (modules[:, None] + np.array(PRESSURE)).ravel()
     elif read:
         found = np.flatnonzero(read.used)

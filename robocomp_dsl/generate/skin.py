@@ -100,6 +100,8 @@ def _frame(patch: body.Patch) -> _Frame:
 def _layout(patch: body.Patch, frame: _Frame) -> Layout:
     """The taxels of a patch in its own frame."""
     if patch.rings:
+        if not 0 < patch.count <= body.MOST_MODULES:
+            raise ValueError("no such number of modules can be laid out")
         return rings(_cone(patch), tuple(x * MM for x in patch.rings), patch.count)
     if patch.file:
         path = patch.span.source.path.parent / patch.file

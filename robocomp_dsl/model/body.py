@@ -122,6 +122,10 @@ class Skin(Node):
     children: tuple[Node, ...] = ()
 
 
+MOST_MODULES = 1000
+"""Of triangles in one ring; more do not fit round a limb, but into a typing error."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Patch(Node):
     """Taxels numbered from `firstid`, in a frame of their own: T(t…) · Rx · Ry · Rz, as ever.

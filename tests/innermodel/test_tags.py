@@ -203,6 +203,7 @@ CONE = 'x0="0" x1="9" r0="5" r1="5"'
         (f'<patch id="p" {CONE} rings="1" count="2" file="a"/>', ["RC808 <patch"]),
         ('<patch id="p" rings="1" count="2"/>', ["RC808 <patch"]),
         (f'<patch id="p" {CONE} rings="1"/>', ["RC808 <patch"]),
+        (f'<patch id="p" {CONE} rings="1" count="2147483647"/>', ["RC808 <patch"]),
         ('<patch id="p" x0="9" x1="0" r0="5" r1="5" rings="1" count="2"/>', ["RC808 <patch"]),
         ('<patch id="p" x0="0" x1="9" r0="5" rings="1" count="2"/>', ["RC808 <patch"]),
         (f'<patch id="p" {CONE} rings="1,two" count="2"/>', ['RC803 "1,two"', "RC808 <patch"]),

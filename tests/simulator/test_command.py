@@ -74,6 +74,10 @@ WRONG = {
         "world.xml:1:26: error[RC821]",
         "2 places of skin simplified",
     ),
+    '<innerModel><skin id="s"><patch x1="9" r0="5" r1="5" rings="1"/></skin></innerModel>': (
+        "world.xml:1:26: error[RC808]",
+        "1 node simplified",
+    ),
     '<innerModel><joint id="a" min="2" max="1"/></innerModel>': (
         "world.xml:1:13: error[RC808]",
         "1 node simplified",
