@@ -99,9 +99,6 @@ class Simulator(GenericWorker):
         self.simulation.pace.keep_up()
         self.simulation.judge()
         self.devices.judge()
-        if self.imu_pub_proxy.is_heard():
-            for told in self.ports["imu"].current("getDataImu"):
-                self.imu_pub_proxy.publish(told)
         if self.rounds % 2 == 0:
             if self.jointmotorpub_proxy.is_heard():
                 for told in self.ports["JointMotor"].current("getAllMotorState"):
@@ -124,6 +121,9 @@ class Simulator(GenericWorker):
             if self.finger_pub_proxy.is_heard():
                 for told in self.ports["finger"].current("getState"):
                     self.finger_pub_proxy.boardState(told)
+        if self.imu_pub_proxy.is_heard():
+            for told in self.ports["imu"].current("getDataImu"):
+                self.imu_pub_proxy.publish(told)
         self.rounds += 1
 
     def finalize(self) -> None:

@@ -95,7 +95,7 @@ def _publications(
 ) -> Iterator[str]:
     """The lines that publish; topics of a longer period in every so many rounds."""
     usual = period_of(topics)
-    for every in sorted({one.topic.period // usual for one in topics}):
+    for every in sorted({one.topic.period // usual for one in topics}, reverse=True):
         if every > 1:
             yield f"if self.rounds % {every} == 0:"
         for one in topics:

@@ -83,8 +83,7 @@ class Board:
         error = self.references.position - self.position
         late = self.references.velocity - self.velocity
         torque = self.law.step(error, late, self.velocity, feedforward, dt)
-        ahead = self.limits.ahead(self.position, self.velocity)
-        if not self.ease.holds(ahead, self.velocity, torque):
+        if not self.ease.holds(self.position, self.velocity, torque):
             torque = self.law.bounded(error, late, self.velocity, feedforward)
             torque = self.limits.guard(self.position, self.velocity, torque)
         self.torque = torque if self.law.all_driven else torque * self.law.driven

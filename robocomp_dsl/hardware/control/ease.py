@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Floats
-from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.limits import AHEAD, Limits
 from robocomp_dsl.hardware.control.pid import PidBank
 
 
@@ -20,16 +20,22 @@ class Ease:
         self._limits, self._pid = limits, pid
         self._seen = (-1, -1)
         self._low = self._high = np.zeros(0)
+        size = 5 * len(limits.speed)
+        self._every, self._kept, self._same = np.empty(size), np.empty(size), np.empty(size, bool)
 
-    def holds(self, ahead: Floats, velocity: Floats, torque: Floats) -> bool:
-        """For all joints; `ahead` (n,) is where they will be soon, `torque` (n,) what is wished."""
+    def holds(self, position: Floats, velocity: Floats, torque: Floats) -> bool:
+        """For all joints; `torque` (n,) is what is wished."""
         limits, pid = self._limits, self._pid
         if self._seen != (limits.version, pid.version):
             self._look()
-        every = np.concatenate((ahead, velocity, torque, pid.output, pid.integral))
-        kept = np.maximum(every, self._low)
+        every, kept, same = self._every, self._kept, self._same
+        ahead = AHEAD * velocity
+        ahead += position
+        np.concatenate((ahead, velocity, torque, pid.output, pid.integral), out=every)
+        np.maximum(every, self._low, out=kept)
         np.minimum(kept, self._high, out=kept)
-        return b"\0" not in (kept == every).tobytes()  # the fastest way to ask whether all are true
+        np.equal(kept, every, out=same)
+        return b"\0" not in same.tobytes()  # the fastest way to ask whether all are true
 
     def _look(self) -> None:
         limits, pid = self._limits, self._pid

@@ -15,7 +15,7 @@ from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Floats, Ints
 _SPRING = 20.0
 """Strength of the soft stops, in torque limits per rad."""
 
-_AHEAD = 0.05
+AHEAD = 0.05
 """How far ahead a fast joint is seen to run into its stop [s]."""
 
 _FAST = 0.5
@@ -62,16 +62,10 @@ class Limits:
         kept = np.clip(position, self.low[joints], self.high[joints])
         return kept, kept != position
 
-    def ahead(self, q: Floats, dq: Floats) -> Floats:
-        """Where joints at `q` with speed `dq` will be when it is too late to brake."""
-        soon = _AHEAD * dq
-        soon += q
-        return soon
-
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
         """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
         low, high = self.stops
-        ahead = self.ahead(q, dq)
+        ahead = q + AHEAD * dq
         past = ahead - np.minimum(np.maximum(ahead, low), high)
         fast = np.abs(dq) > self.speed
         if np.count_nonzero(past):

@@ -80,21 +80,32 @@ class SimulatedBoard:
         self._where, self._speed, self._motor = (np.array(one) for one in zip(*found, strict=True))
         self._damping = model.dof_damping[self._speed].copy()
         self._borne = bool(model.ngravcomp)
+        self._look()
+
+    def _look(self) -> None:
+        """Views of the data: asking for them at every step costs as much as reading them."""
+        self._places, self._speeds = self._data.qpos, self._data.qvel
+        self._ctrl = self._data.ctrl
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """A copy looks at the copied data."""
+        self.__dict__.update(state)
+        if "_data" in state:
+            self._look()
 
     def before_step(self, dt: float) -> None:
         """Measure, let the board work, and set the motors."""
         q, dq = self._measure()
         weight = self._weight() if self._hold_weight else None
         torque = self.board.step(q, dq, dt, weight)
-        data = self._data
-        data.ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
+        self._ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
         self._unheated += dt
         if self._unheated >= HEAT_PERIOD:
             self._warm()
 
     def _measure(self) -> tuple[Floats, Floats]:
         """Angles as the encoders tell them, and speeds."""
-        q, dq = self._data.qpos[self._where], self._data.qvel[self._speed]
+        q, dq = self._places[self._where], self._speeds[self._speed]
         if not self._plain:
             q, dq = self._to_joint @ q, self._to_joint @ dq
         return (q if self._zero is None else q + self._zero), dq
