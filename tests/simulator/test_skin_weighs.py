@@ -33,8 +33,11 @@ topic = Endpoint(i.SkinFrameProxy.INTERFACE, "client", "SkinFrame")
 middleware.subscribe(topic, {"frame": frames.append}, Execution())
 board = proxy(i.CONTROLBOARD, "ControlBoard")
 board.setControlMode([one.name for one in board.getJoints()], i.ControlMode.Idle)
-now = board.getState().time
-until(lambda: frames and frames[-1].time > now + 3.0)
+hand = proxy(i.SIMULATION, "Simulation")
+hand.pause()
+for _ in range(30):
+    now = hand.step(100)
+until(lambda: frames and frames[-1].time > now - 0.021)
 frame, touches = frames[-1], skin.getContacts().contacts
 told = {name: getattr(geometry, name).tolist() for name in ("limb", "x", "y", "z")}
 told["names"] = [one.name for one in geometry.limbs]
