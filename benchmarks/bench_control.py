@@ -1,13 +1,11 @@
 """What one step of a control board of 30 joints costs, in each kind of mode, in CPU time.
 
-The joints follow their references exactly, as they do on a robot that works. Besides, how long a
-command needs to the motors of a simulated arm whose physics runs at 1 kHz in a thread of its own,
-and what one step of its Cartesian controller costs.
+The joints follow their references exactly, as they do on a robot that works. Besides, what one step
+of a Cartesian controller costs. How long a command needs to a motor is in `bench_simulator`.
 """
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -25,12 +23,10 @@ from robocomp_dsl.hardware.mujoco.world import World
 from robocomp_dsl.hardware.robots.boards import robot_board
 from robocomp_dsl.hardware.robots.build import add_robot, new_world
 from robocomp_dsl.hardware.robots.catalog import ROBOTS
-from robocomp_dsl.hardware.turns import Turns
 
 JOINTS = 30
 ROUNDS, STEPS = 60, 50
 GOAL = 50.0
-COMMANDS = 600
 
 
 def _board() -> tuple[Board, Commands]:
@@ -72,91 +68,13 @@ CASES: dict[str, Callable[[Commands], None]] = {
 }
 
 
-class _Arm:
-    """An arm of an iCub in the air; its physics goes on at 1 kHz by the wall clock."""
-
-    def __init__(self) -> None:
-        robot = ROBOTS["icub_v2"]()
-        spec = new_world(0.001)
-        add_robot(spec, robot)
-        self.part = SimulatedBoard(robot_board(robot, "right_arm"))
-        self.world = World(spec, [self.part])
-        self.world.model.opt.gravity[:] = 0  # a joint that fell to its limit would be held there
-        self.turn, self.over = Turns(), threading.Event()
-        self.driven = threading.Condition()
-        self.torque = 0.0
-
-    def live(self) -> None:
-        """Step by step until it is over; a step that comes late is not made up for."""
-        due = time.perf_counter()
-        while not self.over.is_set():
-            with self.turn:
-                self.world.advance(0.001)
-                torque = float(self.world.data.ctrl[self.part._motor[6]])
-            with self.driven:
-                self.torque = torque
-                self.driven.notify_all()
-            due = max(due + 0.001, time.perf_counter() - 0.001)
-            time.sleep(max(0.0, due - time.perf_counter()))
-
-    def latency(self, torque: float) -> float:
-        """Seconds from a command to the step in which the motor gets it."""
-        start = time.perf_counter()
-        with self.turn:
-            self.part.commands.set_torque([6], torque)
-        with self.driven:
-            self.driven.wait_for(lambda: abs(self.torque - torque) < 1e-9)
-        return time.perf_counter() - start
-
-
-def _latencies() -> list[dict[str, Any]]:
-    arm = _Arm()
-    arm.part.commands.set_mode([6], Mode.TORQUE)
-    thread = threading.Thread(target=arm.live)
-    thread.start()
-    random = np.random.default_rng(1)
-    taken = []
-    try:
-        for k in range(COMMANDS):
-            time.sleep(0.001 + 0.002 * random.random())  # at any moment between two steps
-            taken.append(arm.latency(0.001 * (1 - 2 * (k % 2))))
-    finally:
-        arm.over.set()
-        thread.join()
-    rows = (("median", 50, None), ("p99", 99, 2.0))
-    late = {
-        "name": "the machine's own lateness: a sleep of 1 ms, p99",
-        "value": _lateness(),
-        "unit": "ms",
-    }
-    return [
-        late,
-        *(
-            {
-                "name": f"command to motor of a simulated arm at 1 kHz, {name}",
-                "value": float(np.percentile(taken, share)) * 1e3,
-                "unit": "ms",
-                "goal": goal,
-            }
-            for name, share, goal in rows
-        ),
-    ]
-
-
-def _lateness() -> float:
-    """How late threads wake up here, whatever they do; other work on the machine adds to it."""
-    late = []
-    for _ in range(COMMANDS):
-        start = time.perf_counter()
-        time.sleep(0.001)
-        late.append(time.perf_counter() - start - 0.001)
-    return float(np.percentile(late, 99)) * 1e3
-
-
 def _cartesian() -> list[dict[str, Any]]:
     """A step comes 100 times a second; it may cost a tenth of that time."""
-    arm = _Arm()
-    chain = chain_of(arm.world.model, arm.part.board.spec.names, "r_hand")
+    robot = ROBOTS["icub_v2"]()
+    spec = new_world(0.001)
+    add_robot(spec, robot)
+    part = SimulatedBoard(robot_board(robot, "right_arm"))
+    chain = chain_of(World(spec, [part]).model, part.board.spec.names, "r_hand")
     goal, best = goal_of(chain.pose(chain.rest * 0.9)), np.inf
     for _ in range(ROUNDS):
         start = time.thread_time()
@@ -168,7 +86,7 @@ def _cartesian() -> list[dict[str, Any]]:
 
 def run() -> list[dict[str, Any]]:
     """All rows."""
-    return [*_steps(), *_cartesian(), *_latencies()]
+    return [*_steps(), *_cartesian()]
 
 
 def _steps() -> list[dict[str, Any]]:

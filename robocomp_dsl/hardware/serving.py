@@ -13,6 +13,7 @@ from typing import Any
 from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
 from robocomp_dsl.hardware.servants import SERVANTS
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.turns import Turns
 from robocomp_dsl.runtime import ServedPort
 
 Turn = AbstractContextManager[Any]
@@ -24,11 +25,12 @@ class Port:
     def __init__(self, servant: Servant, turn: Turn) -> None:
         self._servant = servant
         self._turn = turn
+        self._look = turn.quiet if isinstance(turn, Turns) else turn
 
     def current(self, operation: str) -> list[Any]:
         """The answer of an operation, to be published; none where its device has been removed."""
         try:
-            with self._turn:
+            with self._look:
                 return [getattr(self._servant, operation)()]
         except DeviceGone:
             return []
