@@ -73,7 +73,7 @@ pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themse
 def until(condition: Callable[[], Any], what: str) -> None:
     end = time.monotonic() + DEADLINE
     while time.monotonic() < end:
-        with contextlib.suppress(MiddlewareError, ARM.interfaces.NotPossible):
+        with contextlib.suppress(MiddlewareError, words.RoboCompGenericArm_NotPossible):
             if condition():
                 return
         time.sleep(0.01)
