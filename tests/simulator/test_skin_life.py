@@ -11,7 +11,7 @@ import pytest
 from test_skin_served import table
 from worlds import Served, served
 
-from robocomp_dsl.hardware.skin import SkinSettings
+from robocomp_dsl.hardware.skin import SkinFrame, SkinSettings
 from robocomp_dsl.hardware.skin_parameters import known_taxels, taxel_ids
 from robocomp_dsl.hardware.transforms import TransformTree
 from robocomp_dsl.runtime.clock_interface import Tick
@@ -190,6 +190,20 @@ def test_an_older_geometry_that_comes_back_is_a_new_version(it: Touched) -> None
     hand.restore(kept)
     frame = it.go(0.1)
     assert (frame.geometry, len(frame.force)) == (3, 146)
+
+
+def test_who_hears_badly_stops_nobody(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
+    it, heard = served(tmp_path, table()), list[int]()
+
+    def fail(frame: SkinFrame) -> None:
+        raise RuntimeError("deaf")
+
+    it.simulation.skin.subscribe(fail)
+    it.simulation.skin.subscribe(lambda frame: heard.append(frame.sequence))
+    it.simulation.advance(0.05)
+    it.simulation.tell()
+    assert heard == [1, 2]
+    assert "frame 1 of the skin could not be told" in caplog.text
 
 
 def test_a_patch_stays_in_its_skin(it: Touched) -> None:

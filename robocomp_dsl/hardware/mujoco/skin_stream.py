@@ -7,6 +7,7 @@ so that who hears of one may ask the world something.
 
 from __future__ import annotations
 
+import logging
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
@@ -17,6 +18,8 @@ from robocomp_dsl.hardware.scene_skin import geometry_of
 from robocomp_dsl.hardware.skin import SkinFrame, SkinSettings
 from robocomp_dsl.tactile.skin.contacts import Touches
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+
+log = logging.getLogger("robocomp.simulation")
 
 MOST_WAITING = 64
 """Frames that wait to be heard of; older ones are let go of."""
@@ -85,7 +88,10 @@ class SkinStream:
         while self._waiting:
             frame = self._waiting.popleft()
             for hear in self._heard:
-                hear(frame)
+                try:
+                    hear(frame)
+                except Exception:  # who hears badly does not stop the world
+                    log.exception("frame %d of the skin could not be told", frame.sequence)
 
     def _there(self) -> SimulatedSkin:
         if self._skin is None:
