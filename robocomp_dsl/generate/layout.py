@@ -79,7 +79,16 @@ def laid_out(item: Item, indent: str = "", used: int = 0, after: int = 0) -> str
 
 
 def statement(prefix: str, item: Item, indent: str = "") -> str:
-    """`prefix` and `item` as one statement, without the indentation of its first line."""
+    """`prefix` and `item` as one statement, without the indentation of its first line.
+
+    Where not even the head of `item` fits behind `return`, but would on a line of its own, the
+    formatter gives it one, in brackets.
+    """
+    inner = indent + STEP
+    if prefix == "return " and isinstance(item, Group) and item.items:
+        head = len(item.head)
+        if len(inner) + head <= WIDTH < len(indent) + len(prefix) + head:
+            return f"{prefix}(\n{inner}{laid_out(item, inner)}\n{indent})"
     return prefix + laid_out(item, indent, len(prefix))
 
 
@@ -108,13 +117,18 @@ def choice(target: str, then: str, condition: str, otherwise: str, indent: str) 
     return f"{target} = (\n{inner}{value}\n{indent})"
 
 
-def definition(name: str, parameters: Iterable[Item], returns: Item, indent: str = INNER) -> str:
-    """`def name(parameters) -> returns:`, without its first indentation."""
+def definition(
+    name: str, parameters: Iterable[Item], returns: Item, indent: str = INNER, after: int = 0
+) -> str:
+    """`def name(parameters) -> returns:`, without its first indentation.
+
+    `after` columns follow on its last line.
+    """
     answer = flat(returns)
     whole = call(f"def {name}", *parameters, tail=f") -> {answer}:")
-    text = laid_out(whole, indent)
+    text = laid_out(whole, indent, 0, after)
     last = text.rpartition("\n")[2]
-    if "\n" not in text or len(last) <= WIDTH or isinstance(returns, str):
+    if "\n" not in text or len(last) + after <= WIDTH or isinstance(returns, str):
         return text
     head = text[: -len(f") -> {answer}:")]
     return f"{head}) -> {laid_out(returns, indent, WIDTH)}:"

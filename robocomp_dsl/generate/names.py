@@ -113,6 +113,7 @@ COMPONENT_MEMBERS = frozenset(
         "SPEC",
         "clock",
         "compute",
+        "config_file",
         "declare_emergency",
         "emergency",
         "end_emergency",
@@ -124,6 +125,7 @@ COMPONENT_MEMBERS = frozenset(
         "params",
         "quit",
         "restore",
+        "set_period",
     )
 )
 """Public members of the base of all components; an operation or proxy never hides one."""

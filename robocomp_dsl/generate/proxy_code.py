@@ -97,7 +97,7 @@ def _form(
             (), layout.definition(name, ("self", f"{given}: {taken}"), returns), doc, (body,)
         )
     overloads = tuple(
-        layout.definition(name, ("self", f"{given}: {taken}"), returns)
+        layout.definition(name, ("self", f"{given}: {taken}"), returns, after=len(" ..."))
         for taken, returns, _ in rows
     )
     statements = [

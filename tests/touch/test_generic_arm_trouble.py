@@ -220,6 +220,8 @@ def test_when_one_board_refuses_the_other_is_not_moved(on_two: Path) -> None:
         board.fault(np.array([board.spec.names.index("HeadYaw")]), Fault.OVERCURRENT, "burnt")
         before = arm.getState().position
         served.calls.clear()
+        # the second reading begins when the first, which tells of the fault, has been taken in
+        until(lambda: served.calls.count(("Head", "getState")) > 1)
         assert "`board2`" in refused(arm.move, GOAL, NONE)
         assert ("LArm", "positionMove") not in served.calls
         assert arm.rest().position == pytest.approx(before, abs=0.02)
