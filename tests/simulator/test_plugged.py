@@ -43,7 +43,7 @@ BARE = '<innerModel><transform id="a"/></innerModel>'
 DEVICES: dict[str, Any] = {
     "devices": [
         {"name": "arm", "kind": "control_board", "part": "ControlBoard"},
-        {"name": "zeroing", "kind": "calibrator", "speed": 2.0, "home.elbow": 0.5, "park.pan": 0.7},
+        {"name": "zeroing", "kind": "calibrator", "speed": 0.5, "home.elbow": 0.5, "park.pan": 0.7},
         {"name": "reach", "kind": "cartesian", "tip": "hand"},
     ],
     "attach": {"zeroing": ["arm"], "reach": ["arm"]},
@@ -111,7 +111,7 @@ def test_devices_are_calibrated_used_and_parked(tmp_path: Path) -> None:
         devices.stop()
         with made.turns:
             assert set(made.devices["pan"].board.table.modes) == {Mode.IDLE}
-            assert positions(made)[0] == pytest.approx(0.7, abs=0.15)
+            assert positions(made)[0] == pytest.approx(0.7, abs=0.06)
 
 
 def test_where_the_clock_has_stopped_the_world_goes_on_for_the_shutdown(tmp_path: Path) -> None:
@@ -123,7 +123,7 @@ def test_where_the_clock_has_stopped_the_world_goes_on_for_the_shutdown(tmp_path
         with made.turns:
             made.advance(0.02)
     devices.stop(lambda: made.advance(0.02))
-    assert positions(made)[0] == pytest.approx(0.7, abs=0.15)
+    assert positions(made)[0] == pytest.approx(0.7, abs=0.06)
 
 
 def test_after_a_reset_all_devices_start_again(
