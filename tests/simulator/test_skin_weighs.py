@@ -1,7 +1,7 @@
 """A ball of 100 g lies on forearms, turned every way: a subscriber hears what it weighs, and where.
 
 One generated simulator in a process of its own holds many forearms of the real mass, each with a
-skin, on springs; the frames come over zenoh.
+skin, on springs; the frames come over zenoh. Balls are as small as a marble and as large as a head.
 """
 
 from __future__ import annotations
@@ -18,11 +18,16 @@ from worlds import rcgen, run, with_simulator
 
 from robocomp_dsl.hardware.robots.build import new_world, quaternion
 from robocomp_dsl.hardware.robots.catalog import ROBOTS, description, description_file
+from robocomp_dsl.hardware.robots.links import Link
 from robocomp_dsl.tactile.description.model import Limb
 
-BALL = 0.03
-COUNT = 16
-FOREARMS = {"nao_h21": "LForeArm", "icub_v2": "l_forearm"}
+BALLS = (0.008, 0.03, 0.1)
+COUNT = 30
+FOREARMS = {
+    "nao_h21": ("LForeArm",),
+    "nao_h25": ("LForeArm", "l_wrist"),
+    "icub_v2": ("l_forearm",),
+}
 
 HEAR = """
 import json
@@ -66,47 +71,81 @@ def places(robot: str) -> np.ndarray:
     return np.column_stack((x, rng.uniform(-np.pi, np.pi, COUNT)))
 
 
+def ball(k: int) -> float:
+    """The radius of the ball number `k`."""
+    return BALLS[k % len(BALLS)]
+
+
+def links(robot: str) -> list[Link]:
+    """What the skin is on: the forearm, and what hangs on it."""
+    made = {one.name: one for one in ROBOTS[robot]().links}
+    return [made[name] for name in FOREARMS[robot]]
+
+
 def world(robot: str) -> str:
     """The forearms half a metre apart, with a ball on each."""
-    limb = lower_arm(robot)
-    link = next(one for one in ROBOTS[robot]().links if one.name == FOREARMS[robot])
-    shape, spec = link.shapes[0], new_world()
+    limb, spec, radius = lower_arm(robot), new_world(), surface(robot)
     for k, (x, theta) in enumerate(places(robot)):
         at, turn = np.array([0.5 * k, 0.0, 0.0]), np.eye(4)
         turn[:3, :3] = upwards(limb, theta)
-        body = spec.worldbody.add_body(name=f"arm{k}", pos=at, quat=quaternion(turn))
-        body.explicitinertial = True
-        body.mass, body.ipos, body.inertia = link.mass.mass, link.mass.centre, link.mass.inertia
+        turn[:3, 3] = at
+        arm = hang(spec.worldbody, turn, f"arm{k}", links(robot))
         for axis in np.eye(3):
             slide, along = mujoco.mjtJoint.mjJNT_SLIDE, turn[:3, :3].T @ axis
-            body.add_joint(type=slide, axis=along, stiffness=[3000.0, 0, 0], damping=[60.0, 0, 0])
-        capsule, pose = mujoco.mjtGeom.mjGEOM_CAPSULE, shape.pose
-        body.add_geom(
-            type=capsule, size=[*shape.size, 0.0], pos=pose[:3, 3], quat=quaternion(pose), mass=0.0
-        )
-        above = np.array([0, 0, shape.size[0] + BALL - 0.0005])
+            arm.add_joint(type=slide, axis=along, stiffness=[3000.0, 0, 0], damping=[60.0, 0, 0])
+        above = np.array([0, 0, radius + ball(k) - 0.0005])
         on_axis = at + turn[:3, :3] @ limb.to_body(np.array([x, 0, 0]))
-        ball = spec.worldbody.add_body(name=f"ball{k}", pos=on_axis + above)
-        ball.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
-        ball.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[BALL, 0, 0], mass=0.1)
+        body = spec.worldbody.add_body(name=f"ball{k}", pos=on_axis + above)
+        body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[ball(k), 0, 0], mass=0.1)
     spec.compile()
     return str(spec.to_xml())
+
+
+def hang(parent: Any, pose: np.ndarray, name: str, chain: list[Link]) -> Any:
+    """The first link at `pose` in `parent`, the next one fixed to it, as the robot is at zero."""
+    link, *others = chain
+    body = parent.add_body(name=name, pos=pose[:3, 3], quat=quaternion(pose))
+    body.explicitinertial = True
+    body.mass, body.ipos, body.inertia = link.mass.mass, link.mass.centre, link.mass.inertia
+    (shape,) = link.shapes
+    body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_CAPSULE,
+        size=[*shape.size, 0.0],
+        pos=shape.pose[:3, 3],
+        quat=quaternion(shape.pose),
+        mass=0.0,
+    )
+    if others:
+        hang(body, others[0].pose, f"{name}_on", others)
+    return body
+
+
+def surface(robot: str) -> float:
+    """How far from its axis the forearm is touched."""
+    return max(one.shapes[0].size[0] for one in links(robot))
 
 
 def touch(robot: str) -> str:
     """The skin of the robot's lower arm on each of the forearms."""
     given = yaml.safe_load(description_file(robot).read_text())["parts"]["left_arm"]
-    limb = {k: v for k, v in given["limbs"]["lower_arm"].items() if k != "covers"}
+    limb = given["limbs"]["lower_arm"]
     (patch,) = (one for one in given["skin"] if one["limb"] == "lower_arm")
     parts: dict[str, Any] = {}
     for k in range(COUNT):
         one = patch | {"patch": f"skin{k}", "first_id": 1000 * k}
         parts[f"arm{k}"] = {
             "servos": [],
-            "limbs": {"lower_arm": limb | {"body": f"arm{k}"}},
+            "limbs": {"lower_arm": limb | on_bodies(robot, f"arm{k}")},
             "skin": [one],
         }
     return str(yaml.safe_dump({"robot": "forearms", "parts": parts}, sort_keys=False))
+
+
+def on_bodies(robot: str, name: str) -> dict[str, Any]:
+    """The body of the limb, and those that its skin covers besides."""
+    covers = [f"{name}_on"] if len(links(robot)) > 1 else []
+    return {"body": name, "covers": covers}
 
 
 @pytest.mark.parametrize("robot", FOREARMS)
@@ -127,11 +166,9 @@ def test_a_ball_weighs_what_it_weighs_wherever_it_lies(robot: str, tmp_path: Pat
     assert told["off"] == 0.0
     touched, felt = np.array(told["touches"]).T  # where skin has gaps, one ball is two touches
     assert np.bincount(touched.astype(int), felt, COUNT) == pytest.approx(sums, rel=1e-5)
-    radius = (
-        next(one for one in ROBOTS[robot]().links if one.name == FOREARMS[robot]).shapes[0].size[0]
-    )
-    errors = []
+    errors = np.empty(COUNT)
     for k, (x, theta) in enumerate(places(robot)):
-        true = np.array([x, radius * np.sin(theta), radius * np.cos(theta)])
-        errors.append(np.linalg.norm(force[limb == k] @ points[limb == k] / sums[k] - true))
-    assert np.median(errors) < 0.003
+        true = np.array([x, *(surface(robot) * np.array([np.sin(theta), np.cos(theta)]))])
+        errors[k] = np.linalg.norm(force[limb == k] @ points[limb == k] / sums[k] - true)
+    for i, radius in enumerate(BALLS):
+        assert np.median(errors[i :: len(BALLS)]) < 0.003, radius

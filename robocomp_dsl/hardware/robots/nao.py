@@ -148,8 +148,8 @@ def _h25_forearm() -> tuple[Link, ...]:
     forearm = Mass(0.07761, (0.02556, 0.00281, 0.00076), (2.46746e-5, 3.83837e-5, 3.59708e-5))
     palm = Mass(0.18533, (0.03434, -0.00088, 0.00308), (6.86477e-5, 1.35756e-4, 1.33228e-4))
     finger = Mass(2e-6, (0.0, 0.0, 0.0), (1e-9, 1e-9, 1e-9))
-    # ours: the published one ends at 0.028 and leaves a gap before the wrist's, under the skin
-    elbow_end = capsule(0.0265, (0.026, 0, 0), (0.058, 0, 0))
+    # ours: under the skin there is neither gap nor step; the published boxes are 47 and 50 mm wide
+    elbow_end = capsule(LIMB, (0.026, 0, 0), (0.084, 0, 0))
     wrist_end = capsule(LIMB, (0.028, 0, 0), (0.052, 0, 0))
     point = {"l_hand": shift(0, 0, 0)}
     return (
