@@ -13,7 +13,6 @@ import pytest
 from parts import COMPONENTS, load
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.calling import GRACE_S
 
 DEADLINE = 120.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -94,9 +93,6 @@ def test_who_is_killed_holds_nobody_up_and_comes_back(tmp_path: Path) -> None:
         try:
             path, wander = observer.path(), observer.component("wander")
             until(lambda: path().time > 1.0, process, "the first second")
-            # Before that a proxy waits for its server, as at the start: nobody would be missed.
-            settled = time.monotonic() + GRACE_S
-            until(lambda: time.monotonic() > settled, process, "the end of the grace")
             before = wander.getInfo().pid
             os.kill(before, signal.SIGKILL)
             killed = path().time

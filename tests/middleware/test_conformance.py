@@ -295,6 +295,24 @@ def test_the_proxy_follows_a_server_that_comes_back(network: Network) -> None:
     assert probe.add(0, 0) == 2
 
 
+@pytest.mark.parametrize("how", ["called", "waited for"])
+def test_who_was_there_and_has_gone_is_missed_at_once(
+    network: Network, how: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = {"zenoh": "zenoh.client"}.get(network.kind, network.kind)
+    monkeypatch.setattr(f"robocomp_dsl.runtime.middleware.{module}.GRACE_S", 3 * DEADLINE)
+    server = network.node("server")
+    server.serve(HANDLERS)
+    probe = network.node("client").probe()
+    assert probe.add(0, 0) == 0 if how == "called" else probe.wait_for_server(DEADLINE)
+    server.middleware.close()
+    wait_for(lambda: not probe.wait_for_server(0.0))
+    with ThreadPoolExecutor(1) as pool:
+        asked = pool.submit(probe.add, 0, 0)
+        with pytest.raises(NoServer):
+            asked.result(DEADLINE)
+
+
 def test_domains_do_not_see_each_other(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     other = Network(network.kind)
@@ -319,6 +337,22 @@ def test_an_interrupt_ends_a_call_that_waits(network: Network) -> None:
         with pytest.raises(NoServer, match="stopping"):
             asked.result(DEADLINE)
         free.set()
+
+
+def test_calls_behind_the_end_of_their_component_say_so(network: Network) -> None:
+    if network.kind == "inproc":
+        pytest.skip("a call within the process needs no connection")
+    network.node("server").serve(HANDLERS)
+    client = network.node("client")
+    called, fresh = client.probe(), client.probe()
+    assert called.add(1, 2) == 3
+    called.note("before")
+    client.middleware.close()
+    for probe in (called, fresh):
+        with pytest.raises(NoServer, match="stopping"):
+            probe.add(1, 2)
+        with pytest.raises(NoServer, match="stopping"):
+            probe.note("after")
 
 
 def test_calls_are_counted(network: Network) -> None:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ from probe_types import OTHER_NEWS, PROBE
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
 from robocomp_dsl.runtime.middleware.zenoh import keys
+from robocomp_dsl.runtime.middleware.zenoh.directory import Directory
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
 from robocomp_dsl.runtime.middleware.zenoh.watch import Watch
 
@@ -146,6 +148,16 @@ def test_a_killed_server_is_no_server_at_once(
         probe.add(1, 1)
 
 
+def test_a_call_of_a_server_that_went_after_it_was_chosen_ends_at_once(network: Network) -> None:
+    network.node("server").serve({"block": threading.Event().wait})
+    client = network.node("client")
+    directory: Directory = client.middleware._directory  # type: ignore[attr-defined]
+    assert client.probe().wait_for_server(DEADLINE)
+    (there,) = directory.find("server", PROBE.name)
+    assert not directory.end_of(there).is_cancelled
+    assert directory.end_of(replace(there, component="gone")).is_cancelled
+
+
 def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Popen[str]) -> None:
     seen: list[tuple[str, int, str]] = []
     watch = Watch(network.domain)
@@ -158,6 +170,14 @@ def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Pope
         assert seen[1] == ("server", server.pid, "")
     finally:
         watch.close()
+
+
+def test_who_comes_to_another_state_after_the_end_is_not_told_of_it(network: Network) -> None:
+    node = network.node("late")
+    node.middleware.announce("compute")
+    node.middleware.close()
+    node.middleware.announce("finalize")
+    node.middleware.announce("")
 
 
 def test_sockets_of_killed_processes_are_swept(

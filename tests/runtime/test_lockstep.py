@@ -245,7 +245,8 @@ def die(runner: Runner) -> None:
     [
         (end, "inproc", "recorder has ended, the others go on without it", logging.INFO),
         (end, "zenoh", "recorder has ended, the others go on without it", logging.INFO),
-        (die, "inproc", "of simulated time: recorder does not serve", logging.WARNING),
+        (die, "inproc", "recorder was lost at", logging.WARNING),
+        (die, "zenoh", "recorder was lost at", logging.WARNING),
     ],
 )
 def test_who_is_away_is_told_and_left_out(
@@ -254,7 +255,11 @@ def test_who_is_away_is_told_and_left_out(
     said: str,
     level: int,
     caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    # Who has been there is not waited for as at the start.
+    for module in ("inproc", "zenoh.client"):
+        monkeypatch.setattr(f"robocomp_dsl.runtime.middleware.{module}.GRACE_S", 3 * DEADLINE)
     with (
         caplog.at_level(logging.INFO),
         running([Base, Driver, Recorder], middleware) as them,
@@ -269,6 +274,27 @@ def test_who_is_away_is_told_and_left_out(
         assert [one.levelno for one in told] == [level]
         commands = base.commands
         until(lambda: base.commands > commands + 5, "commands of the driver")
+
+
+def test_who_was_started_again_unnoticed_is_lost_and_back(
+    middleware: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    with caplog.at_level(logging.INFO), running([Base, Recorder], middleware) as them:
+        base, before = them["base"].worker, them["recorder"]
+        base.end = 0.5
+        until(lambda: them["base"].state is State.COMPUTE and base.source.paused, "the pause")
+        die(before)
+        again = Runner(Recorder, Parameters(), before.settings)
+        again.start()
+        try:
+            until(lambda: again.state is State.COMPUTE, "its second life")
+            base.end = 1e9
+            base.source.resume()
+            until(lambda: "recorder is back at" in caplog.text, "its return")
+            assert "recorder was lost at" in caplog.text
+            until(lambda: any("saw" in line for line in again.worker.lines), "what others publish")
+        finally:
+            end(again)
 
 
 class Stuck(Driver):

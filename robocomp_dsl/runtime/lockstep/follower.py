@@ -31,6 +31,7 @@ class Follower:
         self._wake = Wake()
         self._idle = False
         self._granted = False
+        self._introduced = False
 
     @property
     def epoch(self) -> int:
@@ -73,12 +74,19 @@ class Follower:
         """Operation to method."""
 
         def introduce() -> list[Hearer]:
+            self._introduced = True
             return ports.hearers
 
         return {"introduce": introduce, "meet": ports.meet, "advance": self.advance}
 
     def advance(self, t: Tick) -> Due:
-        """It is `t`: let the life cycle do what is due; what is next."""
+        """It is `t`: let the life cycle do what is due; what is next.
+
+        Raises `RuntimeError` where the source takes it for one that went before it: nobody hears
+        what this one publishes until it has been introduced.
+        """
+        if not self._introduced:
+            raise RuntimeError("it was started again, and is not introduced yet")
         with self._changed:
             self._until_idle()
             # A source that was started again counts its resets from 0, as the one before did.

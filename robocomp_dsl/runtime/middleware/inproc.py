@@ -277,14 +277,18 @@ class ServiceLink:
 
     def _find(self) -> _Served:
         if self._server is None or not self._server.alive:
-            self._server = self._wait(self._opened + GRACE_S - time.monotonic())
+            self._server = self._wait(self._grace())
         return self._server
+
+    def _grace(self) -> float:
+        """So long is one waited for that has yet to start; one that was there is gone."""
+        return 0.0 if self._server else self._opened + GRACE_S - time.monotonic()
 
     def _wait(self, seconds: float) -> _Served:
         """The one server, waiting for it at most so long. Raises what `pick` raises."""
         over = self._owner.interrupted
         until = time.monotonic() + seconds
-        grace = min(seconds, self._opened + GRACE_S - time.monotonic())
+        grace = min(seconds, self._grace())
         paused = self._host.execution.pause()
         try:
             with self._domain.changed:

@@ -73,7 +73,12 @@ class Zenoh:
         self._state = None
         if state:
             key = keys.state_key(self._host.domain, self._host.component, os.getpid(), state)
-            self._state = self._session.liveliness().declare_token(key)
+            try:
+                self._state = self._session.liveliness().declare_token(key)
+            except zenoh.ZError:
+                # A component that was left behind at its end may come so far later.
+                if not self._directory.over:
+                    raise
         # The new state comes first, or a watcher would see the component gone in between.
         if before:
             before.undeclare()

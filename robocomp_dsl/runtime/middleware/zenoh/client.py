@@ -62,6 +62,7 @@ class ServiceLink:
         self._at = at
         self._hash = at.interface.hash
         self._opened = time.monotonic()
+        self._met = False
         self._server: Present | None = None
         self._seen = -1
         self._queriers: dict[str, tuple[tuple[Present, float], zenoh.Querier]] = {}
@@ -75,7 +76,7 @@ class ServiceLink:
     def timeout(self, seconds: float) -> None:
         self._timeout = seconds
         # Bound calls look at the directory again when its version is another.
-        self._directory.version += 1
+        self._directory.renew()
 
     def bind(self, operation: Operation) -> Bound:
         """See `base.Link`."""
@@ -101,12 +102,12 @@ class ServiceLink:
             start = 0 if counts.calls % TIMED_EACH else perf_counter_ns()
             paused = get_ident() in holders and pause()
             try:
-                if version != directory.version:
-                    seen = directory.version
-                    ask = self._querier(operation).get
-                    end = self._end()
-                    version = seen  # only now: when there was no server, the next call looks again
                 try:
+                    if version != directory.version:
+                        seen = directory.version
+                        ask = self._querier(operation).get
+                        end = self._end()
+                        version = seen  # only now: where there was no server, the next looks again
                     reply = ask(payload=data, cancellation_token=end).recv()
                 except zenoh.ZError:
                     reply = self._again(operation, data)
@@ -178,6 +179,7 @@ class ServiceLink:
     def _command(self, operation: Operation) -> Bound:
         counts = self._host.statistics.of(self._at.port, operation.name)
         encode = operation.encode_request
+        settings = {"congestion_control": zenoh.CongestionControl.BLOCK} | sending(self._at.qos)
         server: Present | None = None
         publisher: Any = None
 
@@ -187,16 +189,17 @@ class ServiceLink:
             counts.calls += 1
             try:
                 found = self._find()
+                if found != server:
+                    key = self._key("c", found, operation)
+                    publisher = self._session.declare_publisher(key, **settings)
+                    server = found
+                publisher.put(data)
+            except zenoh.ZError:
+                counts.failures += 1
+                raise self._gone(operation) from None
             except Exception:
                 counts.failures += 1
                 raise
-            if found != server:
-                server = found
-                settings = {"congestion_control": zenoh.CongestionControl.BLOCK}
-                publisher = self._session.declare_publisher(
-                    self._key("c", server, operation), **settings | sending(self._at.qos)
-                )
-            publisher.put(data)
             counts.bytes_out += len(data)
 
         return command
@@ -210,13 +213,15 @@ class ServiceLink:
             p for p in self._directory.find("server", self._at.interface.name) if self._fits(p)
         ]
         if not settled(self._at, (p.component for p in found)):
-            grace = self._opened + GRACE_S - time.monotonic()
+            # One that was there has not yet to start: it is gone.
+            grace = 0.0 if self._met else self._opened + GRACE_S - time.monotonic()
             found = self._wait(grace if seconds is None else seconds, grace)
         found = servers(self._at, found, lambda p: p.component)
         server = found[0]
         if len(found) > 1:
             name = pick(self._at, [f"{p.component}.{p.port}" for p in found])
             server = next(p for p in found if f"{p.component}.{p.port}" == name)
+        self._met = True
         if server != self._server:
             self._check(server)
             self._server = server
@@ -257,10 +262,12 @@ class ServiceLink:
         paused = self._host.execution.pause()
         try:
             name = self._at.interface.name
-            return bool(self._directory.wait("server", name, self._fits, timeout))
+            found = self._directory.wait("server", name, self._fits, timeout)
         finally:
             if paused:
                 self._host.execution.resume()
+        self._met = self._met or settled(self._at, (one.component for one in found))
+        return bool(found)
 
     def heard(self) -> bool:
         """See `base.Link`."""

@@ -67,10 +67,22 @@ class Directory:
                 one.interface,
             )
 
-    def end_of(self, one: Present) -> zenoh.CancellationToken:
-        """What ends calls of this port when it goes: zenoh alone would wait for their timeout."""
+    def renew(self) -> None:
+        """Let all calls look again."""
         with self._changed:
-            return self._ends.setdefault(one, zenoh.CancellationToken())
+            self.version += 1
+
+    def end_of(self, one: Present) -> zenoh.CancellationToken:
+        """What ends calls of this port when it goes: zenoh alone would wait for their timeout.
+
+        Of one that has gone meanwhile they have ended before they began.
+        """
+        with self._changed:
+            if one in self._present.values():
+                return self._ends.setdefault(one, zenoh.CancellationToken())
+        ended = zenoh.CancellationToken()
+        ended.cancel()
+        return ended
 
     def find(self, role: str, interface: str) -> list[Present]:
         """The ports of a role with an interface."""
