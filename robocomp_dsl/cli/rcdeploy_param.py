@@ -7,9 +7,9 @@ a component refuses, and then nothing has changed.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Never, TypeAlias
+from typing import TYPE_CHECKING, Never
 
 import click
 
@@ -18,9 +18,8 @@ from robocomp_dsl.deploy import control, folder
 from robocomp_dsl.diagnostics import did_you_mean
 
 if TYPE_CHECKING:
+    from robocomp_dsl.deploy.reach import ProxyOf
     from robocomp_dsl.runtime.component_interface import ComponentProxy, ParameterInfo
-
-    ProxyOf: TypeAlias = Callable[[str], ComponentProxy]
 
 PATIENCE_S = 5.0
 
@@ -119,33 +118,16 @@ def _known(name: str, known: Sequence[str]) -> str:
 @contextmanager
 def _proxies(one: folder.Running) -> Iterator[ProxyOf]:
     """Calls the `Component` interface of the components of a deployment."""
-    from robocomp_dsl.runtime.component_interface import (  # noqa: PLC0415 - load a middleware
-        COMPONENT,
-        ComponentProxy,
-    )
+    from robocomp_dsl.deploy import reach  # noqa: PLC0415 - loads a middleware
     from robocomp_dsl.runtime.errors import MiddlewareError, Timeout  # noqa: PLC0415
-    from robocomp_dsl.runtime.execution import Execution  # noqa: PLC0415
-    from robocomp_dsl.runtime.middleware import open_middleware  # noqa: PLC0415
-    from robocomp_dsl.runtime.middleware.base import Endpoint, Host  # noqa: PLC0415
-    from robocomp_dsl.runtime.statistics import Statistics  # noqa: PLC0415
-
-    host = Host("rcdeploy-param", one.domain, Execution(), Statistics())
-    middleware = open_middleware("zenoh", host)
-
-    def proxy_of(name: str) -> ComponentProxy:
-        at = Endpoint(COMPONENT, "rcdeploy-param", "Component", (name,))
-        proxy = ComponentProxy(middleware.proxy(at))
-        proxy.set_timeout(PATIENCE_S)
-        return proxy
 
     try:
-        yield proxy_of
+        with reach.proxies(one.domain, PATIENCE_S) as proxy_of:
+            yield proxy_of
     except Timeout as error:
         _fail(f"a component does not answer within {PATIENCE_S:g} s; is it stuck? ({error})")
     except MiddlewareError as error:
         _fail(str(error))
-    finally:
-        middleware.close()
 
 
 def _reached(proxy_of: ProxyOf, name: str) -> ComponentProxy:

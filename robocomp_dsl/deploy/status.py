@@ -16,15 +16,19 @@ ENDED = "ended"
 FAILED = "failed"
 
 _COLOURS = {READY: "32", FAILED: "1;31", BACKOFF: "33", UNSEEN: "33", STARTING: "36"}
-_HEADS = ("NAME", "STATE", "PID", "UP", "RESTARTS", "CPU", "MEMORY", "")
+_HEADS = ("NAME", "STATE", "LIFE", "MACHINE", "PID", "UP", "RESTARTS", "CPU", "MEMORY", "")
+_SOMETIMES = ("MACHINE",)
+"""Columns that are left out where nobody has anything in them."""
+_NONE = "-"
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
     """One component.
 
-    `up_s`: seconds since its process started; `cpu` 1.0 is one core; `memory` in bytes. `note` says
-    why it is in this state.
+    `up_s`: seconds since its process started; `cpu` 1.0 is one core; `memory` in bytes. `life` is
+    the state of its life cycle; `machine` are the active states of its state machine, outer ones
+    first, where they were asked for. `note` says why it is in this state.
     """
 
     name: str
@@ -35,6 +39,8 @@ class Row:
     cpu: float = 0.0
     memory: int = 0
     note: str = ""
+    life: str = ""
+    machine: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -67,22 +73,26 @@ class Time:
 def table(rows: Sequence[Row], width: int, *, colours: bool) -> list[str]:
     """`rows` as lines of at most `width` columns, a head above them."""
     cells = [_HEADS, *(_cells(row) for row in rows)]
-    widths = [max(len(line[i]) for line in cells) for i in range(len(_HEADS))]
+    shown = [i for i, head in enumerate(_HEADS) if head not in _SOMETIMES or _any(cells, i)]
+    widths = {i: max(len(line[i]) for line in cells) for i in shown}
     made = []
     for position, line in enumerate(cells):
-        padded = [text.ljust(size) for text, size in zip(line, widths, strict=True)]
-        text = "  ".join(padded).rstrip()[:width]
+        text = "  ".join(line[i].ljust(widths[i]) for i in shown).rstrip()[:width]
         style = "2" if position == 0 else _COLOURS.get(rows[position - 1].state, "")
         made.append(f"\x1b[{style}m{text}\x1b[0m" if colours and style else text)
     return made
 
 
+def _any(cells: Sequence[tuple[str, ...]], column: int) -> bool:
+    return any(line[column] != _NONE for line in cells[1:])
+
+
 def _cells(row: Row) -> tuple[str, ...]:
+    where = (row.name, row.state, row.life or _NONE, ", ".join(row.machine) or _NONE)
     if not row.pid:
-        return (row.name, row.state, "-", "-", str(row.restarts), "-", "-", row.note)
+        return (*where, _NONE, _NONE, str(row.restarts), _NONE, _NONE, row.note)
     return (
-        row.name,
-        row.state,
+        *where,
         str(row.pid),
         duration(row.up_s),
         str(row.restarts),

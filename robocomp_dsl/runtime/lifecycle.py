@@ -92,7 +92,8 @@ class Lifecycle:
     def loop(self) -> None:
         """Compute, until `stop`."""
         if not self._stopping.is_set():
-            self._become(State.COMPUTE)
+            # What `initialize` declared is not forgotten.
+            self._become(State.EMERGENCY if self._declared else State.COMPUTE)
             self._loop()
 
     def end(self) -> bool:
@@ -112,6 +113,8 @@ class Lifecycle:
 
     def declare_emergency(self, reason: str) -> None:
         """Stop calling `compute` until `end_emergency`."""
+        if not self._declared or self.reason != reason:
+            log.warning("emergency: %s", reason)
         self._declared = True
         self._enter_emergency(reason)
         self._wake.set()

@@ -292,13 +292,19 @@ def test_records_as_text() -> None:
 
 def test_table() -> None:
     rows = [
-        status.Row("arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "emergency"),
+        status.Row("arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "hot", "emergency"),
         status.Row("base", status.WAITING, note="for arm"),
     ]
     assert status.table(rows, 200, colours=False) == [
-        "NAME  STATE    PID   UP         RESTARTS  CPU   MEMORY",
-        "arm   ready    4711  1 h 2 min  2         26 %  52 MB   emergency",
-        "base  waiting  -     -          0         -     -       for arm",
+        "NAME  STATE    LIFE       PID   UP         RESTARTS  CPU   MEMORY",
+        "arm   ready    emergency  4711  1 h 2 min  2         26 %  52 MB   hot",
+        "base  waiting  -          -     -          0         -     -       for arm",
+    ]
+    moving = replace(rows[0], machine=("moving", "left", "right"))
+    assert [line[15:51] for line in status.table([moving, rows[1]], 200, colours=False)] == [
+        "LIFE       MACHINE              PID ",
+        "emergency  moving, left, right  4711",
+        "-          -                    -   ",
     ]
     assert all(len(line) <= 20 for line in status.table(rows, 20, colours=False))
     assert status.table(rows, 200, colours=True)[1].startswith("\x1b[32marm")

@@ -282,16 +282,16 @@ wait()
 
     def changed() -> None:
         row = run.row("a")
-        seen.append((row.state, row.note))
-        if seen[-2:] == [("unseen", ""), ("ready", "")]:
+        seen.append((row.state, row.life))
+        if seen[-2:] == [("unseen", ""), ("ready", "compute")]:
             run.engine.stop("test")
 
     run.changed = changed
     assert run.run().code == 0
     told = [step for step, before in zip(seen, [None, *seen], strict=False) if step != before]
     assert told[:6] == [
-        ("starting", ""), ("starting", "initialize"), ("ready", ""), ("ready", "emergency"),
-        ("unseen", ""), ("ready", ""),
+        ("starting", ""), ("starting", "initialize"), ("ready", "compute"), ("ready", "emergency"),
+        ("unseen", ""), ("ready", "compute"),
     ]  # fmt: skip
 
 

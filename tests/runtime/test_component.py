@@ -146,16 +146,38 @@ def test_a_failing_compute_is_an_emergency_that_ends_by_itself(
     assert about.getStatistics().failures >= 2
 
 
-def test_a_declared_emergency_lasts_until_it_is_ended(runner: Runner) -> None:
+def test_a_declared_emergency_lasts_until_it_is_ended(
+    runner: Runner, caplog: pytest.LogCaptureFixture
+) -> None:
     arm = arm_of(runner)
     wait_for(lambda: "compute" in arm.happened)
-    arm.declare_emergency("the button")
+    for _ in range(3):
+        arm.declare_emergency("the button")
+    assert [r.getMessage() for r in caplog.records].count("emergency: the button") == 1
     wait_for(lambda: arm.happened.count("emergency") >= 3)
     assert "restore" not in arm.happened
     assert runner.lifecycle.reason == "the button"
     arm.end_emergency()
     wait_for(lambda: runner.state is State.COMPUTE)
     assert "restore" in arm.happened
+
+
+def test_an_emergency_that_initialize_declares_is_one_from_the_beginning() -> None:
+    class Careful(Arm):
+        def initialize(self) -> None:
+            super().initialize()
+            self.declare_emergency("the brakes are on")
+
+    careful = Runner(Careful, ArmParams.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    careful.start()
+    arm = arm_of(careful)
+    wait_for(lambda: arm.happened.count("emergency") >= 3)
+    assert (careful.state, careful.lifecycle.reason) == (State.EMERGENCY, "the brakes are on")
+    assert "compute" not in arm.happened
+    arm.end_emergency()
+    wait_for(lambda: careful.state is State.COMPUTE)
+    careful.stop()
+    assert careful.wait()
 
 
 def test_a_failing_initialize_ends_the_component(caplog: pytest.LogCaptureFixture) -> None:

@@ -58,6 +58,7 @@ class Care:
         self.restarts: list[float] = []
         self._state = status.WAITING
         self._note = ""
+        self._life_state = ""
         self._started = False
         self._was_ready = False
         self._killed = False
@@ -77,6 +78,7 @@ class Care:
             child.usage.cpu,
             child.usage.memory,
             self._note,
+            self._life_state,
         )
 
     def seen(self, pid: int, state: str) -> None:
@@ -84,13 +86,13 @@ class Care:
         child = self.child
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
+        self._life_state = state
         if state in watch.READY:
-            self._become(status.READY, "" if state == "compute" else state)
             self.ready.set()
-        elif self.ready.is_set():
-            self._become(status.READY if state else status.UNSEEN, state)
+        if self.ready.is_set():
+            self._become(status.READY if state else status.UNSEEN, "")
         else:
-            self._become(status.STARTING, state)
+            self._become(status.STARTING, "")
 
     async def run(self, needed: list[Care]) -> None:
         """Until it will not run again. `needed` must be ready before it starts."""
@@ -144,6 +146,7 @@ class Care:
             self._note = f"cannot be started: {error.strerror or error}"
             return NOT_STARTED
         self._started = True
+        self._life_state = ""
         self._become(status.STARTING, "")
         child = self.child
         await first(child.exited, self.ready, timeout=self.process.ready_within_s)
@@ -162,7 +165,7 @@ class Care:
 
     async def _too_late(self) -> None:
         assert self.child is not None  # noqa: S101 - called within a life
-        where = f" (its state: {self._note})" if self._note else ""
+        where = f" (its state: {self._life_state})" if self._life_state else ""
         said = f"not ready within {self.process.ready_within_s:g} s{where}"
         self.around.say(f"{self.name}: {said}", "ERROR")
         self._killed = True
