@@ -45,6 +45,11 @@ def resolve_innermodel(path: Path, files: Files, report: Report) -> Body:
     return _Resolver(files, report).body(path)
 
 
+def _is_body(root: Element | None) -> bool:
+    """Whether the outermost element of a file is that of InnerModel."""
+    return root is not None and root.tag.text.lower() == ROOT
+
+
 @dataclass(slots=True)
 class _Resolver:
     files: Files
@@ -60,7 +65,8 @@ class _Resolver:
         self.ids[ROOT_ID] = self.whole
         self.including.append(identity(path))
         found = self._document(tree, 0)
-        return Body(path, Transform(id=ROOT_ID, tag=ROOT, span=tree.span, children=found))
+        root = Transform(id=ROOT_ID, tag=ROOT, span=tree.span, children=found)
+        return Body(path, root, found=_is_body(tree.root))
 
     def _tree(self, path: Path) -> File:
         parsed = self.files.parse(path, parse_innermodel)
@@ -72,7 +78,7 @@ class _Resolver:
         root = tree.root
         if root is None:
             return ()
-        if root.tag.text.lower() != ROOT:
+        if not _is_body(root):
             other = _OTHERS.get(root.tag.text.lower(), "")
             self.report.add(
                 codes.BODY_TAG,

@@ -119,7 +119,7 @@ def _world(
 ) -> Simulator | None:
     """The simulator of a body in InnerModel."""
     body = check_innermodel(file, workspace, told)
-    if body is None or (told.failed and (strict or not body.root.children)):
+    if body is None or not body.found or (told.failed and strict):
         return None
     from robocomp_dsl.generate.simulator import simulator  # noqa: PLC0415 - not for --help
 

@@ -93,8 +93,10 @@ def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | No
 def _world(path: Path, report: Report) -> Subject | None:
     """A world is shown as far as it is understood: its errors are told, and it is there."""
     body = check_innermodel(path, Workspace(()), report)
-    if body is None or not body.root.children:
-        return None if body is None or report.failed else _empty(path)
+    if body is None or not body.found:
+        return None
+    if not body.root.children:
+        return _empty(path)
     spans = {node.id: node.span for node, _ in body.nodes()}
     findings: list[Finding] = []
     try:

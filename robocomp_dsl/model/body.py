@@ -311,10 +311,14 @@ class Axes(Node):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """One InnerModel file with all that it includes. `root` is the frame called `root`."""
+    """One InnerModel file with all that it includes. `root` is the frame called `root`.
+
+    `found`: the file has an outermost `<innerModel>`; without one there is no body to speak of.
+    """
 
     path: Path
     root: Transform
+    found: bool = True
 
     def nodes(self) -> Iterator[tuple[Node, Node | None]]:
         """Every node with its parent, parents first, in order of writing."""

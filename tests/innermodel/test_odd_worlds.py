@@ -16,6 +16,7 @@ from robocomp_dsl.hardware.mujoco.mirror import mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
 from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name, build_spec
+from robocomp_dsl.hardware.mujoco.simulation import Simulation
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.transforms import TransformTree
 
@@ -130,3 +131,43 @@ def test_thousands_of_nodes(tmp_path: Path) -> None:
     )
     assert not report.failed
     agree(scene, model)
+
+
+# what stands in the outermost element, and the frames that come of it
+ODD = {
+    "": ["root"],
+    "<!-- a room -->": ["root"],
+    '<include path="/home/somebody/else/gone.xml"/>': ["root"],
+    # the joints of a base have names that nodes may have, too
+    '<differentialrobot id="b"/><joint id="b.z"/><joint id="b.alpha"><joint id="b.x"/></joint>': [
+        *("root", "b", "b.z", "b.alpha", "b.x"),
+    ],
+    '<omnirobot id="b"><joint id="b.x"/><differentialrobot id="b.x\'"/></omnirobot>': [
+        *("root", "b", "b.x", "b.x'"),
+    ],
+    '<differentialrobot id="world" tx="100"><joint id="j"/></differentialrobot>': [
+        *("root", "world", "j"),
+    ],
+    '<transform id="a" tz = "-900" ty= "5"\n\ttx=\'100\'/>': ["root", "a"],
+    '<joint id="a" axis="y"></joint>>7<transform id="b"/>-->': ["root", "a", "b"],
+    '<transform id="a" ry=" -1.9" tx="1." ty="-.5" tz="+1e-05"/>': ["root", "a"],
+    '<rotation id="a" rx="1.57"><translation id="a" tx="10"/></rotation>': ["root", "a", "a#2"],
+    '<transform id="a"><plane id="p" nx="-0.0" nz="0.0" size="0.0,800"/></transform>': [
+        "root",
+        "a",
+    ],
+    '<plane id="p" nx="2500" size="85, -85,1"/><plane id="q" size="-216,279,10"/>': ["root"],
+    '<mesh id="m" file="folder/" tx="-57" scale="-18,5,5"/>': ["root"],
+    '<pointcloud id="c"/><mesh id="m" file="axis.osg" render="wireframe"/>': ["root"],
+    '<joint id="j" lx="-3.14" hx="0.1" tx="-150" rx="-3.14"/>': ["root", "j"],
+}
+
+
+@pytest.mark.parametrize("inside", ODD)
+def test_what_people_have_written_loads(tmp_path: Path, inside: str) -> None:
+    scene, model, _ = load(
+        place(tmp_path, {"world.xml": f"<innerModel>{inside}</innerModel>\n<!-- by hand -->\n"})
+    )
+    assert [frame.id for frame in scene.frames] == ODD[inside]
+    agree(scene, model)
+    Simulation(scene).world.advance(0.01)

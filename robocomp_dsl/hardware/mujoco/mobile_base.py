@@ -24,7 +24,6 @@ from robocomp_dsl.hardware.mujoco.true_pose import TruePose
 from robocomp_dsl.hardware.planar import ORIGIN, Pose, wrapped
 from robocomp_dsl.hardware.rotations import Matrix
 
-_PARTS = ("x", "z", "alpha")
 _INERTIA = (20.0, 20.0, 2.0)  # kg, kg, kg·m²: the base itself, whatever it carries
 _GAIN = (1000.0, 1000.0, 100.0)  # N per m/s: 20 ms to a new speed
 _STALL = (400.0, 400.0, 100.0)  # N, N, N·m
@@ -34,12 +33,13 @@ _DRIFT = 0.004
 
 
 class MobileBase:
-    """The device on the frame `name` of a scene."""
+    """The device on the body `at`, whose joints are x, z and alpha, in this order."""
 
     def __init__(
         self,
         limits: BaseLimits,
         level: NoiseLevel,
+        at: str,
         *,
         name: str,
         noise: float = 0.0,
@@ -47,6 +47,7 @@ class MobileBase:
     ) -> None:
         self._limits = limits
         self._level = level
+        self._at = at
         self.name = name
         self._noise = noise
         self._drift = drift
@@ -60,8 +61,7 @@ class MobileBase:
 
     def build(self, spec: Any) -> None:
         """Motors and inertia for the joints that the scene has put there."""
-        for i, part in enumerate(_PARTS):
-            joint = spec.joint(f"{self.name}.{part}")
+        for i, joint in enumerate(spec.body(self._at).joints):
             joint.armature = _INERTIA[i]
             motor = spec.add_actuator(
                 name=joint.name,
@@ -83,11 +83,12 @@ class MobileBase:
 
     def find(self, model: Any, data: Any) -> None:
         """The same joints in another model."""
-        joints = [model.joint(f"{self.name}.{part}") for part in _PARTS]
+        body = model.body(self._at)
+        joints = [model.joint(int(body.jntadr[0]) + i) for i in range(int(body.jntnum[0]))]
         self._where = [int(joint.qposadr[0]) for joint in joints]
         self._rates = [int(joint.dofadr[0]) for joint in joints]
         self._motors = [int(model.actuator(joint.name).id) for joint in joints]
-        self._body = int(model.body(self.name).id)
+        self._body = int(body.id)
         self._data = data
         self._truth.find(model, data, self._body)
 

@@ -68,7 +68,7 @@ def _laser(site: Site, device: Device) -> Laser:
 def _base(site: Site, device: Device) -> MobileBase:
     limits = BaseLimits(sideways=device.kind == "omnirobot")
     noise = float(device.settings["noise"])
-    return MobileBase(limits, site.noise, name=device.id, noise=noise)
+    return MobileBase(limits, site.noise, body_name(device.frame), name=device.id, noise=noise)
 
 
 def _imu(site: Site, device: Device) -> Imu:

@@ -36,9 +36,9 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
     """The model of `scene`, and notes on what is not as described. Raises `SceneError`."""
     spec, notes = _begun(scene.model)
     bodies = {body.name: body for body in spec.bodies} | {ROOT: spec.worldbody}
-    into = _Into(
-        bodies, math.degrees(1.0) if spec.compiler.degree else 1.0, scene.model is not None
-    )
+    degrees = math.degrees(1.0) if spec.compiler.degree else 1.0
+    taken = {joint.name for joint in spec.joints} | {frame.id for frame in scene.frames}
+    into = _Into(bodies, degrees, scene.model is not None, taken)
     try:
         for frame in scene.frames:
             if frame.id != ROOT and not frame.given:
@@ -55,11 +55,22 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
 
 @dataclass(frozen=True, slots=True)
 class _Into:
-    """What frames are added to. Hinges are told in rad, `degrees` times; `weigh` what moves."""
+    """What frames are added to. Hinges are told in rad, `degrees` times; `weigh` what moves.
+
+    `taken` are the names that joints have, or will have.
+    """
 
     bodies: dict[str, Any]
     degrees: float
     weigh: bool
+    taken: set[str]
+
+    def free(self, wanted: str) -> str:
+        """A name for a joint that is like `wanted` and taken from now on."""
+        while wanted in self.taken:
+            wanted += "'"
+        self.taken.add(wanted)
+        return wanted
 
 
 def _begun(model: Model | None) -> tuple[Any, list[str]]:
@@ -103,7 +114,7 @@ def _add_frame(into: _Into, frame: Frame, notes: list[str]) -> Any:
     if frame.motion:
         _add_joint(body, frame, frame.motion, into.degrees)
     elif frame.drives:
-        _add_wheels(body, frame)
+        _add_wheels(body, frame, into)
     return body
 
 
@@ -137,16 +148,19 @@ def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:
         joint.range = [motion.low * unit, motion.high * unit]
 
 
-def _add_wheels(body: Any, frame: Frame) -> None:
-    """A base slides along its first x and z and turns about its y; nothing lets it fall."""
+def _add_wheels(body: Any, frame: Frame, into: _Into) -> None:
+    """A base slides along its first x and z and turns about its y; nothing lets it fall.
+
+    Who drives it finds the three by their order in the body; other nodes may have their names.
+    """
     for name, axis in (("x", (1.0, 0.0, 0.0)), ("z", (0.0, 0.0, 1.0))):
         body.add_joint(
-            name=f"{frame.id}.{name}",
+            name=into.free(f"{frame.id}.{name}"),
             type=mujoco.mjtJoint.mjJNT_SLIDE,
             axis=axes.direction(axis),
         )
     body.add_joint(
-        name=f"{frame.id}.alpha",
+        name=into.free(f"{frame.id}.alpha"),
         type=mujoco.mjtJoint.mjJNT_HINGE,
         axis=axes.turn_axis(np.array(_UNIT["y"])),
     )
