@@ -16,7 +16,7 @@ from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
 from robocomp_dsl.hardware.robots.boards import board_names, robot_board
 from robocomp_dsl.hardware.robots.build import add_robot, new_world
 from robocomp_dsl.hardware.robots.catalog import ROBOTS, description_file
-from robocomp_dsl.hardware.robots.export import FORCE, WORLDS, World, text
+from robocomp_dsl.hardware.robots.export import FINGERS, FORCE, WORLDS, World, text
 from robocomp_dsl.resources import INTERFACES
 
 COMPONENTS = Path(INTERFACES).parent / "components"
@@ -108,7 +108,7 @@ def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: World) ->
         at = board.board.select.indices(group)
         shared = wanted.spec.coupling @ np.linalg.inv(wanted.transmission)
         assert board.board.spec.coupling[np.ix_(at, at)] == pytest.approx(shared)
-    assert set(board.groups.values()) == {*board_names(robot), "finger"}
+    assert set(board.groups.values()) == {*board_names(robot), *FINGERS}
 
 
 @worlds
@@ -122,7 +122,8 @@ def test_it_stands_at_its_start_touching_nothing(world: World) -> None:
     it.advance(1.0)
     for name, angle in start.items():
         assert it.branch.joint(name) == pytest.approx(angle, abs=1e-3), name
-    assert it.world.data.body("finger").xpos == pytest.approx(world.parked, abs=1e-5)
+    for finger, parked in zip(FINGERS, world.parked, strict=True):
+        assert it.world.data.body(finger).xpos == pytest.approx(parked, abs=1e-5)
 
 
 def move(it: Simulation, joints: list[str], goal: list[float], seconds: float) -> Any:
@@ -133,24 +134,34 @@ def move(it: Simulation, joints: list[str], goal: list[float], seconds: float) -
     return board
 
 
+def slides(finger: str) -> list[str]:
+    return [f"{finger}_{axis}" for axis in "xyz"]
+
+
 @worlds
-def test_the_finger_goes_where_its_joints_say(world: World) -> None:
-    it = simulation(world)
+def test_the_fingers_go_where_their_joints_say(world: World) -> None:
+    """Each by itself: the other one stays."""
+    it, goal = simulation(world), [world.parked[0][0] + 0.05, 0.3, 0.2]
     it.reset()
-    goal = [world.parked[0] + 0.05, 0.3, 0.2]
-    move(it, ["finger_x", "finger_y", "finger_z"], goal, 3.0)
-    assert it.world.data.body("finger").xpos == pytest.approx(goal, abs=2e-3)
+    for finger, parked, other in zip(FINGERS, world.parked, FINGERS[::-1], strict=True):
+        stays = it.world.data.body(other).xpos.copy()
+        move(it, slides(finger), goal, 3.0)
+        assert it.world.data.body(finger).xpos == pytest.approx(goal, abs=2e-3)
+        assert it.world.data.body(other).xpos == pytest.approx(stays, abs=1e-4)
+        move(it, slides(finger), list(parked), 3.0)
 
 
+@pytest.mark.parametrize("finger", FINGERS)
 @worlds
-def test_the_finger_pushes_with_no_more_than_its_force(world: World) -> None:
+def test_a_finger_pushes_with_no_more_than_its_force(world: World, finger: str) -> None:
     """Driven through the robot's root, which is fixed, it presses on it with 20 N."""
     it = simulation(world)
     it.reset()
     root = ROBOTS[world.robot]().links[0].name
     middle = it.world.data.geom(root).xpos.copy()
-    move(it, ["finger_x", "finger_y", "finger_z"], [world.parked[0], *middle[1:]], 4.0)
-    move(it, ["finger_x"], [middle[0] - 0.5], 8.0)
+    ahead = world.parked[0][0]
+    move(it, slides(finger), [ahead, *middle[1:]], 4.0)
+    move(it, slides(finger)[:1], [middle[0] - 0.5], 8.0)
     data, pressed = it.world.data, np.zeros(6)
     total = 0.0
     for i in range(data.ncon):

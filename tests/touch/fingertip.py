@@ -1,4 +1,4 @@
-"""Where the finger of a simulated robot has to be to touch a field, in the state of a model."""
+"""Where a finger of a simulated robot has to be to touch a field, in the state of a model."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.model import Part
 from robocomp_dsl.tactile.reflex.law import Field
 
-SLIDES = ("finger_x", "finger_y", "finger_z")
+FINGERS = ("finger", "finger2")
 CLEAR = 0.055
 """Outside every limb, and nearer to its axis than anything else of the robot [m]."""
 
 
-def body_of(model: Any) -> int:
-    """The body of the finger: the last of its slides moves it."""
-    return int(model.joint(SLIDES[-1]).bodyid[0])
+def slides(finger: str) -> list[str]:
+    return [f"{finger}_{axis}" for axis in "xyz"]
 
 
-def geom_of(model: Any) -> int:
-    return int(model.body_geomadr[body_of(model)])
+def point(data: Any, finger: str) -> Floats:
+    """Where the centre of a finger is in the world."""
+    place: Floats = data.geom(finger).xpos.copy()
+    return place
 
 
 def inwards(data: Any, part: Part, field: Field) -> Floats:
@@ -33,9 +34,15 @@ def inwards(data: Any, part: Part, field: Field) -> Floats:
 
 
 def before_skin(
-    model: Any, data: Any, part: Part, field: Field, off: float, along: float = 0.0
+    model: Any,
+    data: Any,
+    part: Part,
+    field: Field,
+    off: float,
+    along: float = 0.0,
+    finger: str = FINGERS[0],
 ) -> Floats:
-    """Where the finger's centre is when it is `off` before the skin.
+    """Where a finger's centre is when it is `off` before the skin.
 
     At the field's centre, or so far along the limb.
     """
@@ -43,6 +50,6 @@ def before_skin(
     body = data.body(limb.body)
     axis = np.array([field.centre[0] + along, 0.0, 0.0])
     start = body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(axis) - CLEAR * way
-    geom = np.zeros(1, np.int32)
-    far = mujoco.mj_ray(model, data, start, way, None, 1, body_of(model), geom)
-    return start + (far - float(model.geom_size[geom_of(model)][0]) - off) * way
+    geom, ball = np.zeros(1, np.int32), model.geom(finger)
+    far = mujoco.mj_ray(model, data, start, way, None, 1, int(ball.bodyid[0]), geom)
+    return start + (far - float(ball.size[0]) - off) * way

@@ -1,4 +1,4 @@
-"""A robot in MuJoCo with its skin and one arm under control, and two fingers that press on it.
+"""A robot in MuJoCo with its skin and one arm under control, and a finger that presses on it.
 
 Everything is the project's own: physics, skin, control board, generic arm; no process, no board
 component in between, so that a second of it takes a fraction of one.
@@ -28,16 +28,15 @@ FAR = (0.0, 0.0, 3.0)
 
 
 class Pressed(Robot):
-    """See the module. `paths` has where each finger is to be, tick by tick."""
+    """See the module. `path` has where the finger is to be, tick by tick."""
 
     def initialize(self) -> None:
         super().initialize()
         robot = ROBOTS[self.name_of_robot]()
         spec = new_world()
         add_robot(spec, robot)
-        for name in ("finger", "other_finger"):
-            finger = spec.worldbody.add_body(name=name, mocap=True, pos=FAR)
-            finger.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[FINGER, 0, 0])
+        finger = spec.worldbody.add_body(mocap=True, pos=FAR)
+        finger.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[FINGER, 0, 0])
         self.skin, self.board = SimulatedSkin(self.geometry), SimulatedBoard(whole_robot(robot))
         self.body = World(spec, [self.skin, self.board])
         set_pose(self.body.model, self.body.data, robot)
@@ -46,14 +45,13 @@ class Pressed(Robot):
         self.joints = [joint.split("/")[-1] for joint in self.part.joints]
         names = self.board.board.spec.names
         self.rows = [names.index(name) for name in self.joints]
-        self.paths: list[list[Floats]] = [[], []]
+        self.path: list[Floats] = []
         self.speeds: list[Floats] = []
         self.peak = 0.0
 
     def lives(self) -> Floats:
-        for finger, path in enumerate(self.paths):
-            if path:
-                self.body.data.mocap_pos[finger] = path.pop(0)
+        if self.path:
+            self.body.data.mocap_pos[0] = self.path.pop(0)
         self.body.advance(TICK)
         board = self.board.board.state()
         rows = self.rows
@@ -88,7 +86,7 @@ class Pressed(Robot):
         return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
 
     def surface(self, field: Field, depth: float, along: float) -> Floats:
-        """Where a finger's centre is when it is `depth` into the limb, `along` from the field's."""
+        """Where the finger's centre is when it is `depth` into the limb, `along` from its centre."""
         limb = self.part.limb(field.limb)
         out = np.array([0.0, *field.centre[1:]])
         out /= np.linalg.norm(out)
@@ -102,11 +100,9 @@ class Pressed(Robot):
         distance = mujoco.mj_ray(model, data, start, -way, None, 1, -1, geom)
         return start - (distance - FINGER + depth) * way
 
-    def press(
-        self, field: Field, depth: float, seconds: float, *, along: float = 0.0, finger: int = 0
-    ) -> None:
+    def press(self, field: Field, depth: float, seconds: float, *, along: float = 0.0) -> None:
         """From now on: in along the normal within 0.1 s, there for `seconds` in all, and away."""
         far, near = (self.surface(field, one, along) for one in (-0.003, depth))
         steps = max(round(seconds / TICK), 5)
         path = [far + (near - far) * min((k + 1) / 5, 1.0) for k in range(steps)]
-        self.paths[finger] = [*path, np.array(FAR)]
+        self.path = [*path, np.array(FAR)]

@@ -1,7 +1,7 @@
 """The shipped simulator of a robot, generic_arm and reflex, as they are, in one process.
 
-They live in lock-step, so that a test sees the same each time and as fast as it can be. The finger
-is the simulator's own: it is put before a place and then moved by its control board.
+They live in lock-step, so that a test sees the same each time and as fast as it can be. The fingers
+are the simulator's own: one is put before a place and then moved by its control board.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ BOARDS = {
     ("icub", "right_arm"): "right_arm",
 }
 ARM = shipped_component.load("generic_arm")
+FINGER = fingertip.FINGERS[0]
 
 
 def held(worker: Any) -> Any:
@@ -42,14 +43,15 @@ def held(worker: Any) -> Any:
             worker.initialize(self)
             self.recorded: list[tuple[Floats, Floats]] = []
             self.frames: dict[float, Floats] = {}
+            self.simulation.skin.subscribe(self.keep)
+
+        def keep(self, frame: Any) -> None:
+            self.frames[frame.time] = frame.force
 
         def tick(self) -> None:
             worker.compute(self)
             data = self.simulation.world.data
             self.recorded.append((data.qpos.copy(), data.qvel.copy()))
-            frame = self.simulation.skin.frame
-            if frame is not None:
-                self.frames[frame.time] = frame.force
 
     return Held
 
@@ -70,18 +72,24 @@ class Whole(Stage):
             Cast(REFLEX.worker, (*both, *(f"{k}={v}" for k, v in said.items()))),
         )
         self.reflex = self.proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
-        self.finger = self.proxy(proxy_of(ARM.interfaces.CONTROLBOARD), self.name, "finger")
+        board = proxy_of(ARM.interfaces.CONTROLBOARD)
+        self.fingers = {one: self.proxy(board, self.name, one) for one in fingertip.FINGERS}
         self._events: list[Any] = []
         at = Endpoint(words.REFLEXEVENTS, "looker", "ReflexEvents")
         self._middleware.subscribe(at, {"reflex": self._events.append}, Execution())
         self.arm = self.proxy(proxy_of(words.GENERICARM), "generic_arm", "GenericArm")
         simulation = self.world.simulation
         self.model, self.data = simulation.world.model, simulation.world.data
+        self._start = self.data.qpos.copy()
 
     @property
     def state(self) -> str:
         (state,) = self.worker(1).machine.states
         return str(state)
+
+    def params(self, **said: float) -> None:
+        """Other parameters of the reflex."""
+        self.worker(1).params.set(said)
 
     def field(self, name: str) -> Field:
         return next(one for one in self.part.fields if one.name == name)
@@ -124,28 +132,30 @@ class Whole(Stage):
         body = self.data.body(limb.body)
         return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
 
-    def put_finger(self, field: Field, off: float, along: float) -> None:
+    def put_finger(self, field: Field, off: float, along: float, finger: str = FINGER) -> None:
         """Put it `off` before the skin at the field's centre, or `along` the limb, at rest."""
-        goal = fingertip.before_skin(self.model, self.data, self.part, field, off, along)
-        self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
-        self._slide(goal - self.data.geom_xpos[fingertip.geom_of(self.model)])
+        goal = fingertip.before_skin(self.model, self.data, self.part, field, off, along, finger)
+        self.fingers[finger].setControlMode([], ARM.interfaces.ControlMode.Idle)
+        self._slide(finger, goal - fingertip.point(self.data, finger))
         self.run(0.02)
-        self.finger.setControlMode([], ARM.interfaces.ControlMode.Position)
+        self.fingers[finger].setControlMode([], ARM.interfaces.ControlMode.Position)
 
-    def press(self, field: Field, deep: float, along: float = 0.0) -> None:
+    def press(self, field: Field, deep: float, along: float = 0.0, finger: str = FINGER) -> None:
         """Send the finger in along the normal; it takes about 0.1 s, and stays."""
-        self.put_finger(field, 0.003, along)
+        self.put_finger(field, 0.003, along, finger)
         step = (0.003 + deep) * fingertip.inwards(self.data, self.part, field)
-        self.finger.setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
-        self.finger.relativeMove([], step)
+        self.fingers[finger].setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
+        self.fingers[finger].relativeMove([], step)
 
     def take_away(self) -> None:
-        """Where it can touch nothing; its motors are off, or they would bring it back."""
-        self.finger.setControlMode([], ARM.interfaces.ControlMode.Idle)
-        self._slide(np.ones(3))
+        """Where they wait for the first touch; motors are off, or they would bring them back."""
+        for finger, board in self.fingers.items():
+            board.setControlMode([], ARM.interfaces.ControlMode.Idle)
+            joints = [self.model.joint(name).qposadr[0] for name in fingertip.slides(finger)]
+            self._slide(finger, self._start[joints] - self.data.qpos[joints])
 
-    def _slide(self, way: Floats) -> None:
-        for name, step in zip(fingertip.SLIDES, way, strict=True):
+    def _slide(self, finger: str, way: Floats) -> None:
+        for name, step in zip(fingertip.slides(finger), way, strict=True):
             self.data.joint(name).qpos[0] += step
             self.data.joint(name).qvel[0] = 0.0
         mujoco.mj_forward(self.model, self.data)

@@ -325,6 +325,52 @@ class GenericWorker(Component):
                 },
             ),
             ServedPort(
+                "finger2",
+                CONTROLBOARD,
+                {
+                    "getJoints": "finger2_getJoints",
+                    "getState": "finger2_getState",
+                    "getTargets": "finger2_getTargets",
+                    "setControlMode": "finger2_setControlMode",
+                    "setControlModes": "finger2_setControlModes",
+                    "setInteractionMode": "finger2_setInteractionMode",
+                    "positionMove": "finger2_positionMove",
+                    "relativeMove": "finger2_relativeMove",
+                    "motionDone": "finger2_motionDone",
+                    "stopMotion": "finger2_stopMotion",
+                    "setPosition": "finger2_setPosition",
+                    "velocityMove": "finger2_velocityMove",
+                    "setVelocity": "finger2_setVelocity",
+                    "setTorque": "finger2_setTorque",
+                    "setDuty": "finger2_setDuty",
+                    "setCurrent": "finger2_setCurrent",
+                    "setReferenceSpeed": "finger2_setReferenceSpeed",
+                    "getReferenceSpeed": "finger2_getReferenceSpeed",
+                    "setAcceleration": "finger2_setAcceleration",
+                    "getAcceleration": "finger2_getAcceleration",
+                    "setImpedance": "finger2_setImpedance",
+                    "getImpedance": "finger2_getImpedance",
+                    "setPid": "finger2_setPid",
+                    "getPid": "finger2_getPid",
+                    "enablePid": "finger2_enablePid",
+                    "resetPid": "finger2_resetPid",
+                    "setPositionLimits": "finger2_setPositionLimits",
+                    "setSpeedLimits": "finger2_setSpeedLimits",
+                    "setMaxCurrent": "finger2_setMaxCurrent",
+                    "setEncoder": "finger2_setEncoder",
+                    "setMotorEncoder": "finger2_setMotorEncoder",
+                    "getLastFault": "finger2_getLastFault",
+                    "getVariables": "finger2_getVariables",
+                    "getVariable": "finger2_getVariable",
+                    "setVariable": "finger2_setVariable",
+                    "calibrate": "finger2_calibrate",
+                    "home": "finger2_home",
+                    "park": "finger2_park",
+                    "isBusy": "finger2_isBusy",
+                    "quit": "finger2_quit",
+                },
+            ),
+            ServedPort(
                 "imu",
                 IMU,
                 {
@@ -409,6 +455,7 @@ class GenericWorker(Component):
             CalledPort("left_arm_pub", ControlBoardStateProxy, "left_arm_pub_proxy"),
             CalledPort("right_arm_pub", ControlBoardStateProxy, "right_arm_pub_proxy"),
             CalledPort("finger_pub", ControlBoardStateProxy, "finger_pub_proxy"),
+            CalledPort("finger2_pub", ControlBoardStateProxy, "finger2_pub_proxy"),
             CalledPort("imu_pub", IMUPubProxy, "imu_pub_proxy"),
             CalledPort("SkinFrame", SkinFrameProxy, "skinframe_proxy"),
             CalledPort("SkinContacts", SkinContactsProxy, "skincontacts_proxy"),
@@ -424,6 +471,7 @@ class GenericWorker(Component):
     left_arm_pub_proxy: ControlBoardStateProxy
     right_arm_pub_proxy: ControlBoardStateProxy
     finger_pub_proxy: ControlBoardStateProxy
+    finger2_pub_proxy: ControlBoardStateProxy
     imu_pub_proxy: IMUPubProxy
     skinframe_proxy: SkinFrameProxy
     skincontacts_proxy: SkinContactsProxy
@@ -2189,6 +2237,345 @@ class GenericWorker(Component):
     def finger_quit(self) -> None:
         """Stop calibrating and parking."""
         raise rt.NotImplementedOperation("finger_quit")
+
+    def finger2_getJoints(self) -> Joints:
+        """What joints there are."""
+        raise rt.NotImplementedOperation("finger2_getJoints")
+
+    def finger2_getState(self) -> BoardState:
+        """Everything that was measured last."""
+        raise rt.NotImplementedOperation("finger2_getState")
+
+    def finger2_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
+        """The references as they were accepted.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getTargets")
+
+    def finger2_setControlMode(
+        self,
+        joints: RoboCompControlBoard_Names,
+        mode: ControlMode,
+    ) -> None:
+        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setControlMode")
+
+    def finger2_setControlModes(
+        self,
+        joints: RoboCompControlBoard_Names,
+        modes: Modes,
+    ) -> None:
+        """Ask for a control mode of its own for each joint: all of them change, or none.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setControlModes")
+
+    def finger2_setInteractionMode(
+        self,
+        joints: RoboCompControlBoard_Names,
+        mode: InteractionMode,
+    ) -> None:
+        """Stiff or compliant, whatever the control mode.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setInteractionMode")
+
+    def finger2_positionMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        position: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Minimum jerk to these positions at the reference speeds; tells which goals were clipped to the limits.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_positionMove")
+
+    def finger2_relativeMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        way: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """The same, by these ways from where the reference is.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_relativeMove")
+
+    def finger2_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
+        """Whether the motions have ended.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_motionDone")
+
+    def finger2_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
+        """End motions: stop trajectories, ramp velocities down.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_stopMotion")
+
+    def finger2_setPosition(
+        self,
+        joints: RoboCompControlBoard_Names,
+        position: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Follow these positions at once; for streams of small steps.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_setPosition")
+
+    def finger2_velocityMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        velocity: RoboCompControlBoard_Values,
+        hold: float,
+    ) -> Flags:
+        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+
+        Units: hold in s.
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_velocityMove")
+
+    def finger2_setVelocity(
+        self,
+        joints: RoboCompControlBoard_Names,
+        velocity: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Turn at these speeds at once, without a ramp.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_setVelocity")
+
+    def finger2_setTorque(
+        self,
+        joints: RoboCompControlBoard_Names,
+        torque: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Reference torques.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_setTorque")
+
+    def finger2_setDuty(
+        self,
+        motors: RoboCompControlBoard_Names,
+        duty: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Duty cycles of motors, -100 to 100.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_setDuty")
+
+    def finger2_setCurrent(
+        self,
+        motors: RoboCompControlBoard_Names,
+        current: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Currents of motors.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        raise rt.NotImplementedOperation("finger2_setCurrent")
+
+    def finger2_setReferenceSpeed(
+        self,
+        joints: RoboCompControlBoard_Names,
+        speed: RoboCompControlBoard_Values,
+    ) -> None:
+        """Mean speeds of the next position moves.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setReferenceSpeed")
+
+    def finger2_getReferenceSpeed(
+        self,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getReferenceSpeed.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getReferenceSpeed")
+
+    def finger2_setAcceleration(
+        self,
+        joints: RoboCompControlBoard_Names,
+        acceleration: RoboCompControlBoard_Values,
+    ) -> None:
+        """How fast velocities may change, in rad/s^2.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setAcceleration")
+
+    def finger2_getAcceleration(
+        self,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getAcceleration.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getAcceleration")
+
+    def finger2_setImpedance(self, joint: str, impedance: Impedance) -> None:
+        """Spring and damper of the compliant interaction.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setImpedance")
+
+    def finger2_getImpedance(self, joint: str) -> Impedance:
+        """RoboCompControlBoard::ControlBoard: getImpedance.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getImpedance")
+
+    def finger2_setPid(self, joint: str, pid: Pid) -> None:
+        """The position regulator.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setPid")
+
+    def finger2_getPid(self, joint: str) -> Pid:
+        """RoboCompControlBoard::ControlBoard: getPid.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPid")
+
+    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
+        """Switch position regulators on or off; one that is off gives no torque.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_enablePid")
+
+    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+        """Forget what the regulators have summed up.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_resetPid")
+
+    def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
+        """Limits may be narrowed, never be wider than the joint's own.
+
+        Units: low in rad, high in rad.
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setPositionLimits")
+
+    def finger2_setSpeedLimits(
+        self,
+        joints: RoboCompControlBoard_Names,
+        speed: RoboCompControlBoard_Values,
+    ) -> None:
+        """Largest speeds.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setSpeedLimits")
+
+    def finger2_setMaxCurrent(
+        self,
+        motors: RoboCompControlBoard_Names,
+        current: RoboCompControlBoard_Values,
+    ) -> None:
+        """The current at which a motor faults.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setMaxCurrent")
+
+    def finger2_setEncoder(self, joint: str, position: float) -> None:
+        """Let the joint's encoder stand at this position now.
+
+        Units: position in rad.
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setEncoder")
+
+    def finger2_setMotorEncoder(self, motor: str, counts: float) -> None:
+        """Let the motor's counter stand at this count now.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_setMotorEncoder")
+
+    def finger2_getLastFault(self, joint: str) -> JointFault:
+        """The last fault of a joint, also after it was cleared.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getLastFault")
+
+    def finger2_getVariables(self) -> RoboCompControlBoard_Names:
+        """Settings by name, as lists of numbers."""
+        raise rt.NotImplementedOperation("finger2_getVariables")
+
+    def finger2_getVariable(self, key: str) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getVariable.
+
+        May raise RoboCompControlBoard_Refused.
+        """
+        raise rt.NotImplementedOperation("finger2_getVariable")
+
+    def finger2_setVariable(
+        self,
+        key: str,
+        values: RoboCompControlBoard_Values,
+    ) -> None:
+        """RoboCompControlBoard::ControlBoard: setVariable.
+
+        May raise RoboCompControlBoard_Refused.
+        """
+        raise rt.NotImplementedOperation("finger2_setVariable")
+
+    def finger2_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
+        """Find the zero of the encoders and go home; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_calibrate")
+
+    def finger2_home(self, joints: RoboCompControlBoard_Names) -> None:
+        """Send calibrated joints to their home; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_home")
+
+    def finger2_park(self, joints: RoboCompControlBoard_Names) -> None:
+        """Go to a pose in which the joints may be switched off, and switch them off; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_park")
+
+    def finger2_isBusy(self) -> bool:
+        """Whether joints are still being calibrated or parked."""
+        raise rt.NotImplementedOperation("finger2_isBusy")
+
+    def finger2_quit(self) -> None:
+        """Stop calibrating and parking."""
+        raise rt.NotImplementedOperation("finger2_quit")
 
     def imu_getDataImu(self) -> DataImu:
         """Everything."""

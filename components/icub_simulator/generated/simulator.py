@@ -117,6 +117,9 @@ class Simulator(GenericWorker):
             if self.finger_pub_proxy.is_heard():
                 for told in self.ports["finger"].current("getState"):
                     self.finger_pub_proxy.boardState(told)
+            if self.finger2_pub_proxy.is_heard():
+                for told in self.ports["finger2"].current("getState"):
+                    self.finger2_pub_proxy.boardState(told)
         if self.imu_pub_proxy.is_heard():
             for told in self.ports["imu"].current("getDataImu"):
                 self.imu_pub_proxy.publish(told)
@@ -2165,6 +2168,385 @@ class Simulator(GenericWorker):
     def finger_quit(self) -> None:
         """Stop calibrating and parking."""
         self.ports["finger"].quit()
+
+    def finger2_getJoints(self) -> Joints:
+        """What joints there are."""
+        ask = self.ports["finger2"].getJoints
+        answer: Joints = ask()
+        return answer
+
+    def finger2_getState(self) -> BoardState:
+        """Everything that was measured last."""
+        ask = self.ports["finger2"].getState
+        answer: BoardState = ask()
+        return answer
+
+    def finger2_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
+        """The references as they were accepted.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getTargets
+        answer: Targets = ask(joints)
+        return answer
+
+    def finger2_setControlMode(
+        self,
+        joints: RoboCompControlBoard_Names,
+        mode: ControlMode,
+    ) -> None:
+        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setControlMode(joints, mode)
+
+    def finger2_setControlModes(
+        self,
+        joints: RoboCompControlBoard_Names,
+        modes: Modes,
+    ) -> None:
+        """Ask for a control mode of its own for each joint: all of them change, or none.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setControlModes(joints, modes)
+
+    def finger2_setInteractionMode(
+        self,
+        joints: RoboCompControlBoard_Names,
+        mode: InteractionMode,
+    ) -> None:
+        """Stiff or compliant, whatever the control mode.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setInteractionMode(joints, mode)
+
+    def finger2_positionMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        position: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Minimum jerk to these positions at the reference speeds; tells which goals were clipped to the limits.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].positionMove
+        answer: Flags = ask(joints, position)
+        return answer
+
+    def finger2_relativeMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        way: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """The same, by these ways from where the reference is.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].relativeMove
+        answer: Flags = ask(joints, way)
+        return answer
+
+    def finger2_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
+        """Whether the motions have ended.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].motionDone
+        answer: Flags = ask(joints)
+        return answer
+
+    def finger2_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
+        """End motions: stop trajectories, ramp velocities down.
+
+        May raise UnknownJoint.
+        """
+        self.ports["finger2"].stopMotion(joints)
+
+    def finger2_setPosition(
+        self,
+        joints: RoboCompControlBoard_Names,
+        position: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Follow these positions at once; for streams of small steps.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].setPosition
+        answer: Flags = ask(joints, position)
+        return answer
+
+    def finger2_velocityMove(
+        self,
+        joints: RoboCompControlBoard_Names,
+        velocity: RoboCompControlBoard_Values,
+        hold: float,
+    ) -> Flags:
+        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+
+        Units: hold in s.
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].velocityMove
+        answer: Flags = ask(joints, velocity, hold)
+        return answer
+
+    def finger2_setVelocity(
+        self,
+        joints: RoboCompControlBoard_Names,
+        velocity: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Turn at these speeds at once, without a ramp.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].setVelocity
+        answer: Flags = ask(joints, velocity)
+        return answer
+
+    def finger2_setTorque(
+        self,
+        joints: RoboCompControlBoard_Names,
+        torque: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Reference torques.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].setTorque
+        answer: Flags = ask(joints, torque)
+        return answer
+
+    def finger2_setDuty(
+        self,
+        motors: RoboCompControlBoard_Names,
+        duty: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Duty cycles of motors, -100 to 100.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].setDuty
+        answer: Flags = ask(motors, duty)
+        return answer
+
+    def finger2_setCurrent(
+        self,
+        motors: RoboCompControlBoard_Names,
+        current: RoboCompControlBoard_Values,
+    ) -> Flags:
+        """Currents of motors.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
+        """
+        ask = self.ports["finger2"].setCurrent
+        answer: Flags = ask(motors, current)
+        return answer
+
+    def finger2_setReferenceSpeed(
+        self,
+        joints: RoboCompControlBoard_Names,
+        speed: RoboCompControlBoard_Values,
+    ) -> None:
+        """Mean speeds of the next position moves.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setReferenceSpeed(joints, speed)
+
+    def finger2_getReferenceSpeed(
+        self,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getReferenceSpeed.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getReferenceSpeed
+        answer: RoboCompControlBoard_Values = ask(joints)
+        return answer
+
+    def finger2_setAcceleration(
+        self,
+        joints: RoboCompControlBoard_Names,
+        acceleration: RoboCompControlBoard_Values,
+    ) -> None:
+        """How fast velocities may change, in rad/s^2.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setAcceleration(joints, acceleration)
+
+    def finger2_getAcceleration(
+        self,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getAcceleration.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getAcceleration
+        answer: RoboCompControlBoard_Values = ask(joints)
+        return answer
+
+    def finger2_setImpedance(self, joint: str, impedance: Impedance) -> None:
+        """Spring and damper of the compliant interaction.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setImpedance(joint, impedance)
+
+    def finger2_getImpedance(self, joint: str) -> Impedance:
+        """RoboCompControlBoard::ControlBoard: getImpedance.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getImpedance
+        answer: Impedance = ask(joint)
+        return answer
+
+    def finger2_setPid(self, joint: str, pid: Pid) -> None:
+        """The position regulator.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setPid(joint, pid)
+
+    def finger2_getPid(self, joint: str) -> Pid:
+        """RoboCompControlBoard::ControlBoard: getPid.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPid
+        answer: Pid = ask(joint)
+        return answer
+
+    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
+        """Switch position regulators on or off; one that is off gives no torque.
+
+        May raise UnknownJoint.
+        """
+        self.ports["finger2"].enablePid(joints, on)
+
+    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+        """Forget what the regulators have summed up.
+
+        May raise UnknownJoint.
+        """
+        self.ports["finger2"].resetPid(joints)
+
+    def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
+        """Limits may be narrowed, never be wider than the joint's own.
+
+        Units: low in rad, high in rad.
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setPositionLimits(joint, low, high)
+
+    def finger2_setSpeedLimits(
+        self,
+        joints: RoboCompControlBoard_Names,
+        speed: RoboCompControlBoard_Values,
+    ) -> None:
+        """Largest speeds.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setSpeedLimits(joints, speed)
+
+    def finger2_setMaxCurrent(
+        self,
+        motors: RoboCompControlBoard_Names,
+        current: RoboCompControlBoard_Values,
+    ) -> None:
+        """The current at which a motor faults.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setMaxCurrent(motors, current)
+
+    def finger2_setEncoder(self, joint: str, position: float) -> None:
+        """Let the joint's encoder stand at this position now.
+
+        Units: position in rad.
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setEncoder(joint, position)
+
+    def finger2_setMotorEncoder(self, motor: str, counts: float) -> None:
+        """Let the motor's counter stand at this count now.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].setMotorEncoder(motor, counts)
+
+    def finger2_getLastFault(self, joint: str) -> JointFault:
+        """The last fault of a joint, also after it was cleared.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getLastFault
+        answer: JointFault = ask(joint)
+        return answer
+
+    def finger2_getVariables(self) -> RoboCompControlBoard_Names:
+        """Settings by name, as lists of numbers."""
+        ask = self.ports["finger2"].getVariables
+        answer: RoboCompControlBoard_Names = ask()
+        return answer
+
+    def finger2_getVariable(self, key: str) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getVariable.
+
+        May raise RoboCompControlBoard_Refused.
+        """
+        ask = self.ports["finger2"].getVariable
+        answer: RoboCompControlBoard_Values = ask(key)
+        return answer
+
+    def finger2_setVariable(
+        self,
+        key: str,
+        values: RoboCompControlBoard_Values,
+    ) -> None:
+        """RoboCompControlBoard::ControlBoard: setVariable.
+
+        May raise RoboCompControlBoard_Refused.
+        """
+        self.ports["finger2"].setVariable(key, values)
+
+    def finger2_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
+        """Find the zero of the encoders and go home; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].calibrate(joints)
+
+    def finger2_home(self, joints: RoboCompControlBoard_Names) -> None:
+        """Send calibrated joints to their home; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].home(joints)
+
+    def finger2_park(self, joints: RoboCompControlBoard_Names) -> None:
+        """Go to a pose in which the joints may be switched off, and switch them off; returns at once.
+
+        May raise RoboCompControlBoard_Refused, UnknownJoint.
+        """
+        self.ports["finger2"].park(joints)
+
+    def finger2_isBusy(self) -> bool:
+        """Whether joints are still being calibrated or parked."""
+        ask = self.ports["finger2"].isBusy
+        answer: bool = ask()
+        return answer
+
+    def finger2_quit(self) -> None:
+        """Stop calibrating and parking."""
+        self.ports["finger2"].quit()
 
     def imu_getDataImu(self) -> DataImu:
         """Everything."""

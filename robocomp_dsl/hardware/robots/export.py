@@ -2,9 +2,9 @@
 
 In: robots that ship. Out: an MJCF file for each beside its simulator in `components/`, and with it
 the description of its touch, for `--tactile`. A world has a floor, the robot with its root held in
-the air, its control boards as tuples, its speed limits as numbers, and a finger to touch it with: a
-ball that is carried along three axes, by a force of 20 N at most, whose joints tell its place in
-the world in m. The start is the key frame `start`.
+the air, its control boards as tuples, its speed limits as numbers, and two fingers to touch it
+with: balls that are carried along three axes, by a force of 20 N at most, whose joints tell their
+places in the world in m. The start is the key frame `start`.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ from robocomp_dsl.hardware.robots.build import add_robot, new_world, quaternion
 from robocomp_dsl.hardware.robots.catalog import ROBOTS, description_file
 from robocomp_dsl.hardware.robots.links import Floats, Robot, Vector
 
-FINGER = "finger"
+FINGERS = ("finger", "finger2")
+"""Their bodies, balls and control boards; the joints are these and `_x`, `_y`, `_z`."""
 TACTILE = "tactile.yaml"
 RADIUS = 0.008
 FORCE = 20.0
@@ -39,14 +40,14 @@ _NOTE = "<!-- Written by `python -m robocomp_dsl.hardware.robots.export`; do not
 
 @dataclass(frozen=True, slots=True)
 class World:
-    """A robot in its world: where the finger waits [m], cameras at points, a body with an IMU.
+    """A robot in its world: where the fingers wait [m], cameras at points, a body with an IMU.
 
     `cameras` has name, point of the robot and vertical angle [degrees].
     """
 
     file: str
     robot: str
-    parked: Vector
+    parked: tuple[Vector, ...]
     imu: str
     imu_at: Vector = (0.0, 0.0, 0.0)
     cameras: tuple[tuple[str, str, float], ...] = ()
@@ -56,12 +57,17 @@ WORLDS = (
     World(
         "nao_simulator/nao.xml",
         "nao_h25",
-        parked=(0.4, 0.0, 0.55),
+        parked=((0.4, 0.0, 0.55), (0.4, -0.3, 0.55)),
         imu="torso",
         imu_at=(-0.008, 0.006, 0.029),
         cameras=(("camera_top", "CameraTop", 47.6), ("camera_bottom", "CameraBottom", 47.6)),
     ),
-    World("icub_simulator/icub.xml", "icub_v2", parked=(0.7, 0.0, 0.9), imu="head"),
+    World(
+        "icub_simulator/icub.xml",
+        "icub_v2",
+        parked=((0.7, 0.0, 0.9), (0.7, -0.4, 0.9)),
+        imu="head",
+    ),
 )
 
 
@@ -73,7 +79,8 @@ def text(world: World) -> str:
     _add_floor(spec)
     add_robot(spec, robot)
     _add_boards(spec, robot)
-    _add_finger(spec, world.parked)
+    for finger, parked in zip(FINGERS, world.parked, strict=True):
+        _add_finger(spec, finger, parked)
     _add_sensors(spec, robot, world)
     key = spec.add_key(name="start")
     key.qpos = _start(spec.compile(), robot)
@@ -101,11 +108,11 @@ def _add_floor(spec: Any) -> None:
     )
 
 
-def _add_finger(spec: Any, parked: Vector) -> None:
+def _add_finger(spec: Any, finger: str, parked: Vector) -> None:
     """Three slides in one body; each counts from 0 in the middle of the world."""
-    body = spec.worldbody.add_body(name=FINGER, pos=parked, gravcomp=1.0)
+    body = spec.worldbody.add_body(name=finger, pos=parked, gravcomp=1.0)
     for i, axis in enumerate("xyz"):
-        name = f"{FINGER}_{axis}"
+        name = f"{finger}_{axis}"
         body.add_joint(
             name=name,
             type=mujoco.mjtJoint.mjJNT_SLIDE,
@@ -124,13 +131,13 @@ def _add_finger(spec: Any, parked: Vector) -> None:
         )
         spec.add_numeric(name=f"speed_{name}", data=[_SPEED], size=1)
     body.add_geom(
-        name=FINGER,
+        name=finger,
         type=mujoco.mjtGeom.mjGEOM_SPHERE,
         size=[RADIUS, 0.0, 0.0],
         mass=_MASS,
         rgba=[0.9, 0.3, 0.1, 1.0],
     )
-    _add_board(spec, FINGER, [f"{FINGER}_{axis}" for axis in "xyz"])
+    _add_board(spec, finger, [f"{finger}_{axis}" for axis in "xyz"])
 
 
 def _add_boards(spec: Any, robot: Robot) -> None:
@@ -170,7 +177,7 @@ def _add_sensors(spec: Any, robot: Robot, world: World) -> None:
 
 
 def _start(model: Any, robot: Robot) -> Floats:
-    """Positions of all joints, (nq,): the start pose, and the finger where it waits."""
+    """Positions of all joints, (nq,): the start pose, and the fingers where they wait."""
     qpos: Floats = model.qpos0.copy()
     for name, joint in robot.joints.items():
         qpos[model.joint(name).qposadr[0]] = robot.start.get(joint.leader or name, 0.0)
