@@ -134,7 +134,7 @@ class Commands:
         return chosen
 
     def _store(self, into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
-        kept = np.clip(values, -most, most)
+        kept = np.minimum(np.maximum(values, -most), most)
         into[joints] = kept
         self._board.law.apply()
         clipped: Bools = kept != values

@@ -114,6 +114,10 @@ class Selector:
 
     names: tuple[str, ...]
 
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: i for i, name in enumerate(self.names)}
+
     def indices(self, joints: Sequence[str] | Sequence[int] | Ints | None) -> Ints:
         """Indices of `joints`, all for None. `UnknownJoint` if not there, or there twice."""
         if joints is None:
@@ -126,9 +130,9 @@ class Selector:
     def index(self, joint: str | int) -> int:
         """Index of one joint."""
         if isinstance(joint, str):
-            if joint not in self.names:
+            if joint not in self._places:
                 raise UnknownJoint(f"there is no joint `{joint}`: " + ", ".join(self.names))
-            return self.names.index(joint)
+            return self._places[joint]
         if not 0 <= joint < len(self.names):
             raise UnknownJoint(f"there is no joint {joint}: the board has {len(self.names)}")
         return int(joint)

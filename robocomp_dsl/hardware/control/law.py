@@ -32,6 +32,8 @@ class Law:
         self.driven = np.zeros(n)
         self._modes: tuple[Mode, ...] = (Mode.IDLE,) * n
         self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
+        self._by_torque, self._by_duty, self._by_current = np.zeros(n), np.zeros(n), np.zeros(n)
+        self._electric = False
         self._back_emf: Floats | None = None
         self._commanded = self._alone = False
         self._stiff = self._comply = self.all_driven = False
@@ -45,22 +47,21 @@ class Law:
         self._pid.use(stiff)
         self._stiff, self._comply = bool(stiff.any()), bool(soft.any())
         self._held, self._spring = self.positioned.astype(float), soft.astype(float)
-        direct = self._mask(Mode.TORQUE) + self._mask(Mode.PWM) + self._mask(Mode.CURRENT)
-        self.driven = self._held + direct
+        self._by_torque, self._by_duty = self._mask(Mode.TORQUE), self._mask(Mode.PWM)
+        self._by_current = self._mask(Mode.CURRENT)
+        self.driven = self._held + self._by_torque + self._by_duty + self._by_current
         self.all_driven = bool(self.driven.all())
-        duty = self._mask(Mode.PWM)
-        self._back_emf = duty[:, None] * self._motors.back_emf if duty.any() else None
+        duty = self._by_duty.any()
+        self._electric = bool(duty or self._by_current.any())
+        self._back_emf = self._by_duty[:, None] * self._motors.back_emf if duty else None
         self.apply()
 
     def apply(self) -> None:
         """Work out the torques that torque, duty and current commands make at standstill."""
-        torque, duty = self._mask(Mode.TORQUE), self._mask(Mode.PWM)
-        current = self._mask(Mode.CURRENT)
-        stalled = self._motors.stall_current(self.duty * duty)
-        self._direct = torque * self.torque
-        self._direct += duty * self._motors.torque_of_current(stalled)
-        self._direct += current * self._motors.torque_of_current(self.current * current)
-        self._commanded = bool(self._direct.any())
+        self._direct = self._by_torque * self.torque
+        if self._electric:
+            self._direct += self._made_by_currents()
+        self._commanded = bool(np.count_nonzero(self._direct))
         self._alone = not (self._commanded or self._comply or self._back_emf is not None)
 
     def step(
@@ -105,6 +106,12 @@ class Law:
         if self._back_emf is not None:
             wished = wished - self._back_emf @ velocity
         return wished
+
+    def _made_by_currents(self) -> Floats:
+        duty, current, motors = self._by_duty, self._by_current, self._motors
+        made = duty * motors.torque_of_current(motors.stall_current(self.duty * duty))
+        made += current * motors.torque_of_current(self.current * current)
+        return made
 
     def _mask(self, mode: Mode) -> Floats:
         return np.array([float(one is mode) for one in self._modes])

@@ -83,8 +83,8 @@ class OwnPace(Held):
         Tells whether that was so.
         """
         called = self._world.turns.rest(since + SLICE - time.perf_counter())
-        if called:
-            time.sleep(max(since - time.perf_counter(), 0.0))
+        if called and (ahead := since - time.perf_counter()) > 0.0:
+            time.sleep(ahead)  # never for nothing: that alone would let all other threads go first
         return called
 
     def _slice(self, seconds: float) -> float:

@@ -31,6 +31,7 @@ class BoardSettings(Servant):
         super().__init__(*given)
         self._known: object = None
         self._here = np.empty(0, dtype=np.int64)
+        self._numbers: dict[str, int] = {}
 
     @property
     def _board(self) -> Board:
@@ -46,6 +47,7 @@ class BoardSettings(Servant):
             names = device.board.spec.names
             chosen = [i for i, name in enumerate(names) if device.groups.get(name, "") == mine]
             self._here = np.array(chosen, dtype=np.int64)
+            self._numbers = {names[i]: i for i in chosen}
             self._known = device
         return self._here
 
@@ -60,10 +62,10 @@ class BoardSettings(Servant):
         if not len(names):
             return here
         chosen = self._board.select.indices(names)
-        beyond = np.flatnonzero(~np.isin(chosen, here))
-        if len(beyond):
-            listed = ", ".join(self._board.spec.names[i] for i in here.tolist())
-            raise UnknownJoint(f"`{names[beyond[0]]}` is not on `{self.port}`: {listed}")
+        for name in names:
+            if name not in self._numbers:
+                listed = ", ".join(self._numbers)
+                raise UnknownJoint(f"`{name}` is not on `{self.port}`: {listed}")
         return chosen
 
     def _one(self, name: str) -> int:
