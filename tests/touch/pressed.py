@@ -86,7 +86,7 @@ class Pressed(Robot):
         return body.xpos + body.xmat.reshape(3, 3) @ limb.to_body(field.centre)
 
     def surface(self, field: Field, depth: float, along: float) -> Floats:
-        """Where the finger's centre is when it is `depth` into the limb, `along` from its centre."""
+        """Where the finger's centre is, `depth` into the limb, `along` it from the field's."""
         limb = self.part.limb(field.limb)
         out = np.array([0.0, *field.centre[1:]])
         out /= np.linalg.norm(out)
