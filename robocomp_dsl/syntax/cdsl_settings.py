@@ -5,6 +5,7 @@ In: what the parser recognised of a setting. Out: the values for the fields of `
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from robocomp_dsl.source import Span
@@ -16,20 +17,23 @@ from robocomp_dsl.syntax.builder import Builder, Setting
 LANGUAGES = ("Cpp", "Cpp11", "Python")
 WIDGETS = ("QWidget", "QMainWindow", "QDialog")
 OPTIONS = ("agmagent", "InnerModelViewer", "dsr")
+_CPP = re.compile(r"(?:c\+\+|cpp|cxx)(\d*)", re.IGNORECASE)
 
 
 class Settings(Builder):
     """The part of the CDSL builder that is about settings."""
 
-    def language(self, span: Span, name: Name, *plus: Name) -> Setting:
+    def language(self, span: Span, name: Name, *plus: Name | Number | None) -> Setting:
         """`language Python;`."""
-        if plus:
-            whole = name.span.to(plus[-1].span)
+        behind = [one for one in plus if one is not None]
+        if behind:
+            whole = name.span.to(behind[-1].span)
             name = Name(whole, whole.text)
+        dialect = _CPP.fullmatch(name.text)
         if name.text.lower() == "android":
             self._without_effect(name.span, "components for Android are not generated any more")
-        elif name.text.lower() in ("c++", "c++11"):
-            right = "Cpp" if name.text.lower() == "c++" else "Cpp11"
+        elif dialect and name.text.lower() not in ("cpp", "cpp11"):
+            right = "Cpp11" if dialect[1] else "Cpp"
             self.say(
                 codes.UNKNOWN_WORD,
                 name.span,
@@ -80,18 +84,20 @@ class Settings(Builder):
         known = tuple(word for word in words if self.vocabulary(word, OPTIONS, "option"))
         return Setting(span, "options", known)
 
-    def statemachine(self, span: Span, path: Text | Name, visual: Name | None) -> Setting:
+    def bare_file(self, span: Span, _name: Name, suffix: Name | None) -> Text:
+        """`game` or `game.smdsl` without quotes, as the Eclipse-based generation had it."""
+        right = span.text if suffix else f"{span.text}.smdsl"
+        self.say(
+            codes.LEGACY_STATEMACHINE,
+            span,
+            "the file of a state machine is named in quotes",
+            label=f'read as "{right}"',
+            fix=self.rewrite("name the file", span, f'"{right}"'),
+        )
+        return Text(span, right)
+
+    def statemachine(self, span: Span, path: Text, visual: Name | None) -> Setting:
         """`statemachine "x.smdsl" visual;`."""
-        if isinstance(path, Name):
-            right = f"{path.text}.smdsl"
-            self.say(
-                codes.LEGACY_STATEMACHINE,
-                path.span,
-                "the file of a state machine is named in quotes",
-                label=f'read as "{right}"',
-                fix=self.rewrite("name the file", path.span, f'"{right}"'),
-            )
-            path = Text(path.span, right)
         return Setting(span, "statemachine", StateMachine(span, path, visual is not None))
 
     def parameters(self, span: Span, path: Text) -> Setting:

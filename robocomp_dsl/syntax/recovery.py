@@ -39,7 +39,7 @@ def _correct_or_drop(machine: Machine) -> None:
     begun = len(stack) > base + 1
     item = _since(machine, stack[base + 1][2]) if begun else []
     situation = _situation(machine)
-    outside = machine.builder.has_block and not situation.opened
+    outside = machine.builder.has_block and not situation.opened and not situation.one_sign()
     if outside and (not begun or (item and item[0].kind == "ID")):
         _pass_over_stray(machine, situation, item, base)
         return

@@ -47,6 +47,7 @@ def _proposals(situation: Situation, item: list[Token], keep: int) -> Iterator[R
     """All that could be meant, the likeliest first."""
     accepted = situation.accepted()
     yield from signs.semicolon(situation)
+    yield from signs.hidden(situation)
     yield from signs.semicolon_earlier(situation, item, keep)
     yield from words.keyword(situation, accepted)
     yield from words.bare_text(situation, accepted)
@@ -54,11 +55,13 @@ def _proposals(situation: Situation, item: list[Token], keep: int) -> Iterator[R
     yield from words.type_first(situation, accepted)
     yield from words.bad_name(situation, accepted)
     yield from words.no_name(situation, accepted)
+    yield from words.foreign(situation, item, keep)
+    yield from signs.split_arrow(situation, accepted)
     yield from _block(situation, [], 0)
     yield from _earlier(situation, item, keep)
     yield from signs.other_bracket(situation, accepted)
     # A word too many is less likely than a sign too few, which loses nothing of what was written.
-    if words.WORD.fullmatch(situation.ahead[0].text):
+    if signs.WORD.fullmatch(situation.ahead[0].text):
         yield from signs.missing_sign(situation, accepted)
         yield from signs.surplus(situation)
     else:

@@ -14,10 +14,17 @@ from robocomp_dsl.syntax.repair import Repair
 from robocomp_dsl.syntax.situation import Situation, quote
 from robocomp_dsl.syntax.tables import END
 
+WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _PUNCTUATION = re.compile(r"\W+")
 _MISSED = (",", ")", "(", "{", ">", "<", ":", "->", "=>", ".", "=")
 _ARROWS = ("->", "=>")
 _CLOSING = {")": "(", "]": "[", ">": "<"}
+_HIDDEN = re.compile(r"[ \t]*//[^\n]*?([)}\]>]*;)[ \t]*$", re.MULTILINE)
+
+
+_MANUAL = (
+    "in the manual `[…]` is what may be left out, `*[…]` what may be repeated; neither is written"
+)
 
 
 def semicolon(situation: Situation) -> Iterator[Repair]:
@@ -29,10 +36,35 @@ def semicolon(situation: Situation) -> Iterator[Repair]:
         before.end,
         before.end,
         f"`;` is missing behind {quote(before)}",
+        label="what is behind `//` is not read" if _comment_follows(situation) else "",
         title="add `;`",
         edits=((before.end, before.end, ";"),),
         put=(Token("_SEMI", ";", before.end, before.end),),
         need=0 if before.kind == "RBRACE" else 1 if clear else 3,
+    )
+
+
+def _comment_follows(situation: Situation) -> bool:
+    return bool(_HIDDEN.match(situation.source.text, situation.before.end))
+
+
+def hidden(situation: Situation) -> Iterator[Repair]:
+    """`Qt(QWidget//QDialog);`: the statement ends inside of a comment."""
+    before, end = situation.before, situation.before.end
+    comment = _HIDDEN.match(situation.source.text, end)
+    if not comment or not situation.new_line():
+        return
+    signs = [(situation.tables.signs.get(sign, "_SEMI"), sign) for sign in comment[1]]
+    yield Repair(
+        codes.MISSING_SIGN,
+        end,
+        end,
+        f"`{comment[1]}` is missing behind {quote(before)}",
+        label="what is behind `//` is not read",
+        title=f"add `{comment[1]}`",
+        edits=((end, end, comment[1]),),
+        put=tuple(Token(kind, sign, end, end) for kind, sign in signs),
+        need=1,
     )
 
 
@@ -99,6 +131,26 @@ def other_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         )
 
 
+def split_arrow(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """`= >`."""
+    first, second = (*situation.ahead[:2], situation.ahead[-1])[:2]
+    texts = {situation.tables.texts.get(kind, ""): kind for kind in accepted}
+    arrow = first.text + second.text
+    if arrow not in _ARROWS or arrow not in texts:
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        first.start,
+        second.end,
+        f"`{arrow}` is written without a space",
+        title=f"write `{arrow}`",
+        edits=((first.start, second.end, arrow),),
+        put=(Token(texts[arrow], arrow, first.start, second.end),),
+        skip=2,
+        need=1,
+    )
+
+
 def surplus(situation: Situation) -> Iterator[Repair]:
     """One token too many."""
     token = situation.ahead[0]
@@ -107,12 +159,14 @@ def surplus(situation: Situation) -> Iterator[Repair]:
     if situation.states[-1] in situation.tables.restarts and situation.ahead[1].kind == "_SEMI":
         return  # a whole statement too many, and not a word
     stray = token.kind == "STRAY"
+    manual = situation.tables.language == "smdsl" and token.text[0] in "[]*"
     shown = quote(token) if token.text.isprintable() else f"U+{ord(token.text[0]):04X}"
     yield Repair(
         codes.STRAY_CHARACTER if stray else codes.UNEXPECTED,
         token.start,
         token.end,
         message=f"{shown} has no meaning here" if stray else "",
+        help=_MANUAL if manual else "",
         title=f"delete {shown}",
         edits=((token.start, token.end, ""),),
         skip=1,
@@ -132,4 +186,6 @@ def missing_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
             title=f"add `{text}`",
             edits=((at, at, text),),
             put=(Token(kind, text, at, at),),
+            # In `a b c` another one is missing behind the next word.
+            need=1 if text == "," and WORD.fullmatch(situation.ahead[0].text) else 3,
         )

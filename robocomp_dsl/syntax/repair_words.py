@@ -6,16 +6,58 @@ In: the situation of a parser that is stuck. Out: what could be meant, the likel
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+import unicodedata
+from collections.abc import Iterator, Mapping
 
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.repair import Repair
+from robocomp_dsl.syntax.repair_signs import WORD
 from robocomp_dsl.syntax.situation import Situation, quote
 from robocomp_dsl.syntax.tables import END
 
-WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+_FOREIGN = {
+    "in": "a parameter goes in unless it is marked `out`",
+    "inout": "what goes in and out is a parameter and an `out` parameter",
+    "const": "every value is a copy",
+    "unsigned": "all numbers have a sign; `long` has 64 bits",
+    "signed": "all numbers have a sign",
+    "static": "",
+    "virtual": "",
+    "local": "",
+    "optional": "",
+    "oneway": "write `[command]` in front of what is not answered",
+    "async": "write `[command]` in front of what is not answered",
+    "typedef": "",
+}
+"""Words that Slice or C++ writes in front of a type, and what IDSL has instead."""
+
+_SYNONYMS = {
+    "class": "struct",
+    "union": "struct",
+    "record": "struct",
+    "namespace": "module",
+    "package": "module",
+    "include": "import",
+    "using": "import",
+    "service": "interface",
+    "array": "sequence",
+    "list": "sequence",
+    "map": "dictionary",
+    "provides": "implements",
+    "offers": "implements",
+    "uses": "requires",
+    "needs": "requires",
+    "proxy": "requires",
+    "events": "subscribesTo",
+    "initial": "initial_state",
+    "start": "initial_state",
+    "final": "end_state",
+    "end": "end_state",
+}
+"""What other languages call the same thing."""
+
 _BARE_TEXT = re.compile(r"[^\s;{}\",]{1,400}")
 _OPEN_BRACKET = re.compile(r"\[[^\s\[\]{};,\"]+")
 _BARE_NAME = re.compile(r"[^\s;{}()<>\[\],:=\"'/#.]{1,400}")
@@ -25,10 +67,12 @@ def keyword(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     """A keyword with a slip, or in capitals where case counts."""
     token = situation.ahead[0]
     texts = {situation.tables.texts[k]: k for k in accepted if k in situation.tables.words}
-    meant = nearest(token.text, texts) if WORD.fullmatch(token.text) else None
-    if not meant:
+    if not WORD.fullmatch(token.text):
         return
-    if texts[meant] == token.kind:
+    yield from _in_two_words(situation, texts)
+    other = _SYNONYMS.get(token.text.lower(), "")
+    meant = nearest(token.text, texts) or (other if other in texts else None)
+    if not meant or texts[meant] == token.kind:
         return
     same = meant.lower() == token.text.lower()
     yield Repair(
@@ -41,6 +85,48 @@ def keyword(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         edits=((token.start, token.end, meant),),
         put=(Token(texts[meant], meant, token.start, token.end),),
         skip=1,
+        need=1,
+    )
+
+
+def _in_two_words(situation: Situation, texts: Mapping[str, str]) -> Iterator[Repair]:
+    """`subscribes to`, `initial state`."""
+    first, second = (*situation.ahead[:2], situation.ahead[-1])[:2]
+    together = (first.text + second.text).lower()
+    meant = next((one for one in texts if one.replace("_", "").lower() == together), None)
+    if not meant:
+        return
+    yield Repair(
+        codes.MISSPELT_KEYWORD,
+        first.start,
+        second.end,
+        f"`{first.text} {second.text}` is no keyword",
+        label=f"the keyword is `{meant}`",
+        title=f"write `{meant}`",
+        edits=((first.start, second.end, meant),),
+        put=(Token(texts[meant], meant, first.start, second.end),),
+        skip=2,
+        need=1,
+    )
+
+
+def foreign(situation: Situation, item: list[Token], keep: int) -> Iterator[Repair]:
+    """`in float x`: the word of another language in front of a type, which was read as the type."""
+    if situation.tables.language != "idsl" or len(item) < 2:
+        return
+    word, name = item[-2:]
+    if word.text not in _FOREIGN or not WORD.fullmatch(name.text):
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        word.start,
+        word.end,
+        f"IDSL has no `{word.text}`",
+        help=_FOREIGN[word.text],
+        title=f"delete `{word.text}`",
+        edits=((word.start, name.start, ""),),
+        put=(*item[:-2], name),
+        keep=keep,
         need=1,
     )
 
@@ -118,7 +204,7 @@ def bad_name(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     if not run or run.end() <= token.start:
         return
     word = run.group()
-    right = re.sub(r"\W", "_", word, flags=re.ASCII)
+    right = _plain(word)
     right = f"_{right}" if right[0].isdigit() else right
     yield Repair(
         codes.BAD_NAME,
@@ -132,6 +218,15 @@ def bad_name(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         skip=_tokens_before(situation, run.end()),
         need=1,
     )
+
+
+def _plain(word: str) -> str:
+    """`word` in the letters that names have, as people write it where there are no others."""
+    if word[:-1].isascii() and len(word) > 2 and word[-1].isalpha():
+        word = word[:-1]  # a key beside the one that was meant
+    apart = unicodedata.normalize("NFKD", word.replace("ñ", "ny").replace("Ñ", "NY"))
+    bare = "".join(sign for sign in apart if not unicodedata.combining(sign))
+    return re.sub(r"\W", "_", bare, flags=re.ASCII)
 
 
 def no_name(situation: Situation, accepted: list[str]) -> Iterator[Repair]:

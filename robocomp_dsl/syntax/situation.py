@@ -72,6 +72,10 @@ class Situation:
         """Whether the token that does not fit begins a line."""
         return "\n" in self.source.text[self.before.end : self.ahead[0].start]
 
+    def one_sign(self) -> bool:
+        """Whether all that is wrong is a sign that has no meaning."""
+        return self.ahead[0].kind == "STRAY" and self.reach(skip=1) >= 2
+
     def place(self) -> tuple[int, int]:
         """The characters to point at: the token that does not fit, or the end of what was read."""
         token = self.ahead[0]
