@@ -41,7 +41,8 @@ class Beginning:
 class ArmControl:
     """`trouble` says why the arm does not answer, empty while it does; `moving` whether it moves.
 
-    What lasts (speeds, torques, glides) ends `hold` s after the last command; 0: never.
+    What lasts (speeds, torques, glides) ends `hold` s after the last command; 0: never. Torques are
+    renewed in every period, since a board lets go of who falls silent.
     """
 
     def __init__(self, arm: GenericArm, boards: Boards, clock: Clock, begin: Beginning) -> None:
@@ -51,6 +52,7 @@ class ArmControl:
         self._reached = self._known = False
         self._aiming, self._sent, self._sending = False, 0, 0
         self._glide: Floats | None = None
+        self._push: Orders | None = None
         self._springs = _springs(arm.part) if begin.compliant else None
         self._ends = np.inf
 
@@ -65,7 +67,8 @@ class ArmControl:
             warning = self._go_on() or warning
         except Exception as error:
             self.trouble = str(error) or type(error).__name__
-            self._reached, self._glide, self._ends = False, None, np.inf
+            self._reached, self._ends = False, np.inf
+            self._glide = self._push = None
             raise
         self.trouble = ""
         return warning
@@ -83,6 +86,7 @@ class ArmControl:
         lasts = orders.control in LASTING and self.hold > 0
         self._ends = self._clock.now() + self.hold if lasts else np.inf
         self._glide = glide
+        self._push = orders if orders.control is Control.TORQUE else None
         self._sent += 1
         self._aiming = orders.control is Control.POSITION
         self.moving |= self._aiming
@@ -102,7 +106,8 @@ class ArmControl:
 
     def stop(self) -> None:
         """End every motion."""
-        self._glide, self._ends, self._aiming = None, np.inf, False
+        self._glide = self._push = None
+        self._ends, self._aiming = np.inf, False
         self._boards.stop()
 
     def _reach(self) -> str:
@@ -138,15 +143,18 @@ class ArmControl:
         self.moving = self._aiming or bool((np.abs(state.velocity) > STILL).any())
 
     def _go_on(self) -> str:
-        """Turn a glide into new joint speeds; end what has lasted long enough, or is refused."""
+        """Turn a glide into new joint speeds, push again; end what has lasted, or is refused."""
         if self._clock.now() >= self._ends:
             self.stop()
-        elif self._glide is not None and not self._sending:
+        elif not self._sending and (self._glide is not None or self._push is not None):
+            orders = self._push if self._glide is None else self.arm.glide(self._glide)
+            assert orders is not None  # noqa: S101  one of the two lasts
             try:
-                self._boards.send(self.arm.glide(self._glide), self.hold)
+                self._boards.send(orders, self.hold)
             except Refusal as error:
                 self.stop()
-                return f"the hand glides no further: {error}"
+                what = "is pushed" if self._glide is None else "glides"
+                return f"the hand {what} no further: {error}"
             except Overtaken:
                 pass  # by a command that will tell what comes next
         return ""

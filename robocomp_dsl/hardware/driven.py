@@ -42,7 +42,7 @@ class Hardware:
         self.devices = _Devices(self, tuple(ids))
         self.device: Any = None
         self.why = "it has not been opened yet"
-        self._motors = motors
+        self._motors, self._reference_timeout = motors, 0.0
 
     def serve(self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]) -> dict[str, Port]:
         """The ports of a component, answered by the device."""
@@ -56,6 +56,7 @@ class Hardware:
             self.driver.open()
             if self._motors:
                 made = DrivenBoard(cast(MotorBus, self.driver), self.turns)
+                made.settings.set_reference_timeout(self._reference_timeout)
                 made.start()
                 self.device = made
             else:
@@ -65,6 +66,13 @@ class Hardware:
         except FAILURES as error:
             self.let_go(error)
             raise HardwareError(self.why) from None
+
+    def set_reference_timeout(self, seconds: float) -> None:
+        """How long who pushes motors may be silent [s]; 0: for ever."""
+        self._reference_timeout = seconds
+        if isinstance(self.device, DrivenBoard):
+            with self.turns:
+                self.device.settings.set_reference_timeout(seconds)
 
     def close(self) -> None:
         """Leave the device at rest."""

@@ -187,3 +187,21 @@ def where(arm: Served, frame: str) -> list[float]:
     body = data.body(frame)
     found: list[float] = axes.matrix(body.xpos, body.xmat)[:3, 3].tolist()
     return found
+
+
+def test_a_joint_that_nobody_pushes_any_more_holds_its_place(arm: Served) -> None:
+    board, i = arm.ports["ControlBoard"], arm.types
+    arm.simulation.set_reference_timeout(0.2)
+    board.setControlMode(["elbow"], i.ControlMode.Torque)
+    for _ in range(5):
+        board.setTorque(["elbow"], np.array([0.05]))
+        arm.simulation.advance(0.1)
+    assert board.getState().modes[1] is i.ControlMode.Torque
+    arm.simulation.advance(0.2)
+    state = board.getState()
+    assert state.modes[1] is i.ControlMode.Position
+    assert state.interactions[1] is i.InteractionMode.Compliant
+    assert state.faults.tolist() == [0, 7, 0]
+    assert board.getLastFault("elbow").what == "no reference came for 0.2 s: it holds its place"
+    arm.simulation.reset()  # what was set lives on
+    assert board.getVariable("reference_timeout").tolist() == [0.2]

@@ -10,8 +10,9 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
+from robocomp_dsl.hardware.control.faults import Fault
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
-from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.driven import Hardware
 from robocomp_dsl.hardware.errors import HardwareError, NotWritten
 from robocomp_dsl.hardware.rules import RULES, Broken, Rule
@@ -121,6 +122,26 @@ def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
     motor.torque = 1.0
     hardware.close()
     assert motor.torque == 0.0
+
+
+def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
+    hardware: Hardware, motor: Motor
+) -> None:
+    hardware.set_reference_timeout(3600.0)
+    with hardware.working():
+        device = hardware.devices["pan"]
+    with hardware.turns:
+        device.commands.set_mode(None, Mode.TORQUE)
+        device.commands.set_torque(None, 0.05)
+    until(lambda: motor.velocity > 0.1)
+    assert device.board.table.modes == [Mode.TORQUE]
+    hardware.set_reference_timeout(0.001)
+    until(lambda: device.board.table.modes == [Mode.POSITION])
+    with hardware.turns:
+        state = device.board.state()
+    assert state.interactions == (Interaction.COMPLIANT,)
+    assert state.faults.tolist() == [Fault.SILENCE]
+    until(lambda: abs(motor.velocity) < 0.01)
 
 
 @pytest.mark.parametrize("rule", RULES["joint"], ids=str)

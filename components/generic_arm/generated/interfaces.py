@@ -78,6 +78,8 @@ Modes = list[ControlMode]
 _Modes = rt.Sequence(ControlMode)
 Interactions = list[InteractionMode]
 _Interactions = rt.Sequence(InteractionMode)
+Codes = rt.Int32Array
+_Codes = rt.Array(rt.INT)
 
 
 class BoardState(rt.Struct):
@@ -86,12 +88,14 @@ class BoardState(rt.Struct):
     time [s]
     motorCounts: Encoder counts of the motors, and counts per second.
     temperature: In degrees Celsius.
+    faults: Of the faults that nobody has cleared yet, 0 for none; getLastFault has the words.
     """
 
     __slots__ = (
         "acceleration",
         "current",
         "duty",
+        "faults",
         "interactions",
         "modes",
         "motorCounts",
@@ -117,6 +121,7 @@ class BoardState(rt.Struct):
         ("temperature", _Values),
         ("modes", _Modes),
         ("interactions", _Interactions),
+        ("faults", _Codes),
     )
 
     def __init__(
@@ -134,6 +139,7 @@ class BoardState(rt.Struct):
         temperature: Values | None = None,
         modes: Modes | None = None,
         interactions: Interactions | None = None,
+        faults: Codes | None = None,
     ) -> None:
         self.time = time
         self.position = np.zeros(0, np.float64) if position is None else position
@@ -154,6 +160,7 @@ class BoardState(rt.Struct):
         )
         self.modes = [] if modes is None else modes
         self.interactions = [] if interactions is None else interactions
+        self.faults = np.zeros(0, np.int32) if faults is None else faults
 
 
 class Targets(rt.Struct):
@@ -314,7 +321,9 @@ class Impedance(rt.Struct):
 
 
 class JointFault(rt.Struct):
-    """The last fault of a joint; code 0 for none."""
+    """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder, 4 tracking, 5 calibration,
+    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set.
+    """
 
     __slots__ = ("code", "what")
     _fields_ = (("code", rt.INT), ("what", rt.STRING))
@@ -1262,7 +1271,8 @@ class ControlBoardProxy(rt.Proxy):
         return self._call_setVelocity(joints, velocity)
 
     def setTorque(self, joints: Names, torque: Values) -> RoboCompControlBoard_Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise Refused, UnknownJoint, WrongMode.
         """

@@ -679,7 +679,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1014,7 +1015,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1349,7 +1351,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1688,7 +1691,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2027,7 +2031,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2362,7 +2367,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """

@@ -326,6 +326,8 @@ Modes = list[ControlMode]
 _Modes = rt.Sequence(ControlMode)
 Interactions = list[InteractionMode]
 _Interactions = rt.Sequence(InteractionMode)
+Codes = rt.Int32Array
+_Codes = rt.Array(rt.INT)
 
 
 class BoardState(rt.Struct):
@@ -334,12 +336,14 @@ class BoardState(rt.Struct):
     time [s]
     motorCounts: Encoder counts of the motors, and counts per second.
     temperature: In degrees Celsius.
+    faults: Of the faults that nobody has cleared yet, 0 for none; getLastFault has the words.
     """
 
     __slots__ = (
         "acceleration",
         "current",
         "duty",
+        "faults",
         "interactions",
         "modes",
         "motorCounts",
@@ -365,6 +369,7 @@ class BoardState(rt.Struct):
         ("temperature", _RoboCompControlBoard_Values),
         ("modes", _Modes),
         ("interactions", _Interactions),
+        ("faults", _Codes),
     )
 
     def __init__(
@@ -382,6 +387,7 @@ class BoardState(rt.Struct):
         temperature: RoboCompControlBoard_Values | None = None,
         modes: Modes | None = None,
         interactions: Interactions | None = None,
+        faults: Codes | None = None,
     ) -> None:
         self.time = time
         self.position = np.zeros(0, np.float64) if position is None else position
@@ -402,6 +408,7 @@ class BoardState(rt.Struct):
         )
         self.modes = [] if modes is None else modes
         self.interactions = [] if interactions is None else interactions
+        self.faults = np.zeros(0, np.int32) if faults is None else faults
 
 
 class Targets(rt.Struct):
@@ -562,7 +569,9 @@ class Impedance(rt.Struct):
 
 
 class JointFault(rt.Struct):
-    """The last fault of a joint; code 0 for none."""
+    """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder, 4 tracking, 5 calibration,
+    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set.
+    """
 
     __slots__ = ("code", "what")
     _fields_ = (("code", rt.INT), ("what", rt.STRING))

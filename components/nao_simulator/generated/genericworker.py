@@ -735,7 +735,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1070,7 +1071,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1405,7 +1407,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1740,7 +1743,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2075,7 +2079,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2410,7 +2415,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2745,7 +2751,8 @@ class GenericWorker(Component):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """

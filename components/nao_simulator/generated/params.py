@@ -169,6 +169,16 @@ class NaoSimulatorParams(Parameters):
             choices=("reset", "stop"),
             doc="What happens when the physics leaves the range of finite numbers.",
         ),
+        Parameter(
+            "reference_timeout",
+            "float",
+            default=0.5,
+            low=0.0,
+            high=3600.0,
+            unit="s",
+            live=True,
+            doc="A joint that gets no torques, duty cycles or currents any more holds its place after so long; 0: never.",
+        ),
         Group(
             "skin",
             SkinGroup,
@@ -186,5 +196,7 @@ class NaoSimulatorParams(Parameters):
     noise: float
     # What happens when the physics leaves the range of finite numbers.
     diverged: Literal["reset", "stop"]
+    # A joint that gets no torques, duty cycles or currents any more holds its place after so long; 0: never.
+    reference_timeout: float
     # How all skin is set up; compensation works forces out from raw values, as on robots.
     skin: SkinGroup

@@ -83,6 +83,7 @@ class Simulator(GenericWorker):
                 speed=given.speed,
                 noise=given.noise,
                 diverged=given.diverged,
+                reference_timeout=given.reference_timeout,
                 skin=skin_settings(given.skin),
             ),
         )
@@ -150,6 +151,11 @@ class Simulator(GenericWorker):
         """Its sensors have more or less noise from now on."""
         with self.simulation.turns:
             self.simulation.noise.set(self.params.noise)
+
+    def did_set_reference_timeout(self, old: float) -> None:
+        """Who pushes joints may be silent so long from now on."""
+        with self.simulation.turns:
+            self.simulation.set_reference_timeout(self.params.reference_timeout)
 
     def will_set_skin_dead(self, value: str) -> None:
         """Only taxels that are there can be dead."""
@@ -432,7 +438,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -807,7 +814,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1182,7 +1190,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1557,7 +1566,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1932,7 +1942,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2307,7 +2318,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2682,7 +2694,8 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         torque: RoboCompControlBoard_Values,
     ) -> Flags:
-        """Reference torques.
+        """Reference torques. Torques, duty cycles and currents are to be sent again and again: a joint that gets none
+        for the time in the variable `reference_timeout` [s] holds its place.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """

@@ -23,6 +23,7 @@ from robocomp_dsl.generate.scene import free, lower
 from robocomp_dsl.generate.scene_files import locate
 from robocomp_dsl.generate.simulator.handlers import SKIN, simulator_code
 from robocomp_dsl.generate.simulator.offers import (
+    BOARDS,
     CLOCK,
     USUAL_RATE,
     Published,
@@ -74,6 +75,11 @@ class Simulator:
     def title(self) -> str:
         """The name as the first part of the name of a class."""
         return camel(self.name)
+
+    @property
+    def pushed(self) -> bool:
+        """Whether it has joints that may be pushed."""
+        return any(one.interface == BOARDS for one in self.ports)
 
     @property
     def published(self) -> str:

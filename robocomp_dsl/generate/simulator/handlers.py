@@ -15,10 +15,13 @@ from robocomp_dsl.generate.simulator.offers import Published, period_of
 from robocomp_dsl.generate.worker_imports import specific_imports
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.interface import Operation
-from robocomp_dsl.model.parameter import Kind
+from robocomp_dsl.model.parameter import Kind, Parameter
 
 SKIN = "skin"
 """The group of parameters that a world with skin has."""
+
+PUSHED = "reference_timeout"
+"""The parameter that a control board has."""
 
 _TYPES = {Kind.STRING: "str", Kind.FLOAT: "float", Kind.BOOL: "bool"}
 
@@ -37,7 +40,8 @@ class SimulatorCode:
     """The module. `source` is the file that the world was described in.
 
     `topics` are published in every period, `streams` by the devices themselves; `skin` are the
-    names and types of the parameters of a skin, if there is one.
+    names and types of the parameters of a skin, if there is one; `pushed`: there is a parameter
+    for joints that nobody pushes any more.
     """
 
     title: str
@@ -48,6 +52,7 @@ class SimulatorCode:
     topics: tuple[str, ...]
     streams: tuple[str, ...]
     skin: tuple[tuple[str, str], ...]
+    pushed: bool
 
 
 def simulator_code(
@@ -72,6 +77,7 @@ def simulator_code(
         ),
         streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
         skin=_skin_parameters(component),
+        pushed=any(one.name == PUSHED for one in _parameters(component)),
     )
 
 
@@ -83,9 +89,13 @@ def _streams(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterato
         yield layout.statement("", layout.call(f"{port}.publish", *told), BODY)
 
 
+def _parameters(component: Component) -> Sequence[Parameter]:
+    return component.parameters.parameters if component.parameters else ()
+
+
 def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
     """The live parameters of the group `skin` with their types; none without skin."""
-    given = component.parameters.parameters if component.parameters else ()
+    given = _parameters(component)
     found = next((one for one in given if one.name == SKIN and one.members), None)
     return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
 

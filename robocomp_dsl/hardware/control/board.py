@@ -24,6 +24,7 @@ from robocomp_dsl.hardware.control.motors import Motors
 from robocomp_dsl.hardware.control.pid import PidBank, default_gains
 from robocomp_dsl.hardware.control.references import References
 from robocomp_dsl.hardware.control.state import BoardState
+from robocomp_dsl.hardware.control.watchdog import Watchdog
 
 
 class Board:
@@ -39,7 +40,7 @@ class Board:
         self.references = References(spec, self.limits)
         self.law = Law(self.pid, self.impedance, self.motors)
         self.ease = Ease(self.limits, self.pid)
-        self.table = ModeTable(spec)
+        self.table, self.watchdog = ModeTable(spec), Watchdog(spec)
         self.leaders: list[Callable[[float], None]] = []
         self.time, self.dt = 0.0, 0.001
         self.offset = np.zeros(n)
@@ -77,6 +78,8 @@ class Board:
         self.time += dt
         self.dt = dt
         self._sense(position, velocity, dt)
+        if self.time >= self.watchdog.due:
+            self._hold(self.watchdog.silent(self.time))
         for lead in self.leaders:
             lead(dt)
         self.references.step(self.position, dt)
@@ -94,6 +97,7 @@ class Board:
     def set_modes(self, joints: Ints, modes: Sequence[Mode]) -> None:
         """Change control modes; raises `ModeRefused` and then changes none."""
         changed = self.table.request(joints, modes)
+        self.faults.clear(self.table.whole(joints))
         if len(changed):
             self._begin(changed)
 
@@ -115,6 +119,12 @@ class Board:
             self.table.force(joint, Mode.HW_FAULT)
         self._begin(whole)
         self.torque = self.torque * self.law.driven
+
+    def push(self, kind: Floats, joints: Ints, values: Floats) -> None:
+        """References of `kind`: the torques, duty cycles or currents of the law."""
+        kind[joints] = values
+        self.law.apply()
+        self.watchdog.feed(joints, self.time)
 
     def set_encoders(self, joints: Ints, position: Floats) -> None:
         """Let the encoders of `joints` stand at `position` now; references move along."""
@@ -145,6 +155,7 @@ class Board:
             temperature=self.motors.temperature.copy(),
             modes=tuple(self.table.modes),
             interactions=self.table.interactions,
+            faults=self.faults.now.copy(),
         )
 
     def _begin(self, joints: Ints) -> None:
@@ -155,7 +166,16 @@ class Board:
         self.law.torque[joints] = np.where(idle, 0.0, self.torque[joints])
         self.law.duty[joints] = 0.0
         self.law.current[joints] = 0.0
+        self.watchdog.follow(joints, [self.table.modes[i] for i in joints.tolist()], self.time)
         self.refresh()
+
+    def _hold(self, joints: Ints) -> None:
+        """Nobody pushes `joints` any more: they hold their places, giving way like springs."""
+        said = f"no reference came for {self.watchdog.timeout:g} s: it holds its place"
+        self.faults.raise_(joints, Fault.SILENCE, said)
+        for joint in joints.tolist():
+            self.table.yield_(joint)
+        self._begin(joints)
 
     def _sense(self, position: Floats, velocity: Floats, dt: float) -> None:
         if not math.isfinite(float(position.dot(velocity))):

@@ -135,7 +135,6 @@ class Commands:
 
     def _store(self, into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
         kept = np.minimum(np.maximum(values, -most), most)
-        into[joints] = kept
-        self._board.law.apply()
+        self._board.push(into, joints, kept)
         clipped: Bools = kept != values
         return clipped

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
+from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints
 from robocomp_dsl.hardware.control.motors import Motors
 
+Codes = NDArray[np.int32]
+
 
 class Fault(IntEnum):
-    """What a joint's fault is; the number is its code."""
+    """What a joint's fault is; the number is its code. `SILENCE` alone leaves the motor on."""
 
     NONE = 0
     OVERCURRENT = 1
@@ -21,6 +24,7 @@ class Fault(IntEnum):
     TRACKING = 4
     CALIBRATION = 5
     EXTERNAL = 6
+    SILENCE = 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,15 +39,24 @@ _NONE = FaultReport(Fault.NONE, "")
 
 
 class Faults:
-    """The last fault of each joint; kept after it is cleared, so that one can ask why."""
+    """The last fault of each joint; kept after it is cleared, so that one can ask why.
+
+    `now` (n,) are the codes of faults that nobody has cleared by a change of mode.
+    """
 
     def __init__(self, size: int) -> None:
         self.last = [_NONE] * size
+        self.now: Codes = np.zeros(size, np.int32)
 
     def raise_(self, joints: Ints, code: Fault, message: str) -> None:
         """Note a fault of `joints`."""
         for joint in joints.tolist():
             self.last[joint] = FaultReport(code, message)
+        self.now[joints] = code
+
+    def clear(self, joints: Ints) -> None:
+        """Somebody has taken hold of `joints` again."""
+        self.now[joints] = Fault.NONE
 
 
 def overloaded(motors: Motors, current: Floats) -> Bools:

@@ -21,16 +21,22 @@ class ModeTable:
         self.modes = [Mode.IDLE if done else Mode.NOT_CONFIGURED for done in self.calibrated]
         self._interactions = [Interaction.STIFF] * len(spec.joints)
         self.acting: dict[int, Mode] = {}
+        self._yielding: set[int] = set()
 
     @property
     def interactions(self) -> tuple[Interaction, ...]:
-        """Interaction modes; a joint with a fault reads stiff and gets its own back afterwards."""
-        if Mode.HW_FAULT not in self.modes:
+        """Interaction modes; a joint with a fault reads stiff and gets its own back afterwards.
+
+        So does one that yields, which reads compliant.
+        """
+        if Mode.HW_FAULT not in self.modes and not self._yielding:
             return tuple(self._interactions)
-        return tuple(
-            Interaction.STIFF if mode is Mode.HW_FAULT else interaction
-            for mode, interaction in zip(self.modes, self._interactions, strict=True)
-        )
+        return tuple(map(self._interaction, range(len(self.modes))))
+
+    def _interaction(self, joint: int) -> Interaction:
+        if self.modes[joint] is Mode.HW_FAULT:
+            return Interaction.STIFF
+        return Interaction.COMPLIANT if joint in self._yielding else self._interactions[joint]
 
     @property
     def effective(self) -> list[Mode]:
@@ -54,7 +60,11 @@ class ModeTable:
             joint: next_mode(names[joint], self.modes[joint], mode, calibrated=bool(done[joint]))
             for joint, mode in asked.items()
         }
-        changed = [joint for joint, mode in found.items() if mode is not self.modes[joint]]
+        changed = [
+            joint
+            for joint, mode in found.items()
+            if mode is not self.modes[joint] or joint in self._yielding
+        ]
         for joint in changed:
             self.force(joint, found[joint])
         return np.array(sorted(changed), dtype=np.int64)
@@ -62,9 +72,16 @@ class ModeTable:
     def force(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
         """Put a joint into a mode that it comes into by itself; driven as `acting`, if given."""
         self.modes[joint] = mode
+        self._yielding.discard(joint)
         self.acting.pop(joint, None)
         if acting is not None:
             self.acting[joint] = acting
+
+    def yield_(self, joint: int) -> None:
+        """Let a joint hold its place by itself, compliant if it can be, until it is told more."""
+        self.force(joint, Mode.POSITION)
+        if self._spec.joints[joint].torque_control:
+            self._yielding.add(joint)
 
     def interact(self, joints: Ints, wanted: Sequence[Interaction]) -> None:
         """Change the interaction modes. Raises `NotEquipped`, `ModeRefused`; then none changes."""
@@ -76,3 +93,4 @@ class ModeTable:
                 raise ModeRefused(f"`{spec.name}` has a hardware fault; clear it first (`fidl`)")
         for joint, interaction in zip(joints.tolist(), wanted, strict=True):
             self._interactions[joint] = interaction
+            self._yielding.discard(joint)

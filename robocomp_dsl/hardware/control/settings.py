@@ -106,6 +106,10 @@ class Settings:
         values = numbers("counts", counts, len(chosen))
         self._board.motors.set_encoder(chosen, values, self._board.position)
 
+    def set_reference_timeout(self, seconds: float) -> None:
+        """How long who pushes torques, duty cycles or currents may be silent [s]; 0: for ever."""
+        self._board.watchdog.set_timeout(seconds)
+
     def last_fault(self, joint: str | int) -> FaultReport:
         """The last fault of a joint, also after it was cleared."""
         return self._board.faults.last[self._board.select.index(joint)]

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from robocomp_dsl.hardware.control.faults import Codes
 from robocomp_dsl.hardware.control.joints import Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BoardState:
-    """All arrays (n,), in the order of the board: rad, rad/s, rad/s², N m, counts, A, percent."""
+    """All arrays (n,), in the order of the board: rad, rad/s, rad/s², N m, counts, A, percent.
+
+    `faults` are codes, 0 for none.
+    """
 
     time: float
     position: Floats
@@ -25,3 +29,4 @@ class BoardState:
     temperature: Floats
     modes: tuple[Mode, ...]
     interactions: tuple[Interaction, ...]
+    faults: Codes

@@ -46,6 +46,11 @@ class RemoteVariables:
                 lambda v: board.pid.set_error_limits(here, v),
                 "position errors that fault [rad]",
             ),
+            "reference_timeout": Variable(
+                lambda: np.array([board.watchdog.timeout]),
+                None,
+                "silence after which a pushed joint holds its place [s]",
+            ),
             "gears": Variable(lambda: motors.gear[here], None, "motor turns per joint turn"),
             "temperatures": Variable(
                 lambda: motors.temperature[here], None, "of the motors [degC]"

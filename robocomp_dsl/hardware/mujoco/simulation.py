@@ -20,6 +20,7 @@ from robocomp_dsl.hardware.mujoco.branch import Branch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.mujoco.overlaps import overlaps_of
 from robocomp_dsl.hardware.mujoco.scene_devices import parts_of
+from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard
 from robocomp_dsl.hardware.mujoco.scene_limits import fitting
 from robocomp_dsl.hardware.mujoco.scene_skins import skin_parts
 from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
@@ -51,7 +52,8 @@ class Options:
     """How a world runs.
 
     `step` of the physics in s; `speed` in simulated seconds per second, 0: as fast as it can;
-    `noise` is a factor on what the devices declare; `skin` is how all skin in it is set up.
+    `noise` is a factor on what the devices declare; `skin` is how all skin in it is set up;
+    `reference_timeout` is how long who pushes joints may be silent [s], 0: for ever.
     """
 
     seed: int = 1
@@ -60,6 +62,7 @@ class Options:
     noise: float = 1.0
     diverged: Literal["reset", "stop"] = "reset"
     skin: SkinSettings = field(default_factory=SkinSettings)
+    reference_timeout: float = 0.0
 
 
 class Simulation:
@@ -72,6 +75,7 @@ class Simulation:
         self.noise = NoiseLevel(options.noise)
         self.skin = SkinStream()
         self._skin_settings = options.skin
+        self._reference_timeout = options.reference_timeout
         self._skins: set[str] = set()
         self.seed = options.seed
         self.failure = ""
@@ -137,6 +141,7 @@ class Simulation:
         for one in branch.devices.values():
             if hasattr(one, "turns"):  # it looks at the world when it likes
                 one.turns = self.turns
+        self.set_reference_timeout(self._reference_timeout)
         self.failure = ""
 
     def _follow_skin(self, branch: Branch) -> None:
@@ -146,6 +151,13 @@ class Simulation:
         self.skin.adjust(self._skin_settings)
         self._skins.update(ids)
         self.devices.update(dict.fromkeys(self._skins, self.skin))
+
+    def set_reference_timeout(self, seconds: float) -> None:
+        """How long who pushes torques or currents may be silent [s]; 0: for ever."""
+        self._reference_timeout = seconds
+        for one in dict.fromkeys(self.branch.devices.values()):
+            if isinstance(one, JointBoard):
+                one.settings.set_reference_timeout(seconds)
 
     def set_skin(self, settings: SkinSettings) -> None:
         """Set up all skin anew."""

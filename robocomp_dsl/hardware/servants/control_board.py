@@ -91,6 +91,7 @@ class ControlBoardServant(BoardSettings):
             interactions=self._interactions.told(
                 self.types.InteractionMode, [it.interactions[i] for i in listed]
             ),
+            faults=it.faults[here],
         )
 
     def getTargets(self, joints: Names) -> Any:

@@ -1,0 +1,107 @@
+"""Who pushes torques, duty cycles or currents must go on doing so, or the joint holds its place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from simulated_arm import Arm
+
+from robocomp_dsl.hardware.control.errors import BadValue
+from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.variables import RemoteVariables
+
+ELBOW = 3
+PUSHES = {
+    Mode.TORQUE: lambda command: command.set_torque([ELBOW], 0.3),
+    Mode.PWM: lambda command: command.set_duty([ELBOW], 5.0),
+    Mode.CURRENT: lambda command: command.set_current([ELBOW], 0.05),
+}
+
+
+def ready(name: str, seconds: float, mode: Mode) -> Arm:
+    arm = Arm(name)
+    arm.command.set_mode(None, Mode.POSITION)
+    arm.settings.set_reference_speed(None, 1.0)
+    arm.go(None, arm.inside)
+    arm.settings.set_reference_timeout(seconds)
+    arm.command.set_mode([ELBOW], mode)
+    return arm
+
+
+@pytest.mark.parametrize("mode", PUSHES)
+@pytest.mark.parametrize("name", ["nao", "icub"])
+def test_a_joint_that_nobody_pushes_any_more_holds_its_place(name: str, mode: Mode) -> None:
+    arm = ready(name, 0.2, mode)
+    for _ in range(8):
+        PUSHES[mode](arm.command)
+        arm.world.advance(0.15)
+        assert arm.board.table.modes[ELBOW] is mode
+    arm.world.advance(0.1)
+    state = arm.board.state()
+    held = state.position[ELBOW]
+    assert state.modes[ELBOW] is Mode.POSITION
+    assert state.interactions[ELBOW] is Interaction.COMPLIANT
+    assert np.flatnonzero(state.faults).tolist() == [ELBOW]
+    assert state.faults[ELBOW] == Fault.SILENCE
+    report = arm.settings.last_fault(ELBOW)
+    assert (report.code, report.message) == (
+        Fault.SILENCE,
+        "no reference came for 0.2 s: it holds its place",
+    )
+    arm.world.advance(2.0)
+    assert arm.board.position[ELBOW] == pytest.approx(held, abs=0.2)
+    assert arm.board.velocity[ELBOW] == pytest.approx(0.0, abs=0.01)
+
+
+def test_who_takes_hold_again_finds_the_joint_as_it_was() -> None:
+    arm = ready("nao", 0.1, Mode.TORQUE)
+    arm.world.advance(0.2)
+    assert arm.board.table.interactions[ELBOW] is Interaction.COMPLIANT
+    arm.command.set_mode([ELBOW], Mode.POSITION)
+    state = arm.board.state()
+    assert state.interactions[ELBOW] is Interaction.STIFF
+    assert not state.faults.any()
+    assert arm.settings.last_fault(ELBOW).code is Fault.SILENCE
+    arm.go([ELBOW], arm.inside[[ELBOW]])
+    assert arm.board.position[ELBOW] == pytest.approx(arm.inside[ELBOW], abs=0.02)
+
+
+def test_a_mode_that_is_entered_and_never_fed_ends_too() -> None:
+    arm = ready("nao", 0.1, Mode.TORQUE)
+    arm.world.advance(0.09)
+    assert arm.board.table.modes[ELBOW] is Mode.TORQUE
+    arm.world.advance(0.02)
+    assert arm.board.table.modes[ELBOW] is Mode.POSITION
+
+
+def test_joints_that_share_motors_are_fed_together_and_let_go_together() -> None:
+    arm = Arm("icub")
+    arm.settings.set_reference_timeout(0.1)
+    arm.command.set_mode([0], Mode.TORQUE)
+    for _ in range(5):
+        arm.command.set_torque([1], 0.1)
+        arm.world.advance(0.05)
+    assert [arm.board.table.modes[i] for i in range(3)] == [Mode.TORQUE] * 3
+    arm.world.advance(0.1)
+    assert [arm.board.table.modes[i] for i in range(3)] == [Mode.POSITION] * 3
+    assert arm.board.table.modes[ELBOW] is Mode.IDLE
+
+
+def test_patience_changes_at_once_and_0_is_for_ever() -> None:
+    arm = ready("nao", 0.0, Mode.TORQUE)
+    arm.world.advance(3.0)
+    assert arm.board.table.modes[ELBOW] is Mode.TORQUE
+    assert RemoteVariables(arm.board).get("reference_timeout").tolist() == [np.inf]
+    arm.settings.set_reference_timeout(5.0)
+    arm.world.advance(1.0)
+    assert arm.board.table.modes[ELBOW] is Mode.TORQUE
+    arm.settings.set_reference_timeout(0.5)
+    arm.world.advance(0.002)
+    assert arm.board.table.modes[ELBOW] is Mode.POSITION
+
+
+@pytest.mark.parametrize("wrong", [-0.1, np.nan, np.inf])
+def test_a_time_of_silence_is_a_time(wrong: float) -> None:
+    with pytest.raises(BadValue, match="a time of silence"):
+        Arm("nao").settings.set_reference_timeout(wrong)
