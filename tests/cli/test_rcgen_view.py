@@ -69,7 +69,7 @@ def test_what_is_asked_for_is_in_the_picture(tmp_path: Path, more: str) -> None:
         ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", ":3:1"),
         ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", "RC651]: there are two links `a`"),
         ("<mujoco>\n  <geom/></mujoco>", ":2:3"),
-        ("<innerModel>\n<trasform id='a'/></innerModel>", "did you mean `transform`?"),
+        ("<innerModl>\n<transform id='a'/></innerModl>", "did you mean `innerModel`?"),
         ("", "RC"),
     ],
 )

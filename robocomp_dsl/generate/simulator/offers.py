@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -159,6 +159,8 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
     """The ports for a lowered scene, in the order of the table."""
     taken = {one.lower() for one in (*_SHARED, *OF_THE_WORLD, CLOCK, COMPONENT)}
     found: list[ServedAs] = []
+    parents = {one["id"]: one["parent"] for one in scene["frames"]}
+    bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
     for interface in dict.fromkeys(one.interface for one in OFFERS):
         kinds = {one.kind: one for one in OFFERS if one.interface == interface}
         here = [d for d in scene["devices"] if d["kind"] in kinds]
@@ -171,7 +173,8 @@ def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
                 wanted = "_".join(filter(None, (identifier(device["id"]), offer.suffix)))
                 port = _free(wanted, taken)
                 pair = (device["id"], device["kind"])
-                found.append(ServedAs(port, interface, (pair,), tuple(_base(scene, device))))
+                beside = _base(device, parents, bases)
+                found.append(ServedAs(port, interface, (pair,), beside))
     return (*_boards(found, scene, taken), *(ServedAs(name, name) for name in OF_THE_WORLD))
 
 
@@ -246,15 +249,11 @@ def skin_rate(scene: dict[str, Any]) -> float:
     return float(min(max(*rates, slowest), fastest)) if rates else 0.0
 
 
-def _base(scene: dict[str, Any], device: dict[str, Any]) -> Iterator[str]:
-    """The mobile base that carries a laser or a camera with depth."""
-    if device["kind"] not in {"laser", "rgbd"}:
-        return
-    frames = {one["id"]: one for one in scene["frames"]}
-    bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
-    at = device["frame"]
-    while at:
-        if at in bases:
-            yield bases[at]
-            return
-        at = frames[at]["parent"]
+def _base(
+    device: dict[str, Any], parents: Mapping[str, str], bases: Mapping[str, str]
+) -> tuple[str, ...]:
+    """The mobile base that carries a laser or a camera with depth, by the frames of all bases."""
+    at = device["frame"] if device["kind"] in {"laser", "rgbd"} else ""
+    while at and at not in bases:
+        at = parents[at]
+    return (bases[at],) if at else ()

@@ -68,7 +68,7 @@ class BoardSpec:
             object.__setattr__(self, "coupling", np.eye(n))
         if len(self.motors) != n or self.coupling.shape != (n, n):
             raise BadValue(f"{n} joints need as many motors and a coupling of {n} x {n}")
-        if np.linalg.matrix_rank(self.coupling) < n:
+        if not _turns_round(self.coupling):
             raise BadValue("the coupling cannot be turned round: some joint has no motor")
 
     @cached_property
@@ -101,11 +101,26 @@ class BoardSpec:
 
     def coupled(self, joint: int) -> Ints:
         """All joints that share motors with `joint`, itself included, ascending."""
-        related = (self.coupling != 0) | (self.coupling.T != 0)
-        found = np.arange(len(self.joints)) == joint
-        for _ in range(len(self.joints)):
-            found = found | related[found].any(axis=0)
-        return np.flatnonzero(found)
+        return self._together[joint]
+
+    @cached_property
+    def _together(self) -> list[Ints]:
+        """The set of each joint; sets are merged along the entries off the diagonal."""
+        sets = {i: [i] for i in range(len(self.joints))}
+        for row, column in np.argwhere(self.coupling).tolist():
+            one, other = sets[row], sets[column]
+            if one is not other:
+                one += other
+                sets |= dict.fromkeys(other, one)
+        return [np.array(sorted(sets[i])) for i in range(len(self.joints))]
+
+
+def _turns_round(coupling: Floats) -> bool:
+    """Whether every joint has a motor; most boards need no search for their rank."""
+    own = np.diagonal(coupling)
+    if np.count_nonzero(coupling) == np.count_nonzero(own):
+        return bool(own.all())
+    return int(np.linalg.matrix_rank(coupling)) == len(own)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,7 @@ _MANY = 1000
 _USUAL = 2**24
 
 
-def make_room(spec: Any) -> None:
-    """Give many bodies the memory they need: collision detection lists all pairs of them."""
-    count = len(spec.bodies)
+def make_room(spec: Any, count: int) -> None:
+    """Give `count` bodies the memory they need: collision detection lists all pairs of them."""
     if spec.memory < 0 and count > _MANY:
         spec.memory = _USUAL + 3 * count * count

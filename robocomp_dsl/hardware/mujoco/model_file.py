@@ -59,7 +59,7 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Find
 
 def compiled(spec: Any, findings: list[Finding]) -> Any:
     """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
-    make_room(spec)
+    make_room(spec, len(spec.bodies))
     try:
         model = _compile(spec, findings)
     except ModelFileError as error:

@@ -29,24 +29,24 @@ from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.screen import Screen
 from robocomp_dsl.hardware.mujoco.touch_sensor import TouchSensor, TouchSettings
 from robocomp_dsl.hardware.mujoco.ultrasound import Ultrasound
-from robocomp_dsl.hardware.scene import ROOT, Device, Scene
+from robocomp_dsl.hardware.scene import ROOT, Device, Frame, Scene
 
 
 @dataclass(frozen=True, slots=True)
 class Site:
-    """A scene and what all its devices share."""
+    """The frames of a scene, and what all its devices share."""
 
-    scene: Scene
+    frames: Mapping[str, Frame]
     noise: NoiseLevel
 
     def carrier(self, frame: str) -> str:
         """The nearest frame from `frame` upwards that moves by itself; else `frame`."""
-        frames = {one.id: one for one in self.scene.frames}
         at = frame
         while at and at != ROOT:
-            if frames[at].drives or (frames[at].physics and frames[at].parent == ROOT):
+            one = self.frames[at]
+            if one.drives or (one.physics and one.parent == ROOT):
                 return at
-            at = frames[at].parent
+            at = one.parent
         return frame
 
 
@@ -187,7 +187,7 @@ def parts_of(
 
     A part in `kept` is used again, the board only where it has the same joints.
     """
-    site = Site(scene, noise)
+    site = Site({one.id: one for one in scene.frames}, noise)
     made = {
         one.id: kept.get(one.id) or SINGLE[one.kind](site, one)
         for one in scene.devices

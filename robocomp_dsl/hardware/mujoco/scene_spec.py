@@ -49,7 +49,7 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
             add_mesh(spec, bodies[mesh.frame], mesh, notes)
     except ValueError as error:
         raise SceneError(f"MuJoCo cannot build the world: {error}") from None
-    make_room(spec)
+    make_room(spec, len(bodies))
     return spec, notes
 
 
