@@ -115,3 +115,22 @@ Right:
     <transform id="arm" tx="100"/>
 """,
 )
+
+XML_COMMENT = Code(
+    "RC187",
+    Severity.WARNING,
+    "`--` inside of a comment",
+    """\
+A comment of XML ends with the first `-->`, and no other `--` may stand in it: RoboComp does not
+read such a file. So a comment cannot hold another one, and what stands behind the end of the inner
+one is no comment any more.
+
+Wrong:
+
+    <!-- the arm -- not used -->
+
+Right:
+
+    <!-- the arm, not used -->
+""",
+)

@@ -21,6 +21,7 @@ from robocomp_dsl.syntax.innermodel_attributes import decoded, ends, read_attrib
 from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.xml_tokens import ENDS, items
 
+_DASHES = re.compile(r"--+")
 _CLOSED = re.compile(r"</\s*([^\s<>]*)\s*([^<>]*)(>?)")
 
 
@@ -189,11 +190,43 @@ class _Builder:
             case "OPEN_COMMENT":
                 said = "the comment is not closed"
                 self.findings.add(codes.XML_TAG, start, start + 4, said, help="close it with `-->`")
+            case "ODD_COMMENT":
+                self._comment(token)
             case "DOCTYPE":
                 said = "a document type is not read: there are no entities but those of XML"
                 self.findings.add(codes.XML_DOCTYPE, start, end, said)
             case _:
                 self._text(token, start)
+
+    def _comment(self, token: Token) -> None:
+        """A comment with `--` in it: the beginning of another one, or a line of dashes."""
+        inner = token.text.find("<!--", 4)
+        if inner >= 0:
+            start = token.start + inner
+            self.findings.add(
+                codes.XML_COMMENT,
+                start,
+                start + 4,
+                "a comment cannot hold another one",
+                label="only part of a comment",
+                notes=(
+                    Note(self.source.span(token.start, token.start + 4), "it begins here"),
+                    Note(self.source.span(token.end - 3, token.end), "and has ended here"),
+                ),
+            )
+            return
+        # One dash in front of the end makes two with the first of `-->`.
+        found = _DASHES.finditer(self.source.text, token.start + 4, token.end - 2)
+        dashes = [(one.start(), min(one.end(), token.end - 3)) for one in found]
+        self.findings.add(
+            codes.XML_COMMENT,
+            *dashes[0],
+            "`--` may not stand in a comment",
+            fix=self.findings.fix(
+                "write `=` for each `-`",
+                *((start, end, "=" * (end - start)) for start, end in dashes),
+            ),
+        )
 
     def _text(self, token: Token, start: int) -> None:
         words = token.text.rstrip()
