@@ -6,10 +6,10 @@ In: spans and words. Out: `Diagnostic` values collected in a `Report`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 from difflib import get_close_matches
 from enum import StrEnum
 
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Span
 
 
@@ -21,8 +21,7 @@ class Severity(StrEnum):
     NOTE = "note"
 
 
-@dataclass(frozen=True, slots=True)
-class Code:
+class Code(Value):
     """What a kind of finding is: the text that `rcgen explain` prints.
 
     `explanation` says why it is wrong and shows a wrong and a right example.
@@ -34,32 +33,28 @@ class Code:
     explanation: str
 
 
-@dataclass(frozen=True, slots=True)
-class Note:
+class Note(Value):
     """A second place that explains a finding, often in another file."""
 
     span: Span
     message: str
 
 
-@dataclass(frozen=True, slots=True)
-class Edit:
+class Edit(Value):
     """Put `text` in the place of `span`."""
 
     span: Span
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class Fix:
+class Fix(Value):
     """Edits that remove a finding; applied together or not at all."""
 
     title: str
     edits: tuple[Edit, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnostic:
+class Diagnostic(Value):
     """One finding at one place. `label` stands beside the carets, `help` below the excerpt."""
 
     code: Code
@@ -76,11 +71,13 @@ class Diagnostic:
         return self.code.severity
 
 
-@dataclass(slots=True)
 class Report:
     """The findings of a run, in the order they were made; duplicates are dropped."""
 
-    _found: dict[tuple[str, Span, str], Diagnostic] = field(default_factory=dict)
+    __slots__ = ("_found",)
+
+    def __init__(self) -> None:
+        self._found: dict[tuple[str, Span, str], Diagnostic] = {}
 
     def add(
         self,

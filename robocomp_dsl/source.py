@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+
+from robocomp_dsl.record import Record
 
 MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are refused: no description of a component comes near it."""
@@ -35,8 +36,7 @@ class UnreadableSource(Exception):
     """The file cannot be used as a text; the message says why, in words for the user."""
 
 
-@dataclass(frozen=True, eq=False)
-class Source:
+class Source(Record):
     """One text as the user wrote it; `path` is how the user named it.
 
     `memory` is for texts that are edited: all texts of one file share it, and a parser keeps there
@@ -45,8 +45,9 @@ class Source:
 
     path: Path
     text: str
-    memory: dict[str, Any] | None = field(default=None, repr=False)
+    memory: dict[str, Any] | None = None
     shift = 0
+    __slots__ = ("__dict__",)  # for `line_starts`
 
     @classmethod
     def read(cls, path: Path) -> Source:
@@ -103,15 +104,17 @@ class Source:
         return Span(self, 0, 0)
 
 
-@dataclass(slots=True, eq=False)
 class Piece:
     """A part of a text that stays the same while the text around it is edited.
 
     `shift` is how far it has moved since it was read; the parser sets both when the text changes.
     """
 
-    source: Source
-    shift: int = 0
+    __slots__ = ("shift", "source")
+
+    def __init__(self, source: Source) -> None:
+        self.source = source
+        self.shift = 0
 
 
 class Span:

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from stat import S_ISREG
 from typing import Any, Generic, TypeVar
 
 from robocomp_dsl.diagnostics import Diagnostic, Report
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Source
 
 Tree = TypeVar("Tree")
@@ -22,8 +22,7 @@ Parser = Callable[[Source, Report], Tree]
 _Stamp = tuple[int, int, int]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Parsed(Generic[Tree_co]):
+class Parsed(Record, Generic[Tree_co]):
     """A text, its tree, and what the parser said about its form."""
 
     source: Source

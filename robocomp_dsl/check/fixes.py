@@ -9,10 +9,10 @@ was meant, which is the user's to take.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.diagnostics import Diagnostic, Edit, Severity
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source
 
 ROUNDS = 20
@@ -24,8 +24,7 @@ Change = tuple[int, int, str]
 """Put the text in the place [start, end)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(Value):
     """A text after its fixes: what was fixed, and what is still found in it."""
 
     text: str

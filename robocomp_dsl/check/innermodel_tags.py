@@ -6,10 +6,10 @@ The one table that reading, did-you-mean and completion share. Defaults are thos
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.model import body
+from robocomp_dsl.record import Value
 
 NUMBER = "a number"
 LENGTH = "a length: a number of mm, or with its unit (`0.5 m`)"
@@ -42,8 +42,7 @@ UNITS: Mapping[Kind, Mapping[str, float]] = {
 """What may stand behind a number of a kind, and what it is worth in the unit of the model."""
 
 
-@dataclass(frozen=True, slots=True)
-class Tag:
+class Tag(Value):
     """`made` is the class of the model.
 
     `holds`: which tags may stand inside (True: all that need no special place); `inside`: the tags

@@ -8,7 +8,6 @@ from __future__ import annotations
 import os
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.check import codes
@@ -25,6 +24,7 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import THIS_MACHINE, Host, Instance
+from robocomp_dsl.record import Value
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax.ast_base import Name, Number, Text
 
@@ -35,8 +35,7 @@ _CONFIGURATIONS = (".yaml", ".yml", ".toml")
 _LAST_PORT = 65535
 
 
-@dataclass(frozen=True, slots=True)
-class Surroundings:
+class Surroundings(Value):
     """What an instance may refer to. `path` is that of the DDSL file."""
 
     path: Path

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.check.files import Parsed
 from robocomp_dsl.diagnostics import Diagnostic, Severity
 from robocomp_dsl.model.interface import Module
+from robocomp_dsl.record import Record
 from robocomp_dsl.syntax import ast_idsl
 from robocomp_dsl.syntax.ast_base import Import
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Link:
+class Link(Record):
     """One import statement and the file it leads to, if it leads to one."""
 
     statement: Import
@@ -22,8 +21,7 @@ class Link:
     loaded: Loaded | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Loaded:
+class Loaded(Record):
     """One IDSL file. `findings` are about this file alone, form and meaning."""
 
     parsed: Parsed[ast_idsl.File]

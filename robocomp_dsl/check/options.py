@@ -5,10 +5,9 @@ In: the options as written. Out: what they add, and findings.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.check import codes
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.record import Value
 from robocomp_dsl.syntax import ast_cdsl as ast
 from robocomp_dsl.syntax.ast_base import Import, Name, QualifiedName, Text
 
@@ -20,8 +19,7 @@ _AGM_PORTS: tuple[tuple[ast.Role, str], ...] = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class Expanded:
+class Expanded(Value):
     """The imports and ports of a component with what its options add."""
 
     imports: tuple[Import, ...]

@@ -7,7 +7,6 @@ findings of this file, and the errors of the files that it names.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.files import Parsed
@@ -22,6 +21,7 @@ from robocomp_dsl.check.visible import Visible
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component, Port, Role
+from robocomp_dsl.record import Record
 from robocomp_dsl.syntax import ast_cdsl as ast
 from robocomp_dsl.syntax.ast_base import Number
 
@@ -31,12 +31,11 @@ _LONGEST_PERIOD = 24 * 60 * 60 * 1000
 _MOST_THREADS = 1024
 
 
-@dataclass(slots=True)
-class Resolved:
+class Resolved(Record):
     """A component, and for the rules: from written ports to ports."""
 
     component: Component
-    pairs: list[tuple[ast.Port, Port]] = field(default_factory=list)
+    pairs: list[tuple[ast.Port, Port]]
 
 
 def resolve_cdsl(

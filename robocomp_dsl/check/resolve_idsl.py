@@ -7,7 +7,6 @@ understood; each of those has been reported, and what depends on it is left out 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from robocomp_dsl.check import codes
@@ -20,16 +19,16 @@ from robocomp_dsl.check.visible import Visible
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model import interface as model
 from robocomp_dsl.model import types
+from robocomp_dsl.record import Record
 from robocomp_dsl.syntax import ast_idsl as ast
 from robocomp_dsl.syntax.ast_base import Node, QualifiedName
 
 
-@dataclass(slots=True)
-class Resolved:
+class Resolved(Record):
     """A module, and for the rules: from what was written to what it became."""
 
     module: model.Module
-    pairs: list[tuple[Node, object]] = field(default_factory=list)
+    pairs: list[tuple[Node, object]]
 
 
 def resolve_idsl(tree: ast.Module, path: Path, visible: Visible, report: Report) -> Resolved:

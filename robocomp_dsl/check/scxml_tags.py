@@ -6,13 +6,13 @@ The one table that reading and did-you-mean share.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from robocomp_dsl.record import Value
 
 NAMESPACE = "http://www.w3.org/2005/07/scxml"
 
 
-@dataclass(frozen=True, slots=True)
-class Tag:
+class Tag(Value):
     """`text`: whether words may stand inside; `unused`: why it has no effect here, if it has none.
 
     A tag that is `opaque` may hold whatever the author likes.

@@ -6,20 +6,19 @@ In: the name and the file that uses it. Out: the files that could be imported, a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.check.files import Files
 from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.search import Search
 from robocomp_dsl.diagnostics import Edit, Fix
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.syntax import parse_idsl
 from robocomp_dsl.syntax.ast_base import Import, QualifiedName
 
 
-@dataclass(frozen=True, slots=True)
-class Offer:
+class Offer(Value):
     """Files that declare a name, and the edit that imports the only one."""
 
     paths: tuple[Path, ...]

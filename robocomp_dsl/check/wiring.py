@@ -6,7 +6,6 @@ In: `connect` lines and instances. Out: `Connection` values, and findings.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.imports import replace
@@ -15,6 +14,7 @@ from robocomp_dsl.check.qos import qos_of
 from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, nearest
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.deployment import Connection, Instance
+from robocomp_dsl.record import Value
 from robocomp_dsl.syntax import ast_ddsl as ast
 
 SOURCES = (Role.REQUIRES, Role.PUBLISHES)
@@ -22,8 +22,7 @@ TARGETS = (Role.IMPLEMENTS, Role.SUBSCRIBES)
 _FITTING = {Role.REQUIRES: Role.IMPLEMENTS, Role.PUBLISHES: Role.SUBSCRIBES}
 
 
-@dataclass(frozen=True, slots=True)
-class Written:
+class Written(Value):
     """What is connected, and the instances for which something is written that is not right."""
 
     wires: list[Connection]

@@ -13,7 +13,7 @@ import tarfile
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
@@ -98,8 +98,8 @@ class _Earlier:
 
     def named(self, one: Diagnostic) -> Diagnostic:
         """With places that the user can look up."""
-        notes = tuple(replace(n, span=self._span(n.span)) if n.span else n for n in one.notes)
-        return replace(one, span=self._span(one.span), notes=notes)
+        notes = tuple(n.replaced(span=self._span(n.span)) if n.span else n for n in one.notes)
+        return one.replaced(span=self._span(one.span), notes=notes)
 
     def _span(self, span: Span) -> Span:
         if not self.revision or not span.source.path.is_relative_to(self.root):

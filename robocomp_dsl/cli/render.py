@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Diagnostic, Severity
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Span
 
 TAB = 4
@@ -26,8 +26,7 @@ _FRAME = "1;34"
 _STRONG = "1"
 
 
-@dataclass(frozen=True, slots=True)
-class Painter:
+class Painter(Value):
     """Puts colours around texts, or leaves them as they are."""
 
     colours: bool

@@ -7,8 +7,6 @@ the domain, if it runs there.
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from robocomp_dsl.model.deployment import Connection, Deployment
 
 
@@ -28,20 +26,19 @@ def only(deployment: Deployment, name: str) -> Deployment:
     clock = deployment.clock
     inside = set(group.instances)
     made = {
-        one.name: replace(one, after=tuple(n for n in one.after if n in inside))
+        one.name: one.replaced(after=tuple(n for n in one.after if n in inside))
         for one in deployment.instances
         if one.name in inside
     }
-    return replace(
-        deployment,
+    return deployment.replaced(
         instances=tuple(made.values()),
         connections=tuple(
-            replace(wire, source=made[wire.source.name], target=made[wire.target.name])
+            wire.replaced(source=made[wire.source.name], target=made[wire.target.name])
             for wire in deployment.connections
             if _is_within(wire, inside)
         ),
         # Without the source of the time a group lives by the clock of the machine.
-        clock=replace(clock, source=made.get(clock.source.name)) if clock.source else clock,
+        clock=clock.replaced(source=made.get(clock.source.name)) if clock.source else clock,
     )
 
 

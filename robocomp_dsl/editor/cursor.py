@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -127,7 +127,7 @@ def _read(source: Source, tables: Tables) -> tuple[list[Token], list[list[Token]
             token = take()
     states = [entry[0] for entry in stack]
     # Keywords that would be read as names are none to offer.
-    strict = replace(tables, words=frozenset())
+    strict = tables.replaced(words=frozenset())
     situation = Situation(strict, source, states, token, (token,), ())
     return statement, blocks, frozenset(situation.accepted())
 

@@ -7,20 +7,19 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import names
 from robocomp_dsl.generate.machine_code import method_names
 from robocomp_dsl.generate.python_types import PythonTypes
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Interface, Module, Operation
+from robocomp_dsl.record import Value
 
 SERVED = (Role.IMPLEMENTS, Role.SUBSCRIBES)
 """The roles in which others call the component."""
 
 
-@dataclass(frozen=True, slots=True)
-class InterfaceNames:
+class InterfaceNames(Value):
     """What the other generated modules call an interface."""
 
     constant: str
@@ -49,8 +48,7 @@ def _method_names(interface: Interface, types: PythonTypes) -> dict[Operation, s
     return dict(zip(interface.operations, called, strict=True))
 
 
-@dataclass(frozen=True, slots=True)
-class Called:
+class Called(Value):
     """All names of one component."""
 
     types: PythonTypes

@@ -7,7 +7,6 @@ not keep its name or its shape. Nothing here writes.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.model.interface import Module
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Span
 
 FORMATS = {
@@ -27,8 +27,7 @@ FORMATS = {
 Writer = Callable[[Sequence[Module], bool, Report], Iterable[OutputFile]]
 
 
-@dataclass(frozen=True, slots=True)
-class Export:
+class Export(Value):
     """What a format makes of a file. With an error among the findings there are no files."""
 
     files: tuple[OutputFile, ...]

@@ -7,7 +7,6 @@ template of `generated/interfaces.py`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, literals
 from robocomp_dsl.generate.component_names import InterfaceNames
@@ -18,10 +17,10 @@ from robocomp_dsl.generate.type_code import TypeCode, type_code
 from robocomp_dsl.model.component import Port, Role
 from robocomp_dsl.model.interface import Interface, Operation
 from robocomp_dsl.model.types import Enum
+from robocomp_dsl.record import Value
 
 
-@dataclass(frozen=True, slots=True)
-class InterfaceCode:
+class InterfaceCode(Value):
     """One interface; `proxy` is empty where the component only serves it."""
 
     constant: str
@@ -78,8 +77,7 @@ def _operation(one: Operation, types: PythonTypes) -> Group:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class InterfacesCode:
+class InterfacesCode(Value):
     """The whole module; `sources` is empty or ` from A.idsl, B.idsl`."""
 
     sources: str

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TypeAlias
+
+from robocomp_dsl.record import Value
 
 WIDTH = 88
 STEP = "    "
@@ -19,8 +20,7 @@ BODY = STEP * 2
 """Indentation of what stands in a method."""
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Value):
     """`head` (ends with the open bracket), comma-separated `items`, `tail` (begins with the close).
 
     `tuple_`: a single item needs its comma also on one line.

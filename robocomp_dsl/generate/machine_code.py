@@ -7,11 +7,11 @@ constant of `generated/machine.py` and the methods of the states.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, literals, names
 from robocomp_dsl.generate.layout import BODY, Group, Item
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
+from robocomp_dsl.record import Value
 
 METHODS = {
     "state": "Every period while `{}` is active.",
@@ -21,8 +21,7 @@ METHODS = {
 """What a state may have in the worker, and when it is called."""
 
 
-@dataclass(frozen=True, slots=True)
-class StateMethod:
+class StateMethod(Value):
     """One method of one state."""
 
     name: str
@@ -31,8 +30,7 @@ class StateMethod:
     doc: str
 
 
-@dataclass(frozen=True, slots=True)
-class MachineCode:
+class MachineCode(Value):
     """The machine; `source` is the name of its file, `scxml` its text where it is SCXML."""
 
     source: str

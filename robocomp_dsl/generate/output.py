@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from robocomp_dsl.record import Value
 
 RECORD = ".rcgen/"
 """The folder in which rcgen remembers what it generated."""
 
 
-@dataclass(frozen=True, slots=True)
-class OutputFile:
+class OutputFile(Value):
     """One file. `path` is relative to the output folder, with `/`.
 
     A file with `keep` is written once and then belongs to the user. One that was made from a file

@@ -7,13 +7,13 @@ first, and the lines of the configuration.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, literals, names
 from robocomp_dsl.generate.layout import INNER, Item
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.parameter import Kind, Parameter
 from robocomp_dsl.model.types import Literal
+from robocomp_dsl.record import Value
 
 _TYPES = {Kind.STRING: "str", Kind.INT: "int", Kind.FLOAT: "float", Kind.BOOL: "bool"}
 _WORDS = {
@@ -24,16 +24,14 @@ _WORDS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class AttributeCode:
+class AttributeCode(Value):
     """One typed attribute with the comment lines above it."""
 
     comments: tuple[str, ...]
     declaration: str
 
 
-@dataclass(frozen=True, slots=True)
-class ParametersCode:
+class ParametersCode(Value):
     """One class: the component's own, or that of a group."""
 
     name: str
@@ -43,8 +41,7 @@ class ParametersCode:
     attributes: tuple[AttributeCode, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class ParamsCode:
+class ParamsCode(Value):
     """The whole module; `source` is empty or ` from x.pdsl`."""
 
     source: str
@@ -74,8 +71,7 @@ def _imports(classes: list[ParametersCode]) -> Iterator[str]:
     yield f"from robocomp_dsl.runtime.parameters import {', '.join([*used, 'Parameters'])}"
 
 
-@dataclass(frozen=True, slots=True)
-class _Classes:
+class _Classes(Value):
     """Makes the classes, those of groups before the ones that hold them."""
 
     scope: names.Scope

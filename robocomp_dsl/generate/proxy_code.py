@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import docs, layout, literals
 from robocomp_dsl.generate.component_names import InterfaceNames
@@ -16,10 +15,10 @@ from robocomp_dsl.generate.python_types import PythonTypes
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.interface import Interface, Operation, Pattern
 from robocomp_dsl.model.types import Struct
+from robocomp_dsl.record import Value
 
 
-@dataclass(frozen=True, slots=True)
-class MethodCode:
+class MethodCode(Value):
     """One operation of a proxy: its slot, the line that binds it, its definition."""
 
     slot: str
@@ -29,8 +28,7 @@ class MethodCode:
     statement: str
 
 
-@dataclass(frozen=True, slots=True)
-class FormCode:
+class FormCode(Value):
     """`query`, `command` or `publish` of a proxy: one signature for each struct it takes."""
 
     overloads: tuple[str, ...]

@@ -6,7 +6,6 @@ In: the types that a component can meet. Out: `PythonTypes`, which answers for e
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import layout, names
 from robocomp_dsl.generate.layout import Item
@@ -33,13 +32,13 @@ from robocomp_dsl.model.types import (
     Type,
     is_fixed,
 )
+from robocomp_dsl.record import Value
 
 _ANNOTATION = {BOOL: "bool", STRING: "str", FLOAT: "float", DOUBLE: "float"}  # others: int
 _ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
 
 
-@dataclass(frozen=True, slots=True)
-class NumpyArray:
+class NumpyArray(Value):
     """The annotation of an array and the type of its elements."""
 
     alias: str
@@ -57,8 +56,7 @@ _NUMPY = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Zero:
+class Zero(Value):
     """The value of a field that nobody gave; a `fresh` one must be made anew each time."""
 
     text: str

@@ -7,7 +7,6 @@ In: a declaration and the names of all types. Out: `TypeCode`, plain data for th
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.layout import BODY, INNER, Item
@@ -28,18 +27,17 @@ from robocomp_dsl.model.types import (
     Struct,
     Type,
 )
+from robocomp_dsl.record import Value
 
 
-@dataclass(frozen=True, slots=True)
-class ColumnCode:
+class ColumnCode(Value):
     """The property for one field of all elements."""
 
     definition: str
     statement: str
 
 
-@dataclass(frozen=True, slots=True)
-class TypeCode:
+class TypeCode(Value):
     """One type. `kind`: struct, error, enum, records, alias; what a kind lacks is empty.
 
     `alias` is a second, private name where a field hides the first one in an `__init__`.

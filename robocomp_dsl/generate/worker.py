@@ -5,8 +5,6 @@ In: the component, its named types and interfaces. Out: plain data for the templ
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.generate import docs, layout, literals, names
 from robocomp_dsl.generate.component_names import SERVED, Called
 from robocomp_dsl.generate.layout import BODY, INNER, Group, Item, definition
@@ -14,6 +12,7 @@ from robocomp_dsl.generate.machine_code import MachineCode, machine_code
 from robocomp_dsl.generate.worker_imports import generic_imports, specific_imports
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Operation, Pattern
+from robocomp_dsl.record import Value
 
 _LISTS = {
     Role.IMPLEMENTS: "implements",
@@ -23,8 +22,7 @@ _LISTS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class HandlerCode:
+class HandlerCode(Value):
     """One method that others call. `refusal` is its body in `GenericWorker`; `call` reaches it.
 
     `call` is empty where nobody waits for an answer.
@@ -36,16 +34,14 @@ class HandlerCode:
     call: str
 
 
-@dataclass(frozen=True, slots=True)
-class ServedCode:
+class ServedCode(Value):
     """One port that others call: `implements RoboCompLaser::Laser`, and its methods."""
 
     title: str
     handlers: tuple[HandlerCode, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class WorkerCode:
+class WorkerCode(Value):
     """Both classes and what is said of the component as a whole.
 
     `called` declares the proxies; `about` and `rows` are for the README.

@@ -12,11 +12,11 @@ import os
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from robocomp_dsl.generate.output import OutputFile
+from robocomp_dsl.record import Value
 
 try:
     import fcntl
@@ -41,8 +41,7 @@ class Action(StrEnum):
     KEEP = "keep"
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Value):
     """One file, what happens to it, and its bytes until now (None if there is none)."""
 
     file: OutputFile

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.statemachine import StateMachine
+from robocomp_dsl.record import Record, Value
 from robocomp_dsl.source import Span
 
 
@@ -26,8 +26,7 @@ class Role(StrEnum):
         return self in (Role.SUBSCRIBES, Role.PUBLISHES)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Port:
+class Port(Record):
     """One use of an interface.
 
     `name` identifies the port in the component: the instance name (`requires Laser as front`), else
@@ -47,8 +46,7 @@ class Port:
         return operation.as_topic() if self.role.is_topic else operation.as_service()
 
 
-@dataclass(frozen=True, slots=True)
-class StateMachineRef:
+class StateMachineRef(Value):
     """`statemachine "path"`; the path as written, resolved beside the CDSL file.
 
     `machine` is what the file describes; None where it is not there or not understood.
@@ -59,8 +57,7 @@ class StateMachineRef:
     machine: StateMachine | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Component:
+class Component(Record):
     """One CDSL file.
 
     `language` is as written (`Python`, `Cpp`, `Cpp11`), at `language_span`; `period` in ms, 0 for

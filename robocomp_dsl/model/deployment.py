@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from ipaddress import ip_address
 from pathlib import Path
 
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.devices import Devices
 from robocomp_dsl.model.types import Literal
+from robocomp_dsl.record import Record, Value
 from robocomp_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Qos:
+class Qos(Value):
     """Quality of service of one connection; None where nothing was written."""
 
     reliable: bool | None = None
@@ -22,8 +21,7 @@ class Qos:
     deadline_ms: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Restart:
+class Restart(Value):
     """When a process that ended is started again, and how often at most within a window."""
 
     policy: str = "on-failure"
@@ -35,8 +33,7 @@ THIS_MACHINE = "localhost"
 """The host that need not be declared."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Host:
+class Host(Record):
     """A machine. The one named "" is this machine."""
 
     name: str
@@ -56,8 +53,7 @@ class Host:
             return False
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Instance:
+class Instance(Record):
     """One component of the deployment.
 
     Of one in a group, the groups' names stand before its own in `name`, with `-`, as in
@@ -77,19 +73,18 @@ class Instance:
     searched: str = ""
     settings: tuple[tuple[str, Literal], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
-    devices: Devices = field(default_factory=Devices)
+    devices: Devices = Devices()
     executable: str = "python3 main.py"
     port: int = 0
     after: tuple[str, ...] = ()
-    restart: Restart = field(default_factory=Restart)
+    restart: Restart = Restart()
     ready_within_s: float = 10.0
     doc: str = ""
     group: str = ""
     placed: Span | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Connection:
+class Connection(Record):
     """`client.port` uses what `server.port` serves, or `subscriber` hears what `publisher` says.
 
     For a service `source` requires and `target` implements; for a topic `source` publishes and
@@ -101,12 +96,11 @@ class Connection:
     target: Instance
     target_port: Port
     span: Span
-    qos: Qos = field(default_factory=Qos)
+    qos: Qos = Qos()
     implied: bool = False
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Export:
+class Export(Record):
     """A port of an instance inside a group that is used from outside, under `name`."""
 
     name: str
@@ -115,8 +109,7 @@ class Export:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Group:
+class Group(Record):
     """Components that appear as one outside, where only the `exports` are seen.
 
     `name` is as in `Instance.group`, outer groups first: `arm-hand`; `instances` are their names,
@@ -130,8 +123,7 @@ class Group:
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Clock:
+class Clock(Record):
     """The time by which all components live; the default is that of the machine.
 
     `source` is the instance that makes it when `kind` is `sim`; None where there is none that
@@ -147,8 +139,7 @@ class Clock:
     span: Span | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Deployment:
+class Deployment(Record):
     """One DDSL file; instances in an order that respects `after`, outer groups first."""
 
     name: str
@@ -160,4 +151,4 @@ class Deployment:
     hosts: tuple[Host, ...] = ()
     doc: str = ""
     groups: tuple[Group, ...] = ()
-    clock: Clock = field(default_factory=Clock)
+    clock: Clock = Clock()

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.model.types import Literal
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Device:
+class Device(Record):
     """A driver, wrapper, calibrator or controller; the component knows what its kind is."""
 
     name: str
@@ -19,8 +17,7 @@ class Device:
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Attachment:
+class Attachment(Record):
     """`device` stands on the devices `to`."""
 
     device: str
@@ -28,8 +25,7 @@ class Attachment:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Action:
+class Action(Record):
     """`verb` is done to `device`, by the calibrator `by` or the only one, in a phase."""
 
     phase: str
@@ -40,8 +36,7 @@ class Action:
     span: Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Devices:
+class Devices(Record):
     """All of one component, in order of writing."""
 
     devices: tuple[Device, ...] = ()

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from robocomp_dsl.model.types import Declaration, ExceptionType, Type
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
 
@@ -24,8 +24,7 @@ class Pattern(StrEnum):
     UNMARKED = "unmarked"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Param:
+class Param(Record):
     """A parameter of an operation."""
 
     name: str
@@ -34,8 +33,7 @@ class Param:
     unit: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Operation:
+class Operation(Record):
     """An operation. `outputs` are its `out` parameters in order; `result` is None for void.
 
     `marked` says whether the pattern was written or inferred.
@@ -61,15 +59,13 @@ class Operation:
         return Pattern.QUERY if self.pattern is Pattern.UNMARKED else self.pattern
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Interface(Declaration):
     """An interface of a module."""
 
     operations: tuple[Operation, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Module:
+class Module(Record):
     """One IDSL file, resolved. `declarations` holds types, exceptions and interfaces in order.
 
     `imports` are the modules it imports, resolved, in order of writing.

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from robocomp_dsl.model.types import Literal
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
 
@@ -21,8 +21,7 @@ class Kind(StrEnum):
     GROUP = "group"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Parameter:
+class Parameter(Record):
     """One parameter. `default` None: it must be given.
 
     `low` and `high` bound a number (inclusive) or the length of a group list; either may be None.
@@ -44,8 +43,7 @@ class Parameter:
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ParameterSet:
+class ParameterSet(Record):
     """One PDSL file."""
 
     name: str

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class State:
+class State(Record):
     """One state; `inside` are the states within it, all active at once where it is `parallel`.
 
     Names are unique in a machine. `initial` and `final` tell its part among its siblings; `start`
@@ -32,8 +31,7 @@ class State:
     exit: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Transition:
+class Transition(Record):
     """From one state to one other, by an event or by time (`after_s`), or by whichever is first.
 
     In SCXML `event` may list several, be a pattern, or be empty: then it is taken as soon as `cond`
@@ -59,8 +57,7 @@ class Transition:
         return (self.target, *self.others) if self.target else ()
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class StateMachine:
+class StateMachine(Record):
     """One SMDSL or SCXML file.
 
     `start` are the states entered first; `language` of `cond` and actions, and `data`, the data

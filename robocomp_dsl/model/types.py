@@ -5,14 +5,13 @@ Recursive structs are refused by the checks, so a type is always a finite tree.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from robocomp_dsl.record import Record, Value
 from robocomp_dsl.source import Span
 
 
-@dataclass(frozen=True, slots=True)
-class Primitive:
+class Primitive(Value):
     """A built-in type; `bits` is its width on the wire, 0 for a string."""
 
     name: str
@@ -34,8 +33,7 @@ NUMBERS = (BYTE, SHORT, INT, LONG, FLOAT, DOUBLE)
 Literal: TypeAlias = bool | int | float | str
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Declaration:
+class Declaration(Record):
     """What every named thing of an IDSL module has; `span` covers the name where it is declared."""
 
     module: str
@@ -49,8 +47,7 @@ class Declaration:
         return f"{self.module}::{self.name}"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Field:
+class Field(Record):
     """A field of a struct or exception. An enum default is the name of the enumerator."""
 
     name: str
@@ -61,22 +58,19 @@ class Field:
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Struct(Declaration):
     """A record."""
 
     fields: tuple[Field, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class ExceptionType(Declaration):
     """A declared failure; it carries data as a struct does."""
 
     fields: tuple[Field, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Enumerator:
+class Enumerator(Record):
     """One value of an enumeration."""
 
     name: str
@@ -85,21 +79,18 @@ class Enumerator:
     doc: str = ""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Enum(Declaration):
     """An enumeration, 32 bits on the wire."""
 
     enumerators: tuple[Enumerator, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Sequence(Declaration):
     """`sequence<element> name`."""
 
     element: Type
 
 
-@dataclass(frozen=True, slots=True, eq=False)
 class Dictionary(Declaration):
     """`dictionary<key, value> name`; on the wire a sequence of pairs."""
 

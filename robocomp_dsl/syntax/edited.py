@@ -5,8 +5,6 @@ In: both texts. Out: where the unchanged parts of the old one are in the new one
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from robocomp_dsl.diagnostics import Diagnostic, Edit, Fix, Note
 from robocomp_dsl.source import Source, Span
 
@@ -56,7 +54,7 @@ class Edited:
         fix = one.fix and Fix(
             one.fix.title, tuple(Edit(place(edit.span), edit.text) for edit in one.fix.edits)
         )
-        return replace(one, span=place(one.span), notes=notes, fix=fix)
+        return one.replaced(span=place(one.span), notes=notes, fix=fix)
 
 
 def _alike(one: str, other: str) -> int:

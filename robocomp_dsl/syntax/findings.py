@@ -7,7 +7,6 @@ errors and `LIMIT` warnings for a file, and a closing note where there were more
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from robocomp_dsl.diagnostics import Code, Diagnostic, Edit, Fix, Note, Report, Severity
 from robocomp_dsl.source import Piece, Source, Span
@@ -16,7 +15,6 @@ from robocomp_dsl.syntax import codes
 LIMIT = 100
 
 
-@dataclass(slots=True)
 class Findings:
     """What was found in `source`; `errors` and `warnings` are counts.
 
@@ -24,16 +22,14 @@ class Findings:
     `place` is what the spans of the tree are made in: `source`, or the piece of it that is read.
     """
 
-    source: Source
-    report: Report
-    errors: int = 0
-    warnings: int = 0
-    cut: bool = False
-    place: Source | Piece = field(init=False)
-    _noted: set[str] = field(default_factory=set)
-
-    def __post_init__(self) -> None:
-        self.place = self.source
+    def __init__(self, source: Source, report: Report) -> None:
+        self.source = source
+        self.report = report
+        self.errors = 0
+        self.warnings = 0
+        self.cut = False
+        self.place: Source | Piece = source
+        self._noted: set[str] = set()
 
     @property
     def crowded(self) -> bool:

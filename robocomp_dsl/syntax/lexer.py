@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
 
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.findings import Findings
 from robocomp_dsl.syntax.tables import END, Tables
@@ -22,8 +22,7 @@ _MISSPELT = frozenset(
 _FRAME = re.compile(r"^[ \t]*\*(?!\*)[ \t]?|^[ \t]+|[ \t]+$", re.MULTILINE)
 
 
-@dataclass(slots=True)
-class Token:
+class Token(Value):
     """A word of the language; `kind` is the name of its terminal. Offsets count characters."""
 
     kind: str

@@ -5,9 +5,8 @@ In: the situation of a parser that is stuck. Out: values that `recovery` applies
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.diagnostics import Code, Note
+from robocomp_dsl.record import Value
 from robocomp_dsl.syntax import codes
 from robocomp_dsl.syntax.findings import Findings
 from robocomp_dsl.syntax.lexer import Token
@@ -15,8 +14,7 @@ from robocomp_dsl.syntax.situation import Situation
 from robocomp_dsl.syntax.tables import END
 
 
-@dataclass(frozen=True, slots=True)
-class Repair:
+class Repair(Value):
     """Read `put` in the place of the next `skip` tokens, after dropping all but `keep` states.
 
     At least `need` of the tokens behind must fit. The rest is the finding: `edits` are the fix.

@@ -7,7 +7,6 @@ fit; or None.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.syntax import codes
@@ -38,7 +37,7 @@ def _progress(situation: Situation, made: Repair) -> int:
     """How many of the next tokens are dealt with, at most `WINDOW`; -1 if it is no correction."""
     kinds = [token.kind for token in made.put]
     if made.keep:
-        situation = replace(situation, states=situation.states[: made.keep])
+        situation = situation.replaced(states=situation.states[: made.keep])
     behind = situation.reach(kinds, made.skip)
     return min(made.skip + behind, WINDOW) if behind >= made.need else -1
 
@@ -74,11 +73,11 @@ def _earlier(situation: Situation, item: list[Token], keep: int) -> Iterator[Rep
     """The slip is at the start of the statement, where its first word was taken for a name."""
     if not 0 < len(item) < WINDOW:
         return
-    start = replace(situation, states=situation.states[:keep], ahead=item)
+    start = situation.replaced(states=situation.states[:keep], ahead=item)
     rest = tuple(item[1:])
     for made in words.keyword(start, start.accepted()):
-        yield replace(made, put=(*made.put, *rest), skip=0, keep=keep, need=1)
-    yield from (replace(made, need=1) for made in _block(start, item, keep))
+        yield made.replaced(put=(*made.put, *rest), skip=0, keep=keep, need=1)
+    yield from (made.replaced(need=1) for made in _block(start, item, keep))
 
 
 def _block(situation: Situation, item: list[Token], keep: int) -> Iterator[Repair]:

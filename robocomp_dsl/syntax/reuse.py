@@ -11,10 +11,10 @@ everything from here to the end of the file is as it was.
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from robocomp_dsl.diagnostics import Diagnostic
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Piece, Source
 from robocomp_dsl.syntax.edited import Changed, Edited
 from robocomp_dsl.syntax.findings import Findings
@@ -59,12 +59,11 @@ class Mark(NamedTuple):
     piece: Piece
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Memory:
+class Memory(Record):
     """What a parse leaves for the next one: its text, its marks in order, its findings."""
 
     source: Source
-    marks: list[Mark] = field(default_factory=list)
+    marks: list[Mark]
     found: tuple[Diagnostic, ...] = ()
 
 
@@ -77,7 +76,7 @@ class Reuse:
     def __init__(self, earlier: Memory | None, findings: Findings) -> None:
         self.jumped = False
         self._findings = findings
-        self._earlier = earlier or Memory(findings.source)
+        self._earlier = earlier or Memory(findings.source, [])
         self._edited = Edited(self._earlier.source.text, findings.source.text)
         known = self._earlier.marks if self._edited.is_local else []
         self._numbers = {mark.start: number for number, mark in enumerate(known)}

@@ -6,8 +6,8 @@ In: a copy of the parser's states and the next tokens. Out: answers, without sid
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.lexer import Token
 from robocomp_dsl.syntax.tables import END, Tables, name_action
@@ -30,8 +30,7 @@ _NAMES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Situation:
+class Situation(Value):
     """`ahead[0]` is the token that does not fit, `before` the last that did.
 
     `opened` are the braces not closed yet, innermost last.

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
 from zlib import crc32
 
+from robocomp_dsl.record import Record
 from robocomp_dsl.resources import GRAMMARS
 
 SHARED = GRAMMARS / "terminals.lark"
@@ -47,8 +47,7 @@ class Rule(NamedTuple):
     picks: list[Pick]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Tables:
+class Tables(Record):
     """A language as the parser needs it.
 
     `actions[state][terminal]` is the next state of a shift, or -1 - (the rule to reduce by).

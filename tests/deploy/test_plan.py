@@ -133,7 +133,7 @@ def test_clocks(
     if clock:
         clock["source"] = them[1]
     planned = plan(
-        replace(deployment(them), clock=Clock(**clock)), name="x", domain="d", interpreter="p"
+        deployment(them).replaced(clock=Clock(**clock)), name="x", domain="d", interpreter="p"
     )
     said = {one.name: _flag(one.argv, "--clock") for one in planned.processes}
     assert said == {"b": of_other, "w": of_source, "a": of_other}

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
+
+from robocomp_dsl.record import Record
 
 if TYPE_CHECKING:
     from robocomp_dsl.generate.upkeep.user_module import UserModule
@@ -24,17 +25,16 @@ _EMPTY = {BASE, "object", "Generic", "Protocol", "ABC"}
 _BLOCKS = (ast.If, ast.Try, ast.TryStar, ast.With, ast.For, ast.While, ast.Match)
 
 
-@dataclass(frozen=True, slots=True)
-class Hierarchy:
+class Hierarchy(Record):
     """The classes, the user's first; and bases from elsewhere."""
 
-    classes: list[tuple[UserModule, ast.ClassDef]] = field(default_factory=list)
-    unknown: list[str] = field(default_factory=list)
+    classes: list[tuple[UserModule, ast.ClassDef]]
+    unknown: list[str]
 
 
 def hierarchy(user: UserModule) -> Hierarchy:
     """The class with its bases, and with theirs."""
-    found = Hierarchy()
+    found = Hierarchy([], [])
     _add(ast.Name(CLASS, ast.Load()), user, found)
     return found
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 import ast
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from robocomp_dsl.record import Value
 
-@dataclass(frozen=True, slots=True)
-class Bound:
+
+class Bound(Value):
     """The value of an expression or, with `each`, one element of it after the other."""
 
     value: ast.expr

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from robocomp_dsl.diagnostics import Report, did_you_mean
 from robocomp_dsl.generate import codes, names
@@ -17,10 +16,10 @@ from robocomp_dsl.generate.upkeep.local_names import Names, local_names
 from robocomp_dsl.generate.upkeep.user_module import UserModule
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.parameter import Kind, Parameter
+from robocomp_dsl.record import Value
 
 
-@dataclass(frozen=True, slots=True)
-class _Group:
+class _Group(Value):
     """Attributes that an object has; the value is what one of them holds, None for a value."""
 
     what: str
@@ -69,8 +68,7 @@ def _proxies(called: Called) -> dict[str, _Group]:
     }
 
 
-@dataclass(frozen=True, slots=True)
-class _Scope:
+class _Scope(Value):
     """What attributes of `self` are, and what local names stand for."""
 
     known: dict[str, _Group]

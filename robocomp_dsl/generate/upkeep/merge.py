@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import stat
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
@@ -48,7 +47,7 @@ def _kept(folder: Path, new: OutputFile, report: Report, *, writes: bool) -> Ite
         _report(path, mine, f"the file is {fixed}, so it stays as it is", report)
         yield from (new, pristine)
     elif mine == base:
-        yield from (replace(new, keep=False, seen=mine), pristine)
+        yield from (new.replaced(keep=False, seen=mine), pristine)
     elif (result := _merge(mine, _as_mine(base, mine), _as_mine(new.data, mine))) is None:
         said = "rcgen would write it anew; git could not merge, so it stays"
         _report(path, mine, said, report, "install git and run rcgen again")

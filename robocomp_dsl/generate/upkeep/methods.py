@@ -5,8 +5,6 @@ In: a component and its names. Out: `Method`s in the order of the ports.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.generate import layout
 from robocomp_dsl.generate.component_names import Called
@@ -14,10 +12,10 @@ from robocomp_dsl.generate.machine_code import StateMethod
 from robocomp_dsl.generate.worker import HandlerCode, handler_code, machine_of
 from robocomp_dsl.generate.worker_imports import mentioned
 from robocomp_dsl.model.component import Component
+from robocomp_dsl.record import Value
 
 
-@dataclass(frozen=True, slots=True)
-class Signature:
+class Signature(Value):
     """Arguments without `self`, each with its annotation, and the annotation of the result."""
 
     arguments: tuple[tuple[str, str], ...]
@@ -28,8 +26,7 @@ class Signature:
         return f"({given}) -> {self.returns}"
 
 
-@dataclass(frozen=True, slots=True)
-class Method:
+class Method(Value):
     """One method: that of an operation, or of a state.
 
     `types` are the names of `generated.interfaces` that its signature mentions; `origin` says

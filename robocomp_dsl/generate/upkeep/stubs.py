@@ -10,7 +10,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
@@ -19,6 +18,7 @@ from robocomp_dsl.generate.upkeep.hierarchy import CLASS
 from robocomp_dsl.generate.upkeep.judge import near
 from robocomp_dsl.generate.upkeep.methods import Method
 from robocomp_dsl.generate.upkeep.user_module import Function, UserModule, bound, parsed
+from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source
 
 TYPES = "generated.interfaces"
@@ -26,8 +26,7 @@ QUALIFIER = "generated_interfaces"
 """What the module of the types is called where the user has another thing of a type's name."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Class:
+class _Class(Value):
     """Where the class ends and how it is written. `open` is the offset of a body on its own line.
 
     `end` is the offset behind the last statement; `open` is None unless the body stands on the

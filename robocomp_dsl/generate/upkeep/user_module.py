@@ -10,7 +10,6 @@ import io
 import re
 import tokenize
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TypeAlias
@@ -18,6 +17,7 @@ from typing import TypeAlias
 from robocomp_dsl.diagnostics import Diagnostic, Report, nearest
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.upkeep.hierarchy import CLASS, Hierarchy, hierarchy, statements
+from robocomp_dsl.record import Record, Value
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
@@ -30,8 +30,7 @@ _KEYWORDS = re.compile(r"(?:async[\s\\]+)?(?:def|class)[\s\\]+")
 """What stands before the name of a function or a class."""
 
 
-@dataclass(frozen=True, eq=False)
-class UserModule:
+class UserModule(Record):
     """A module that Python can read.
 
     `worker` is the class at the margin, where stubs can go; None where it is made in another way.
@@ -42,7 +41,11 @@ class UserModule:
     encoding: str
     tree: ast.Module
     worker: ast.ClassDef | None
-    _near: dict[str, UserModule | None] = field(default_factory=dict)
+    __slots__ = ("__dict__",)  # for what is looked up once
+
+    @cached_property
+    def _near(self) -> dict[str, UserModule | None]:
+        return {}
 
     @cached_property
     def starts(self) -> list[int]:
@@ -88,8 +91,7 @@ class UserModule:
         return self._near[name]
 
 
-@dataclass(frozen=True, slots=True)
-class Member:
+class Member(Value):
     """A method, and the module that it stands in."""
 
     module: UserModule

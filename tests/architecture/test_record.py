@@ -1,0 +1,128 @@
+"""Records: what a class of data promises, and that commands which people wait for use them."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from functools import cached_property
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.record import Record, Value
+
+
+class Place(Value):
+    """A value with a default."""
+
+    x: int
+    y: int = 7
+
+
+class Named(Place):
+    """A value with a base."""
+
+    name: str = "n"
+
+
+class Alone(Value):
+    """A single field is compared like several."""
+
+    one: str
+
+
+class Thing(Record):
+    """Compared by identity; something is worked out once."""
+
+    parts: tuple[int, ...]
+    __slots__ = ("__dict__",)
+
+    @cached_property
+    def total(self) -> int:
+        """Worked out when it is asked for."""
+        return sum(self.parts)
+
+
+class Flag(Record):
+    """Without a field."""
+
+
+def test_fields_are_parameters_those_of_the_base_first() -> None:
+    assert (Place(1).x, Place(1).y) == (1, 7)
+    made = Named(1, 2, "here")
+    assert (made.x, made.y, made.name) == (1, 2, "here")
+    assert repr(Named(3, name="it")) == "Named(x=3, y=7, name='it')"
+    assert repr(Flag()) == "Flag()"
+    match made:
+        case Named(x, y, name):
+            assert (x, y, name) == (1, 2, "here")
+
+
+def test_a_base_is_made_as_itself_whichever_was_made_first() -> None:
+    class Base(Value):
+        a: int
+
+    class Derived(Base):
+        b: int
+
+    assert Derived(1, 2).b == 2
+    assert Base(1).a == 1
+    assert Derived(3, 4).a == 3
+
+
+@pytest.mark.parametrize(
+    ("values", "named"), [((), {}), ((1, 2, 3), {}), ((1,), {"x": 2}), ((1,), {"z": 2})]
+)
+def test_other_parameters_are_refused(values: tuple[int, ...], named: dict[str, int]) -> None:
+    for _ in range(2):  # the first time the constructor is compiled
+        with pytest.raises(TypeError):
+            Place(*values, **named)
+
+
+def test_values_are_compared_by_fields_and_kind_records_by_identity() -> None:
+    assert Place(1) == Place(1, 7)
+    assert hash(Place(1)) == hash(Place(1, 7))
+    assert Place(1) != Place(2)
+    assert Place(1) != Named(1)
+    assert len({Alone("a"), Alone("a"), Alone("b")}) == 2
+    one = Thing((1, 2))
+    assert one == one
+    assert one != Thing((1, 2))
+
+
+def test_what_is_made_stays() -> None:
+    made = Place(1)
+    with pytest.raises(AttributeError, match="Place is frozen"):
+        made.x = 2  # type: ignore[misc]
+    with pytest.raises(AttributeError, match="Place is frozen"):
+        del made.x
+    assert not hasattr(made, "__dict__")
+    assert Thing((1, 2)).total == 3
+
+
+def test_replaced_is_another_one() -> None:
+    made = Named(1, 2, "a")
+    assert made.replaced(y=5) == Named(1, 5, "a")
+    assert made == Named(1, 2, "a")
+    with pytest.raises(TypeError):
+        made.replaced(z=1)
+
+
+@pytest.mark.parametrize("command", ["check", "component"])
+def test_commands_that_people_wait_for_compile_no_methods(command: str, tmp_path: Path) -> None:
+    """A dataclass in a module that they load is 0.7 ms of every start."""
+    path = tmp_path / "it.cdsl"
+    path.write_text(
+        'import "Laser.idsl";\n'
+        "Component it { Communications { requires Laser; }; language Python; };\n"
+    )
+    code = (
+        "import sys\nfrom robocomp_dsl.cli.rcgen import main\n"
+        "try: main()\nexcept SystemExit as end: assert not end.code\n"
+        "ours = {n: m for n, m in sys.modules.items() if n.startswith('robocomp_dsl.')}\n"
+        "slow = [name for name, module in ours.items() if hasattr(module, 'dataclass')]\n"
+        "assert not slow, slow\n"
+    )
+    run = [sys.executable, "-c", code, command, str(path)]
+    done = subprocess.run(run, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
