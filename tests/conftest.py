@@ -3,6 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import HealthCheck, settings
+
+# How fast the machine is decides nothing, and each run tries the same; `--hypothesis-profile
+# random` tries others.
+ANYWHERE = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
+settings.register_profile("same", ANYWHERE, derandomize=True)
+settings.register_profile("random", ANYWHERE)
+settings.load_profile("same")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -159,7 +159,7 @@ def _blocks(draw: st.DrawFn, depth: int = 0) -> str:
     return " ".join(made)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(_blocks())
 def test_any_groups_are_judged(text: str) -> None:
     imports = "".join(f'import "{PARTS}/{n}.cdsl";\n' for n in ("body", "reflex"))

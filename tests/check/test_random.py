@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robocomp_dsl.check import CHECKS, check_file
@@ -63,7 +63,7 @@ def _inside(span: Span) -> bool:
 WORKSPACE = Workspace(environ={}, shipped=CASES / "interfaces")
 
 
-@settings(max_examples=300, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=300)
 @given(mutated())
 def test_mutated_files_give_findings(case: tuple[Path, str]) -> None:
     path, text = case
@@ -99,7 +99,7 @@ IMPORTS = st.lists(st.sampled_from("ABC").map('import "{}.idsl";\n'.format), max
 )
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.lists(st.tuples(IMPORTS, MODULES).map("".join), min_size=3, max_size=3))
 def test_random_modules_that_import_each_other(texts: list[str]) -> None:
     """Cycles, recursion and clashes of all kinds; twice, because the second run meets the first."""

@@ -51,7 +51,7 @@ def test_the_findings_of_all_cases(language: str, rcgen: Rcgen) -> None:
             assert REFERENCE.fullmatch(place["physicalLocation"]["artifactLocation"]["uri"])
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(texts=st.tuples(*[TEXTS] * 6), severity=st.sampled_from(Severity), at=st.integers(0, 9))
 def test_any_text(texts: tuple[str, ...], severity: Severity, at: int) -> None:
     message, label, help_, edit, name, source = texts

@@ -31,7 +31,7 @@ def _bare(text: str) -> str:
     return "".join(text.split())
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(TEXTS)
 @example("- a\n- b\n\n1. c")
 @example("a\n===\n# b\n> c\n    d")

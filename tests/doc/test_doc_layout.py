@@ -39,7 +39,7 @@ def _overlap(one: Rectangle, other: Rectangle) -> bool:
     )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(graphs())
 def test_any_graph(graph: tuple[list[Node], list[Edge]]) -> None:
     nodes, edges = graph

@@ -55,7 +55,7 @@ def machines(draw: st.DrawFn) -> StateMachine:
     return _machine(inside(-1), *(_transition(*pair) for pair in pairs))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(machines())
 def test_any_machine(machine: StateMachine) -> None:
     drawing = state_figure(machine, "x").drawing

@@ -144,7 +144,7 @@ def _reflowed(name: str, chance: Random) -> str:
 
 
 @given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_any_blanks_and_comments_between_tokens(name: str, seed: int) -> None:
     text = _reflowed(name, Random(seed))
     made = fmt(name, text)
@@ -154,7 +154,7 @@ def test_any_blanks_and_comments_between_tokens(name: str, seed: int) -> None:
 
 
 @given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_blanks_within_lines_make_no_difference(name: str, seed: int) -> None:
     neat = fmt(name, TEXTS[name])
     assert neat is not None
@@ -171,7 +171,7 @@ def test_blanks_within_lines_make_no_difference(name: str, seed: int) -> None:
 
 
 @given(st.integers(0, 2**32))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_any_blanks_and_comments_between_tags(seed: int) -> None:
     chance = Random(seed)
     text = ""
@@ -203,7 +203,7 @@ DAMAGE = [
 
 
 @given(st.sampled_from(sorted(DAMAGED)), st.integers(0, 2**32))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_damaged_and_legacy_texts(name: str, seed: int) -> None:
     """What is lost or added at random is an error or understood, and then kept as it is."""
     chance = Random(seed)
@@ -220,7 +220,7 @@ def test_damaged_and_legacy_texts(name: str, seed: int) -> None:
 @given(
     st.sampled_from(sorted(PARSERS)), st.text("ab1 \n\t{};,:()<>[]=\"'/*#.+-&!?é\r", max_size=60)
 )
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 def test_any_text(suffix: str, text: str) -> None:
     made = fmt(f"x{suffix}", text)
     if made is not None:

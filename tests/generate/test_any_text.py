@@ -45,7 +45,7 @@ def component(doc: str, text: str, unit: str) -> Component:
     return Component("c", Path("x.cdsl"), HERE, "Python", (module,), ports, given_, doc=doc)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(doc=TEXTS, text=TEXTS, unit=TEXTS)
 def test_any_text(doc: str, text: str, unit: str) -> None:
     files = {f.path: f for f in plan(component(doc, text, unit))}

@@ -63,7 +63,7 @@ def items(depth: int) -> st.SearchStrategy[Item]:
     )
 
 
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 @given(st.lists(items(3), min_size=60, max_size=60))
 def test_the_formatter_changes_nothing(made: list[Item]) -> None:
     text = "".join(layout.statement("value = ", item) + "\n" for item in made)

@@ -65,7 +65,7 @@ def test_a_motion_shorter_than_a_step_ends_at_once():
     assert trajectory.position[0] == 1e-6
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.floats(-3, 3), st.floats(-3, 3), st.floats(1, 4), st.integers(1, 400))
 def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, steps):
     trajectory = MinimumJerk(np.zeros(1))
@@ -81,7 +81,7 @@ def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, st
     assert trajectory.position[0] == second
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.floats(-3, 3), st.floats(-3, 3), st.integers(1, 900))
 def test_a_joint_that_turns_round_is_not_faster_than_it_may(first, second, steps):
     most = np.array([2.0])

@@ -119,7 +119,7 @@ PIECES = [
 ]  # fmt: skip
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
 def test_anything_is_read(text: str) -> None:
     tree, report = parsed(text)
@@ -133,7 +133,7 @@ def lark() -> Any:
     return tabulate.lark(tabulate.XML)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
 def test_tokens_are_those_of_lark(text: str) -> None:
     read = lark().parse_interactive(text).exhaust_lexer()

@@ -131,7 +131,7 @@ CUTS = st.tuples(
 )
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.lists(CUTS, min_size=1, max_size=6))
 def test_whatever_is_written_there_is_a_world(cuts: list[tuple[int, int, str]]) -> None:
     text = WORLD

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from random_schemas import array_of, enumeration, messages, record
 
 from robocomp_dsl.runtime import codec
@@ -83,7 +83,7 @@ def test_bytes(type_: Any, value: Any, expected: str) -> None:
     assert list(decoded) == list(value) if isinstance(value, list) else decoded == value
 
 
-relaxed = settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+relaxed = settings(max_examples=200)
 
 
 @relaxed

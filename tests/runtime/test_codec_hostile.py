@@ -6,7 +6,7 @@ import tracemalloc
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from random_schemas import array_of, enumeration, messages, record
 
@@ -15,7 +15,7 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.codec.read import read
 
 HEADER = b"\0\1\0\0"
-relaxed = settings(max_examples=200, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+relaxed = settings(max_examples=200)
 
 NESTED = record([rt.BYTE, rt.STRING])
 COLOUR = enumeration([3, 7])

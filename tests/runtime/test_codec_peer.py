@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from random_schemas import messages, record
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
@@ -122,7 +122,7 @@ class Peer:
 
 
 # The peer compiles its own code for every schema, so no deadline.
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=150)
 @given(messages())
 def test_each_side_understands_the_other(message: rt.Struct) -> None:
     peer = Peer(type(message))

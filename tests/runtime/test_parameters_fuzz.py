@@ -75,7 +75,9 @@ LINES = st.one_of(
     st.builds("{} = {}".format, st.sampled_from(NAMES), SCALARS),
     st.sampled_from(["---", "...", "%YAML 1.1", "joints:", "[[joints]]", "<<: *x", "? [a]", "\t"]),
 )
-RELAXED = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+RELAXED = settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow]
+)
 
 
 def judged(path: Path, overrides: list[str]) -> None:

@@ -188,7 +188,7 @@ actions = st.one_of(
 )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(st.lists(numbers, max_size=5), st.lists(actions, max_size=8))
 def test_behaves_as_a_list(start: list[float], todo: list[Any]) -> None:
     pair = Pair(start)

@@ -85,7 +85,7 @@ def edit(text: str, rng: random.Random) -> str:
 
 
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
-@settings(max_examples=120, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=120, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
 def test_edits(suffix: str, seed: int) -> None:
     rng = random.Random(seed)

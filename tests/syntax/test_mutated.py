@@ -93,7 +93,7 @@ def mutate(text: str, rng: random.Random) -> str:
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
-@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=150, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
 def test_mutated_real_files(suffix: str, seed: int) -> None:
     rng = random.Random(seed)
@@ -107,7 +107,7 @@ def test_mutated_real_files(suffix: str, seed: int) -> None:
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(text=st.text(max_size=300))
 def test_any_text(suffix: str, text: str) -> None:
     judge(suffix, text)

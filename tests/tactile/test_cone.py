@@ -56,7 +56,7 @@ def rotation(seed: int) -> np.ndarray:
     return q * np.sign(np.linalg.det(q))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.integers(0, 10_000), st.floats(-0.3, 0.3), st.floats(0.02, 0.05), st.floats(0.05, 0.2))
 def test_a_tilted_cone_is_found_again(seed, slope, radius, length):
     made = Cone(0.0, length, radius, radius + slope * 0.05)

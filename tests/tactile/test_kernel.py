@@ -38,7 +38,7 @@ def slow(points, forces, sigma=0.005):
     return felt, missed
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(st.lists(spots, min_size=1, max_size=20), st.integers(0, 100))
 def test_the_grid_gives_what_the_plain_rule_gives(places, seed):
     x, theta, rho = np.array(places).T

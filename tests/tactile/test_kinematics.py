@@ -79,7 +79,7 @@ def test_chains_with_impossible_joints_are_refused(joints):
         Chain(tuple(Row(0, 0, 0, 0, joint) for joint in joints), 2)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(angles, angles)
 def test_every_reachable_point_is_found_within_the_limits(goal, start):
     found = Solver(ARM, LOW, HIGH).solve(ARM.pose(goal)[:3, 3], start)
@@ -88,7 +88,7 @@ def test_every_reachable_point_is_found_within_the_limits(goal, start):
     assert (found <= HIGH).all()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(angles)
 def test_a_whole_pose_is_found_from_nearby(goal):
     pose = ARM.pose(goal)

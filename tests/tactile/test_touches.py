@@ -41,7 +41,7 @@ def test_the_reach_is_inclusive_and_limbs_do_not_touch_each_other():
     assert clusters(np.empty((0, 3))) == []
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.integers(0, 1000), st.integers(1, 60))
 def test_components_agree_with_a_plain_search(seed, count):
     points = np.random.default_rng(seed).uniform(0, 0.08, (count, 3))

@@ -347,7 +347,7 @@ def test_whatever_touches_it_no_limit_and_no_speed_is_left(robot: str, side: str
     touched = Touched(robot, side, refractory=0.1, hold=0.05, full=1.0).awake()
     names = [one.name for one in touched.robot.part.fields]
 
-    @settings(max_examples=25, deadline=None)
+    @settings(max_examples=25)
     @given(TOUCHES)
     def play(touches: list[tuple[int, float, int, int]]) -> None:
         for which, newtons, frames, pause in touches:

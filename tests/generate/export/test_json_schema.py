@@ -10,7 +10,7 @@ from typing import Any
 import exported
 import pytest
 import random_idsl
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from jsonschema import Draft202012Validator
 
 from robocomp_dsl.generate.export import export
@@ -50,7 +50,7 @@ def test_every_shipped_interface_is_a_schema(name: str) -> None:
     schema_of(INTERFACES / name)
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=40)
 @given(texts=random_idsl.texts())
 def test_any_valid_interface_is_a_schema(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:

@@ -11,7 +11,7 @@ from typing import Any
 import exported
 import pytest
 import random_idsl
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from robocomp_dsl.generate import ros2_names
@@ -76,7 +76,7 @@ def test_every_shipped_interface_is_read() -> None:
     assert "robocomp_laser/msg/LaserGetLaserData_Response" in everything
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60)
 @given(texts=random_idsl.texts())
 def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:

@@ -11,7 +11,7 @@ from pathlib import Path
 import exported
 import pytest
 import random_idsl
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 
 from robocomp_dsl.generate.export import export
 from robocomp_dsl.resources import INTERFACES
@@ -50,7 +50,7 @@ def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
 
 
 @compiled
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=40)
 @given(texts=random_idsl.texts())
 def test_any_valid_interface_compiles(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:
