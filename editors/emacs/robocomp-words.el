@@ -98,6 +98,7 @@
      "middleware"
      "on"
      "port"
+     "prefix"
      "priority"
      "ready"
      "reliable"

@@ -425,3 +425,21 @@ Right:
     component arm { context "lab"; };
 """,
 )
+
+PREFIX = Code(
+    "RC524",
+    Severity.ERROR,
+    "a name that cannot be a prefix",
+    """\
+Under a prefix an instance, and all its topics and interfaces, have longer names for others:
+`left/arm`. It is a name as others are, or several with `/` between them.
+
+Wrong:
+
+    component arm { prefix "left hand"; };
+
+Right:
+
+    component arm { prefix "left/hand"; };
+""",
+)

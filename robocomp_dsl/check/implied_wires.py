@@ -3,16 +3,18 @@
 In: instances, the written wires, and what groups export. Out: a wire from each requirement to the
 only component that implements it, and from all publishers of a topic to each subscriber that has no
 written one; findings where that cannot be, unless the port is optional. What is in the same group
-goes before what is outside of it.
+goes before what is outside of it, and with prefixes what is near; other branches are not seen.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.components import Imported
 from robocomp_dsl.check.literals import listing
+from robocomp_dsl.check.prefixes import nearest, on_branch
 from robocomp_dsl.check.scopes import JOINT
 from robocomp_dsl.check.wiring import Written, same_interface
 from robocomp_dsl.diagnostics import Note, Report
@@ -40,24 +42,63 @@ def implied_wires(
     for instance, port in _ends(instances, Role.REQUIRES):
         if (id(instance), id(port)) not in wired:
             others = [end for end in _serving(port, servers) if end[0] is not instance]
-            found = _nearest(instance, others, exports)
+            found = nearest(instance.prefix, _seen(instance, others, exports), _prefix)
             if len(found) == 1:
                 yield Connection(instance, port, *found[0], instance.span, implied=True)
             elif instance.name not in written.troubled and not port.optional:
-                shown = [_shown(instance, end, exports) for end in found]
-                _judge_requirement((instance, port), found, shown, imported, report, whole=whole)
+                first = _shown(instance, found[0], exports) if found else ""
+                candidates = _Candidates(found, others, first)
+                _judge_requirement(instance, port, candidates, imported, report, whole=whole)
     publishers = list(_ends(instances, Role.PUBLISHES))
     for instance, port in _ends(instances, Role.SUBSCRIBES):
         if (id(instance), id(port)) not in wired:
-            heard = _nearest(instance, _serving(port, publishers), exports)
+            others = _serving(port, publishers)
+            heard = _seen(instance, others, exports)
             for publisher, topic in heard:
                 yield Connection(publisher, topic, instance, port, instance.span, implied=True)
             if not heard and whole and not port.optional:
-                _report_unheard(instance, port, report)
+                _report_unheard(instance, port, _far(instance, others), report)
 
 
-def _nearest(instance: Instance, ends: Sequence[End], exports: Exports) -> list[End]:
+@dataclass(frozen=True, slots=True)
+class _Candidates:
+    """Who implements what is required: those that would do, and all; `first` as it is written."""
+
+    found: Sequence[End]
+    all: Sequence[End]
+    first: str
+
+
+def _judge_requirement(
+    instance: Instance,
+    port: Port,
+    candidates: _Candidates,
+    imported: Imported,
+    report: Report,
+    *,
+    whole: bool,
+) -> None:
+    far = _far(instance, candidates.all)
+    if candidates.found:
+        _report_several(instance, port, candidates, report)
+    elif far:
+        _report_far(instance, port, far, report)
+    elif whole:
+        _report_unserved(instance, port, imported, report)
+
+
+def _far(instance: Instance, ends: Sequence[End]) -> list[End]:
+    """Those on other branches of names."""
+    return [one for one in ends if not on_branch(instance.prefix, [one], _prefix)]
+
+
+def _prefix(end: End) -> str:
+    return end[0].prefix
+
+
+def _seen(instance: Instance, ends: Sequence[End], exports: Exports) -> list[End]:
     """Those that are seen from the innermost group around `instance` from which any is seen."""
+    ends = on_branch(instance.prefix, ends, _prefix)
     scope = instance.group
     while True:
         seen = exports.get(scope, {})
@@ -65,21 +106,6 @@ def _nearest(instance: Instance, ends: Sequence[End], exports: Exports) -> list[
         if found or not scope:
             return found
         scope = scope.rpartition(JOINT)[0]
-
-
-def _judge_requirement(
-    end: End,
-    found: Sequence[End],
-    shown: Sequence[str],
-    imported: Imported,
-    report: Report,
-    *,
-    whole: bool,
-) -> None:
-    if found:
-        _report_several(*end, found, shown[0], report)
-    elif whole:
-        _report_unserved(*end, imported, report)
 
 
 def _ends(instances: Sequence[Instance], role: Role) -> Iterator[End]:
@@ -105,16 +131,16 @@ def _shown(instance: Instance, end: End, exports: Exports) -> str:
 
 
 def _report_several(
-    instance: Instance, port: Port, found: Sequence[End], first: str, report: Report
+    instance: Instance, port: Port, candidates: _Candidates, report: Report
 ) -> None:
-    names = [f"{one.name}.{other.name}" for one, other in found]
+    names = [f"{one.name}.{other.name}" for one, other in candidates.found]
     report.add(
         codes.AMBIGUOUS_REQUIREMENT,
         instance.span,
         f"`{instance.name}` requires `{port.name}`, which {listing(names)} implement",
         notes=[Note(port.span, "it is required here")],
         help="say which one: "
-        f"`connect {instance.name.rpartition(JOINT)[2]}.{port.name} -> {first};`",
+        f"`connect {instance.name.rpartition(JOINT)[2]}.{port.name} -> {candidates.first};`",
     )
 
 
@@ -136,10 +162,28 @@ def _report_unserved(instance: Instance, port: Port, imported: Imported, report:
     )
 
 
-def _report_unheard(instance: Instance, port: Port, report: Report) -> None:
+def _report_far(instance: Instance, port: Port, far: Sequence[End], report: Report) -> None:
+    other, served = far[0]
+    ends = (instance.name.rpartition(JOINT)[2], other.name.rpartition(JOINT)[2])
+    report.add(
+        codes.UNSERVED_REQUIREMENT,
+        instance.span,
+        f"`{instance.name}` requires `{port.interface.name}`, which nobody under its prefix"
+        f" `{instance.prefix}` implements",
+        notes=[Note(port.span, "it is required here"), *_others(far)],
+        help=f"say so: `connect {ends[0]}.{port.name} -> {ends[1]}.{served.name};`",
+    )
+
+
+def _others(far: Sequence[End]) -> list[Note]:
+    return [Note(one.span, f"`{one.name}` does, under the prefix `{one.prefix}`") for one, _ in far]
+
+
+def _report_unheard(instance: Instance, port: Port, far: Sequence[End], report: Report) -> None:
+    who = f"nobody under its prefix `{instance.prefix}`" if far else "nobody here"
     report.add(
         codes.NO_PUBLISHER,
         instance.span,
-        f"`{instance.name}` subscribes to `{port.interface.name}`, which nobody here publishes",
-        notes=[Note(port.span, "it is subscribed to here")],
+        f"`{instance.name}` subscribes to `{port.interface.name}`, which {who} publishes",
+        notes=[Note(port.span, "it is subscribed to here"), *_others(far)],
     )

@@ -18,6 +18,7 @@ from robocomp_dsl.check.imports import replace
 from robocomp_dsl.check.literals import listing
 from robocomp_dsl.check.named_files import find_beside
 from robocomp_dsl.check.names import without_repeats
+from robocomp_dsl.check.prefixes import prefix_of
 from robocomp_dsl.check.restarts import ready_of, restart_of
 from robocomp_dsl.check.settings import settings_of
 from robocomp_dsl.check.workspace import Workspace
@@ -52,6 +53,7 @@ def instance_of(
     host = _host(tree.host, around, report)
     config = _config(tree.config, around, report)
     context, searched = searched_of(tree, report)
+    prefix = prefix_of(tree.prefix, report)
     executable = _executable(tree.executable, report)
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
@@ -67,6 +69,7 @@ def instance_of(
         config=config,
         context=context,
         searched=searched,
+        prefix=prefix,
         settings=settings_of(tree.settings, component, report),
         devices=devices,
         environment=tuple((one.name.text, one.value.value) for one in environment),

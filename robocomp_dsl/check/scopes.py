@@ -136,6 +136,7 @@ def flat(scope: Scope, report: Report) -> list[tuple[ast.Instance, str]]:
                 tree.config,
                 tree.context,
                 tree.from_,
+                tree.prefix,
                 tree.settings,
                 tree.devices,
                 tree.attachments,

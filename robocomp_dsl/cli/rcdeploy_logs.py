@@ -8,7 +8,7 @@ import click
 
 from robocomp_dsl.cli import options, rcdeploy_running
 from robocomp_dsl.deploy import control, folder
-from robocomp_dsl.deploy.logs import Record, as_text
+from robocomp_dsl.deploy.logs import OWN, Record, as_text
 
 
 @click.command()
@@ -22,11 +22,12 @@ def command(
 ) -> None:
     """Show what the components of a running deployment said."""
     one = rcdeploy_running.find(which)
+    known = [OWN, *rcdeploy_running.components(one)] if component else []
     request = {
         "verb": "logs",
         "follow": follow,
         "last": max(last, 0),
-        "components": list(component),
+        "components": [rcdeploy_running.meant(name, known) for name in component],
     }
     colours = options.colours_on(sys.stdout)
     width = 0

@@ -7,14 +7,14 @@ a component refuses, and then nothing has changed.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Never
 
 import click
 
 from robocomp_dsl.cli import rcdeploy_running
-from robocomp_dsl.deploy import control, folder
+from robocomp_dsl.deploy import folder
 from robocomp_dsl.diagnostics import did_you_mean
 
 if TYPE_CHECKING:
@@ -39,8 +39,8 @@ def command() -> None:
 def list_(which: str, components: tuple[str, ...], form: str) -> None:
     """All parameters, of all components or of those named."""
     one = rcdeploy_running.find(which)
-    known = _names(one)
-    wanted = [_known(name, known) for name in components] or known
+    known = rcdeploy_running.components(one)
+    wanted = [rcdeploy_running.meant(name, known) for name in components] or known
     found = {}
     with _proxies(one) as proxy_of:
         for name in wanted:
@@ -59,8 +59,9 @@ def list_(which: str, components: tuple[str, ...], form: str) -> None:
 def get(which: str, component: str, names: tuple[str, ...]) -> None:
     """The values of parameters, a line each."""
     one = rcdeploy_running.find(which)
+    whole = rcdeploy_running.meant(component, rcdeploy_running.components(one))
     with _proxies(one) as proxy_of:
-        parameters = {p.name: p for p in _parameters(proxy_of, _known(component, _names(one)))}
+        parameters = {p.name: p for p in _parameters(proxy_of, whole)}
     for name in names:
         if name not in parameters:
             hint = did_you_mean(name, parameters)
@@ -79,7 +80,7 @@ def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool) ->
 
     values = dict(map(_change, changes))
     one = rcdeploy_running.find(which)
-    name = _known(component, _names(one))
+    name = rcdeploy_running.meant(component, rcdeploy_running.components(one))
     with _proxies(one) as proxy_of:
         proxy = _reached(proxy_of, name)
         try:
@@ -97,22 +98,6 @@ def _change(text: str) -> tuple[str, str]:
     if not sign or not name:
         raise click.UsageError(f"`{text}` is no change; write PARAMETER=VALUE, as in rate=20")
     return name.strip(), value
-
-
-def _names(one: folder.Running) -> list[str]:
-    """The components of a running deployment."""
-    try:
-        answer = next(control.ask(one.name, {"verb": "status"}))
-    except (folder.Unavailable, StopIteration):
-        _fail(f"`{one.name}` does not answer; it may be ending")
-    return [str(row["name"]) for row in answer["rows"]]
-
-
-def _known(name: str, known: Sequence[str]) -> str:
-    if name not in known:
-        hint = did_you_mean(name, known) or f"it has {', '.join(known)}"
-        _fail(f"there is no component `{name}` in the deployment", hint)
-    return name
 
 
 @contextmanager

@@ -38,7 +38,8 @@ class Process:
     `stops_after`: what must have ended before it is asked to stop. `config` (None: the
     component's own, or what it finds by `context` and `searched`) and `settings` (`key=value`) are
     those in `argv`. `port` 0: any.
-    `host` and `group` are as written, empty for this machine and for none; `devices` for people.
+    `name` is the whole one, with the prefix. `host` and `group` are as written, empty for this
+    machine and for none; `devices` for people.
     """
 
     name: str
@@ -81,14 +82,18 @@ class Plan:
 
 def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) -> Plan:
     """The processes of `deployment`. `interpreter` stands for `python3` in command lines."""
-    order = {instance.name: i for i, instance in enumerate(deployment.instances)}
-    processes = [
-        _process(deployment, instance, domain, interpreter) for instance in deployment.instances
-    ]
-    before = {p.name: _users(p.name, deployment, order) for p in processes}
-    ordered = tuple(replace(p, stops_after=before[p.name]) for p in processes)
+    whole = {instance.name: instance.whole_name for instance in deployment.instances}
+    order = {name: i for i, name in enumerate(whole)}
+    processes = tuple(
+        replace(
+            _process(deployment, one, domain, interpreter),
+            after=tuple(whole[name] for name in one.after),
+            stops_after=tuple(whole[name] for name in _users(one.name, deployment, order)),
+        )
+        for one in deployment.instances
+    )
     clock = _shown_clock(deployment.clock)
-    return Plan(name, deployment.path, domain, deployment.middleware, ordered, clock)
+    return Plan(name, deployment.path, domain, deployment.middleware, processes, clock)
 
 
 def waves(waits_for: dict[str, set[str]]) -> list[list[str]]:
@@ -119,7 +124,9 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
     command = shlex.split(one.executable)
     if command and command[0] in PYTHONS:
         command[0] = interpreter
-    argv = [*command, "--name", one.name, "--domain", domain]
+    argv = [*command, "--name", one.name]
+    argv += ["--prefix", one.prefix] if one.prefix else []
+    argv += ["--domain", domain]
     argv += ["--middleware", deployment.middleware, "--log-format", "json"]
     argv += ["--config", str(one.config)] if one.config else []
     argv += ["--context", one.context] if one.context else []
@@ -129,12 +136,11 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
     argv += ["--clock", clock_text(clock, one, deployment.instances)] if clock.source else []
     argv += _wiring(one, deployment.connections)
     return Process(
-        name=one.name,
+        name=one.whole_name,
         component=one.component.name,
         argv=tuple(argv),
         cwd=one.component.path.parent,
         env=(*one.environment, *devices_environment(one.devices)),
-        after=one.after,
         restart=Restart("never") if clock.stops_when_lost and clock.source is one else one.restart,
         ready_within_s=one.ready_within_s,
         port=one.port,
@@ -151,10 +157,10 @@ def _process(deployment: Deployment, one: Instance, domain: str, interpreter: st
 def clock_text(clock: Clock, one: Instance, instances: Sequence[Instance]) -> str:
     """As `--clock` takes it; only the source is told who takes part."""
     assert clock.source is not None  # noqa: S101 - a wall clock needs no flag
-    others = [each.name for each in instances if each is not clock.source]
+    others = [_seen_by(one, each) for each in instances if each is not clock.source]
     said = ClockSettings(
         LOCKSTEP if clock.lockstep else SIM,
-        clock.source.name,
+        _seen_by(one, clock.source),
         tuple(sorted(others)) if clock.lockstep and one is clock.source else (),
         clock.limit_s,
         clock.stops_when_lost,
@@ -171,7 +177,7 @@ def _shown_host(host: Host) -> str:
 def _shown_clock(clock: Clock) -> str:
     if clock.source is None:
         return "wall"
-    said = f"simulated, from {clock.source.name}"
+    said = f"simulated, from {clock.source.whole_name}"
     if not clock.lockstep:
         return said
     lost = "stops when one is lost" if clock.stops_when_lost else "goes on without one that is lost"
@@ -202,7 +208,7 @@ def _wiring(one: Instance, connections: Sequence[Connection]) -> list[str]:
         if getattr(wire, finder) is one:
             port = getattr(wire, f"{finder}_port").name
             peer = getattr(wire, found)
-            flags += ["--connect", f"{port}={_peer(peer, getattr(wire, f'{found}_port'))}"]
+            flags += ["--connect", f"{port}={_peer(one, peer, getattr(wire, f'{found}_port'))}"]
         for end, port in ((wire.source, wire.source_port), (wire.target, wire.target_port)):
             if end is one and wire.qos != Qos():
                 qualities.setdefault(port.name, []).append(wire.qos)
@@ -211,12 +217,18 @@ def _wiring(one: Instance, connections: Sequence[Connection]) -> list[str]:
     return flags
 
 
-def _peer(instance: Instance, port: Port) -> str:
+def _seen_by(one: Instance, other: Instance) -> str:
+    """The whole name of `other` for the command line of `one`: its own prefix is not added."""
+    return f"/{other.whole_name}" if one.prefix else other.whole_name
+
+
+def _peer(one: Instance, instance: Instance, port: Port) -> str:
     """`component`, or `component.port` where it has that interface more than once."""
     rivals = [
         p for p in instance.component.ports if p.role is port.role and p.interface is port.interface
     ]
-    return instance.name if len(rivals) == 1 else f"{instance.name}.{port.name}"
+    name = _seen_by(one, instance)
+    return name if len(rivals) == 1 else f"{name}.{port.name}"
 
 
 def strictest(wanted: Iterable[Qos]) -> Qos:

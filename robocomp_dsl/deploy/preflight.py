@@ -88,7 +88,8 @@ def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
     known = schema(own.parameters) if own else ()
     beside = process.cwd / OWN_CONFIG
     try:
-        config = process.config or _found_by(process) or (beside if beside.is_file() else None)
+        found = process.config or _found_by(instance.name, process)
+        config = found or (beside if beside.is_file() else None)
     except ConfigError as error:
         return [_in_configuration(instance, None, one) for one in error.findings]
     try:
@@ -98,11 +99,12 @@ def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
     return []
 
 
-def _found_by(process: Process) -> Path | None:
-    """What the component would find; None: its own. Raises `ConfigError`."""
+def _found_by(name: str, process: Process) -> Path | None:
+    """What the instance `name` would find; None: its own. Raises `ConfigError`."""
     if not (process.context or process.searched):
         return None
-    asked = Asked(process.context, process.searched, (process.name, process.component))
+    names = tuple(dict.fromkeys((process.name, name, process.component)))
+    asked = Asked(process.context, process.searched, names)
     around = surroundings(os.environ | dict(process.env), process.cwd)
     return choose(asked, around).path
 

@@ -60,10 +60,10 @@ def names(session: Session, cursor: Cursor) -> Iterator[Offer]:
     ):
         kind = lsp.CompletionItemKind.Variable
         yield from (Offer(name, kind, f": {of}") for name, of in instances.items())
-    elif last in _WORDS:
-        yield from words(*_WORDS[last])
     elif last == "MIDDLEWARE":
         yield from words(*session.workspace.middlewares)
+    else:
+        yield from words(*_prefixes(everyone) if last == "PREFIX" else _WORDS.get(last, ()))
 
 
 _WORDS = {"RESTART": POLICIES, "PRIORITY": PRIORITIES}
@@ -78,6 +78,12 @@ def _all_instances(files: Sequence[ast.File]) -> Iterator[ast.Instance]:
             block = todo.pop()
             yield from block.instances
             todo.extend(block.groups)
+
+
+def _prefixes(instances: Sequence[ast.Instance]) -> list[str]:
+    """Those that others of the file have, if they can be written without quotation marks."""
+    found = {one.prefix.span.text for one in instances if one.prefix}
+    return sorted(text for text in found if text.isidentifier())
 
 
 def _components(

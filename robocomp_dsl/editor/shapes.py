@@ -130,7 +130,11 @@ def _port_with_interface(port: Port) -> str:
 def _instance(one: Instance) -> str:
     host = f" on {one.host.name}" if one.host.name else ""
     head = f"component {one.name} : {one.component.name}{host}\n"
-    return head + _component(one.component)
+    return head + _prefixed(one) + _component(one.component)
+
+
+def _prefixed(one: Instance) -> str:
+    return f'prefix "{one.prefix}";    // runs as {one.whole_name}\n' if one.prefix else ""
 
 
 def _host(one: Host) -> str:

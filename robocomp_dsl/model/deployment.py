@@ -58,6 +58,7 @@ class Instance(Record):
 
     Of one in a group, the groups' names stand before its own in `name`, with `-`, as in
     `arm-motor`; `group` is `arm`, and empty for one in none. `placed` is where its host is named.
+    With a `prefix` others see it, and all its ports, under `whole_name`: `left/arm-motor`.
     `config` is None for the component's own `etc/config.yaml`, or for a file of the `context`, or
     called as `searched` says, that the component finds when it starts; `settings` are the `set`
     lines, the keys dotted; `executable` is a command line run in the component's folder; `port` 0:
@@ -71,6 +72,7 @@ class Instance(Record):
     config: Path | None = None
     context: str = ""
     searched: str = ""
+    prefix: str = ""
     settings: tuple[tuple[str, Literal], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
     devices: Devices = Devices()
@@ -82,6 +84,11 @@ class Instance(Record):
     doc: str = ""
     group: str = ""
     placed: Span | None = None
+
+    @property
+    def whole_name(self) -> str:
+        """The name by which it runs."""
+        return f"{self.prefix}/{self.name}" if self.prefix else self.name
 
 
 class Connection(Record):

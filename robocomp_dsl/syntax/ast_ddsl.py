@@ -76,6 +76,7 @@ class Instance(Node):
     config: Text | None = None
     context: Text | None = None
     from_: Text | None = None
+    prefix: Name | Text | None = None
     settings: tuple[Setting, ...] = ()
     devices: tuple[Device, ...] = ()
     attachments: tuple[Attach, ...] = ()

@@ -60,6 +60,10 @@ class Instances(Devices):
         """`from "arm.yaml";`."""
         return Setting(span, "from_", path)
 
+    def prefix(self, span: Span, name: Name | Text) -> Setting:
+        """`prefix left;` or `prefix "left/hand";`."""
+        return Setting(span, "prefix", name)
+
     def setting(self, span: Span, key: Name, value: Any) -> ast.Setting:
         """`set key = value;`."""
         return ast.Setting(span, key, _literal(value))

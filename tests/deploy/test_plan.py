@@ -94,6 +94,26 @@ def test_command_lines() -> None:
     )  # fmt: skip
 
 
+def test_a_prefix_is_before_the_names_of_all_that_meet_it() -> None:
+    base = instance("base", BASE, prefix="left", after=("nav",))
+    nav, far = instance("nav", NAV), instance("far", NAV, prefix="right")
+    wires = [wire(one, 0, base, 0, Qos()) for one in (nav, far)]
+    clock = Clock("sim", base, lockstep=True)
+    robot = replace(deployment([nav, base, far], *wires), clock=clock)
+    made = plan(robot, name="robot", domain="d-1", interpreter="/py")
+    argv = {process.name: process.argv for process in made.processes}
+    assert list(argv) == ["nav", "left/base", "right/far"]
+    assert argv["left/base"][2:6] == ("--name", "base", "--prefix", "left")
+    assert "laser=left/base.front" in argv["nav"]
+    assert "laser=/left/base.front" in argv["right/far"]
+    assert "lockstep,from=/left/base,with=/nav+/right/far,limit=10" in argv["left/base"]
+    assert "lockstep,from=left/base,limit=10" in argv["nav"]
+    assert made.processes[1].after == ("nav",)
+    assert made.processes[1].stops_after == ("right/far",)
+    assert made.stop_waves() == [["right/far"], ["left/base"], ["nav"]]
+    assert made.clock.startswith("simulated, from left/base")
+
+
 def test_a_search_is_told_to_the_component() -> None:
     base = instance("base", BASE, context="lab", searched="left/base.yaml")
     assert commands(deployment([base]))["base"] == (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 from doc_site import DEMO, ROOT, check_links, headings, pages, read
@@ -72,6 +73,17 @@ TOLD = [
 @pytest.mark.parametrize(("page", "said"), TOLD)
 def test_what_is_told(demo: dict[str, str], page: str, said: str) -> None:
     assert said in read(demo[f"{page}.html"]).text
+
+
+def test_the_whole_name_of_an_instance_is_told(tmp_path: Path) -> None:
+    ddsl = tmp_path / "left.ddsl"
+    wander = DEMO.parent / "wander.cdsl"
+    base = ROOT / "components" / "mobile_base" / "mobile_base.cdsl"
+    ddsl.write_text(
+        f'import "{wander}";\nimport "{base}";\n'
+        "Deployment d { component wander { prefix left; }; component mobile_base; };\n"
+    )
+    assert "runs as left/wander" in read(pages(ddsl)["deployments/d.html"]).text
 
 
 def test_headings_go_down_in_steps_of_one(demo: dict[str, str]) -> None:

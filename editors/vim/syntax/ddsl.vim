@@ -157,6 +157,11 @@ hi def link ddsl_port_value ddslValue
 hi def link ddsl_port_name ddslName
 hi def link ddsl_port_field ddslField
 syn region ddsl_port matchgroup=ddslKeyword start=/\<port\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_port_inner,ddsl_port_value,ddsl_port_name,ddsl_port_field
+hi def link ddsl_prefix_inner ddslModifier
+hi def link ddsl_prefix_value ddslValue
+hi def link ddsl_prefix_name ddslName
+hi def link ddsl_prefix_field ddslField
+syn region ddsl_prefix matchgroup=ddslKeyword start=/\<prefix\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_prefix_inner,ddsl_prefix_value,ddsl_prefix_name,ddsl_prefix_field
 syn match ddsl_priority_value contained /\.\@<!\<\%(background\|realtime\|normal\|high\|low\)\>/
 hi def link ddsl_priority_inner ddslModifier
 hi def link ddsl_priority_value ddslValue

@@ -74,6 +74,8 @@ def _instance(one: Instance, site: Site) -> tuple[Words, ...]:
 
 
 def _settings(one: Instance) -> Iterator[Words]:
+    if one.prefix:
+        yield (Text("runs as "), Code(one.whole_name))
     if one.config:
         yield (Text("configuration "), Code(one.config.name))
     if one.context:
