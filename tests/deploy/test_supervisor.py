@@ -21,7 +21,7 @@ from robocomp_dsl.deploy.status import Row
 from robocomp_dsl.model.deployment import Restart
 
 NEVER = Restart("never")
-FAR_TOO_LONG_S = 30.0
+FAR_TOO_LONG_S = 120.0
 
 
 class Run:

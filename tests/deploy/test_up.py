@@ -46,8 +46,8 @@ import "arm/arm.cdsl";
 import "eye/eye.cdsl";
 Deployment app
 {
-    component arm { set serial = "abc"; set rate = 20; env MODE = fast; ready within 40 s; };
-    component eye { after arm; ready within 40 s; };
+    component arm { set serial = "abc"; set rate = 20; env MODE = fast; ready within 200 s; };
+    component eye { after arm; ready within 200 s; };
 };
 """
 
@@ -176,11 +176,11 @@ Deployment app
     host desk { address "127.0.0.1"; };
     group left on desk
     {
-        component arm { set serial = "abc"; ready within 40 s; };
-        component eye { after arm; ready within 40 s; };
+        component arm { set serial = "abc"; ready within 200 s; };
+        component eye { after arm; ready within 200 s; };
         export Laser from arm;
     };
-    component eye on localhost { after left; ready within 40 s; };
+    component eye on localhost { after left; ready within 200 s; };
 };
 """
 

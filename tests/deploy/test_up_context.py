@@ -22,7 +22,7 @@ APP = """
 import "arm/arm.cdsl";
 Deployment app
 {
-    component arm { context "lab"; ready within 40 s; };
+    component arm { context "lab"; ready within 200 s; };
 };
 """
 

@@ -13,7 +13,7 @@ from pygls.uris import from_fs_path
 from pytest_lsp import LanguageClient
 
 SERVER = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen import main; main()", "lsp"]
-DEADLINE_S = 30
+DEADLINE_S = 120
 
 
 class Editor:

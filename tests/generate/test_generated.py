@@ -22,7 +22,7 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.parameters import ParameterGroup, Parameters
 
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
-PATIENCE_S = 20
+PATIENCE_S = 120
 """How long a component may take to say that it runs; the tests do not judge speed."""
 
 

@@ -223,7 +223,7 @@ def test_many_threads_lose_nothing(clock: HandClock) -> None:
     begin = threading.Barrier(threads)
 
     def fire() -> None:
-        begin.wait(10.0)
+        begin.wait(60.0)
         for _ in range(each):
             machine.go("again")
 
@@ -243,12 +243,12 @@ def test_nobody_waits_for_a_thread_that_is_at_it(clock: HandClock) -> None:
     class Slow:
         def on_enter_playing(self) -> None:
             entered.set()
-            assert leave.wait(10.0)
+            assert leave.wait(60.0)
 
     machine = made(GAME, Slow(), clock)
     other = threading.Thread(target=machine.go, args=("start",))
     other.start()
-    assert entered.wait(10.0)
+    assert entered.wait(60.0)
     assert machine.go("pause") is False, "it is left to the other thread"
     assert not machine.is_in("paused")
     leave.set()
@@ -264,7 +264,7 @@ def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
         def on_enter_playing(self) -> None:
             machine.go("pause")
             entered.set()
-            assert leave.wait(10.0)
+            assert leave.wait(60.0)
             raise ZeroDivisionError
 
         def on_enter_paused(self) -> None:
@@ -280,7 +280,7 @@ def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
 
     other = threading.Thread(target=start)
     other.start()
-    assert entered.wait(10.0)
+    assert entered.wait(60.0)
     assert machine.go("start") is False
     leave.set()
     other.join()

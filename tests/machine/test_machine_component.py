@@ -22,7 +22,7 @@ from robocomp_dsl.runtime.runner import Runner
 from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.runtime.statistics import Statistics
 
-DEADLINE = 10.0
+DEADLINE = 60.0
 
 
 class Player(Component):

@@ -16,7 +16,7 @@ from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware, Qos
 from robocomp_dsl.runtime.statistics import Statistics
 
-DEADLINE = 10.0
+DEADLINE = 60.0
 
 
 def wait_for(condition: Callable[[], Any]) -> None:

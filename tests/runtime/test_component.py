@@ -34,7 +34,7 @@ from robocomp_dsl.runtime.settings import (
 )
 from robocomp_dsl.runtime.statistics import Statistics
 
-DEADLINE = 10.0
+DEADLINE = 60.0
 
 
 class ArmParams(Parameters):

@@ -25,7 +25,7 @@ from robocomp_dsl.runtime.runner import Runner
 from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.runtime.spec import CalledPort, ServedPort
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 DRIVE = rt.Interface(
     "Test::Drive",
     (

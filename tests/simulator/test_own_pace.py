@@ -10,7 +10,7 @@ import pytest
 from robocomp_dsl.hardware.pace import own
 from robocomp_dsl.hardware.turns import Turns
 
-DEADLINE = 20.0
+DEADLINE = 60.0
 
 
 class World:

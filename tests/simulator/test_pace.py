@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.clock_interface import Tick
 from robocomp_dsl.runtime.clock_source import ClockSource
 from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 
-DEADLINE = 30.0
+DEADLINE = 120.0
 
 
 class Life:

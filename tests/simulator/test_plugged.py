@@ -52,7 +52,7 @@ DEVICES: dict[str, Any] = {
         {"phase": "shutdown", "level": 1, "park": "arm"},
     ],
 }
-DEADLINE_S = 30.0
+DEADLINE_S = 120.0
 
 
 def simulation(folder: Path) -> Simulation:

@@ -54,7 +54,7 @@ except BaseException:
     process.kill()
     os._exit(1)
 process.terminate()
-assert process.wait(30) == 0
+assert process.wait(60) == 0
 middleware.close()
 """
 

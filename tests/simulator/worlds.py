@@ -69,7 +69,7 @@ def simulated(folder: Path, text: str, options: Options | None = None) -> Simula
 def rcgen(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]:
     """Run the command."""
     return subprocess.run(
-        [RCGEN, *arguments], cwd=cwd, capture_output=True, text=True, timeout=120, check=False
+        [RCGEN, *arguments], cwd=cwd, capture_output=True, text=True, timeout=300, check=False
     )
 
 
@@ -86,11 +86,11 @@ middleware = open_middleware(sys.argv[1], Host("client", sys.argv[2], Execution(
 
 def proxy(interface, port):
     link = middleware.proxy(Endpoint(interface, "client", "x", (sys.argv[3] + "." + port,)))
-    assert link.wait(30), port
+    assert link.wait(100), port
     return SimpleNamespace(**{one.name: link.bind(one) for one in interface.operations})
 
 def until(what):
-    end = time.monotonic() + 30
+    end = time.monotonic() + 100
     while not what():
         assert time.monotonic() < end, "it did not come true in time"
         time.sleep(0.01)
@@ -112,7 +112,7 @@ def run(folder: Path, code: str, *arguments: str) -> str:
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": ""},
-        timeout=120,
+        timeout=300,
         check=False,
     )
     assert done.returncode == 0, done.stderr
@@ -137,7 +137,7 @@ process = subprocess.Popen([sys.executable, "main.py", "--domain", sys.argv[2]])
 """
 ENDS = {
     "inproc": "\nrunner.stop()\nassert runner.wait()\n",
-    "zenoh": "\nprocess.terminate()\nassert process.wait(30) == 0\n",
+    "zenoh": "\nprocess.terminate()\nassert process.wait(60) == 0\n",
 }
 STARTS = {"inproc": INPROC, "zenoh": ZENOH}
 

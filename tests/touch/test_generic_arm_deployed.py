@@ -75,7 +75,7 @@ class Deployed:
                 one.terminate()
         for one in self.processes.values():
             try:
-                one.wait(20)
+                one.wait(60)
             except subprocess.TimeoutExpired:
                 one.kill()
                 one.wait()
@@ -88,7 +88,7 @@ class Deployed:
         return True
 
     def rest(self) -> np.ndarray:
-        until(lambda: not self.arm["getState"]().moving, 60)
+        until(lambda: not self.arm["getState"]().moving)
         return self.arm["getState"]().position
 
 
@@ -106,12 +106,12 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
             stack.callback(middleware.close)
             interface = ARM.interfaces.GENERICARM
             link = middleware.proxy(Endpoint(interface, "client", "arm", ("generic_arm",)))
-            assert link.wait(60)
+            assert link.wait(120)
             made.arm = {one.name: link.bind(one) for one in interface.operations}
             topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
             at = Endpoint(topic, "client", "GenericArmState")
             middleware.subscribe(at, {"armState": made.states.append}, Execution())
-            until(made.answers, 60)
+            until(made.answers)
             return made
 
         yield deploy
@@ -142,13 +142,13 @@ def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> No
     until(lambda: not one.answers())
     assert "the arm does not answer" in refused(one.arm["move"], GOALS[0], NONE)
     robot.send_signal(signal.SIGCONT)
-    until(one.answers, 60)
+    until(one.answers)
     robot.kill()
     robot.wait()
     until(lambda: not one.answers())
     assert "the arm does not answer" in refused(one.arm["getState"])
     one.start(one.simulator)
-    until(one.answers, 60)
+    until(one.answers)
     one.arm["move"](GOALS[0], NONE)
     assert one.rest() == pytest.approx(GOALS[0], abs=0.05)
 

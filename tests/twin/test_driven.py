@@ -19,7 +19,7 @@ from robocomp_dsl.hardware.rules import RULES, Broken, Rule
 from robocomp_dsl.hardware.rules.trial import MAY_MOVE, on_hardware
 
 JOINT = JointSpec("pan", -1.0, 1.0, 3.0, 5.0)
-DEADLINE_S = 20.0
+DEADLINE_S = 60.0
 
 
 class Motor:

@@ -49,7 +49,7 @@ def run(*command: str | Path, cwd: Path, **env: str) -> subprocess.CompletedProc
         capture_output=True,
         text=True,
         env={**os.environ, **env},
-        timeout=120,
+        timeout=300,
         check=False,
     )
 
@@ -128,11 +128,11 @@ middleware = open_middleware("zenoh", Host("client", domain, Execution(), Statis
 
 def bound(interface, port, operation):
     link = middleware.proxy(Endpoint(interface, "client", "x", (f"{name}.{port}",)))
-    assert link.wait(30), port
+    assert link.wait(100), port
     return link.bind(next(one for one in interface.operations if one.name == operation))
 
 def until(what):
-    end = time.monotonic() + 30
+    end = time.monotonic() + 100
     while True:
         try:
             if what():
@@ -210,7 +210,7 @@ assert [one.name for one in ports["LArm"].getJoints()] == IDS
 ports["LArm"].setControlMode([], i.ControlMode.Position)
 ports["LArm"].setReferenceSpeed(["LShoulderPitch"], np.array([1.0]))
 ports["LArm"].positionMove(["LShoulderPitch"], np.array([0.9]))
-end = time.monotonic() + 20
+end = time.monotonic() + 60
 while abs(ports["LArm"].getState().position[0] - 0.9) > 0.02:
     assert time.monotonic() < end, ports["LArm"].getState().position
     time.sleep(0.01)
@@ -229,7 +229,7 @@ def talk(folder: Path, name: str, domain: str, cable: str) -> None:
         assert done.returncode == 0, done.stderr
     finally:
         component.terminate()
-    assert component.wait(timeout=30) == 0
+    assert component.wait(timeout=60) == 0
 
 
 def test_code_for_the_simulated_laser_runs_on_the_real_one(home: Path, tmp_path: Path) -> None:
