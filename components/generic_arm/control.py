@@ -26,8 +26,6 @@ STILL = 0.02
 AWAY = (MiddlewareError, Refusal, WrongBoard, TactileError)
 """What may go wrong with the boards; it is tried again until it goes well."""
 
-LASTING = (Control.VELOCITY, Control.TORQUE)
-
 
 @dataclass(frozen=True, slots=True)
 class Beginning:
@@ -41,12 +39,14 @@ class Beginning:
 class ArmControl:
     """`trouble` says why the arm does not answer, empty while it does; `moving` whether it moves.
 
-    What lasts (speeds, torques, glides) ends `hold` s after the last command; 0: never. Torques are
-    renewed in every period, since a board lets go of who falls silent.
+    Speeds and glides end `hold` s after the last command, 0: never; torques `push_hold` s after it,
+    since whoever pushes may have ended. Until then torques are renewed in every period: a board
+    lets go of who falls silent.
     """
 
     def __init__(self, arm: GenericArm, boards: Boards, clock: Clock, begin: Beginning) -> None:
-        self.arm, self.hold, self.moving = arm, 0.0, False
+        self.arm, self.moving = arm, False
+        self.hold = self.push_hold = 0.0
         self.trouble = "its boards have not been reached yet"
         self._boards, self._clock, self._begin = boards, clock, begin
         self._reached = self._known = False
@@ -66,12 +66,16 @@ class ArmControl:
             self._read()
             warning = self._go_on() or warning
         except Exception as error:
-            self.trouble = str(error) or type(error).__name__
-            self._reached, self._ends = False, np.inf
-            self._glide = self._push = None
+            self.lose(str(error) or type(error).__name__)
             raise
         self.trouble = ""
         return warning
+
+    def lose(self, why: str) -> None:
+        """The boards have to be reached anew; nobody knows what they do meanwhile."""
+        self.trouble = why
+        self._reached, self._ends = False, np.inf
+        self._glide = self._push = None
 
     def carry_out(self, orders: Orders, glide: Floats | None = None) -> Bools:
         """Send orders, from now on renewed as `glide` (3,) wants; which angles (n,) were clipped.
@@ -83,8 +87,8 @@ class ArmControl:
             cut = self._boards.send(orders, self.hold)
         finally:
             self._sending -= 1
-        lasts = orders.control in LASTING and self.hold > 0
-        self._ends = self._clock.now() + self.hold if lasts else np.inf
+        lasts = {Control.VELOCITY: self.hold, Control.TORQUE: self.push_hold}
+        self._ends = self._clock.now() + (lasts.get(orders.control, 0.0) or np.inf)
         self._glide = glide
         self._push = orders if orders.control is Control.TORQUE else None
         self._sent += 1
@@ -147,13 +151,13 @@ class ArmControl:
         if self._clock.now() >= self._ends:
             self.stop()
         elif not self._sending and (self._glide is not None or self._push is not None):
+            what = "is pushed" if self._glide is None else "glides"
             orders = self._push if self._glide is None else self.arm.glide(self._glide)
             assert orders is not None  # noqa: S101  one of the two lasts
             try:
                 self._boards.send(orders, self.hold)
             except Refusal as error:
                 self.stop()
-                what = "is pushed" if self._glide is None else "glides"
                 return f"the hand {what} no further: {error}"
             except Overtaken:
                 pass  # by a command that will tell what comes next

@@ -58,6 +58,7 @@ class SpecificWorker(GenericWorker):
         self.control = ArmControl(self.arm, boards, self.clock, begin)
         self.did_set_speed(1.0)
         self.did_set_hold(0.0)
+        self.did_set_push_hold(0.0)
         self.did_set_period(0)
 
     def did_set_speed(self, _old: float) -> None:
@@ -67,6 +68,10 @@ class SpecificWorker(GenericWorker):
     def did_set_hold(self, _old: float) -> None:
         """What comes from now on lasts as long."""
         self.control.hold = self.params.hold
+
+    def did_set_push_hold(self, _old: float) -> None:
+        """The same for torques."""
+        self.control.push_hold = self.params.push_hold
 
     def did_set_period(self, _old: int) -> None:
         """Another rate of reading and publishing."""
@@ -79,12 +84,22 @@ class SpecificWorker(GenericWorker):
             self.log.warning("%s", warning)
         self.genericarmstate_proxy.armState(told_state(self.arm, moving=self.control.moving))
 
+    def emergency(self) -> None:
+        """While time stands still no motion can be watched: stop, and take hold anew later."""
+        if self.clock.silent:
+            self.leave_standing()
+            self.control.lose("nobody tells the time")
+
     def finalize(self) -> None:
         """Leave no arm moving."""
-        control = getattr(self, "control", None)  # not there after a wrong description
-        if control is not None and not control.trouble:
+        if hasattr(self, "control"):  # not there after a wrong description
+            self.leave_standing()
+
+    def leave_standing(self) -> None:
+        """Stop the arm, if it answers."""
+        if not self.control.trouble:
             try:
-                control.stop()
+                self.control.stop()
             except AWAY as error:
                 self.log.info("the arm could not be stopped: %s", error)
 
@@ -173,7 +188,7 @@ class SpecificWorker(GenericWorker):
             self.outcome(self.arm.drive(velocity))
 
     def GenericArm_push(self, torque: Angles) -> None:
-        """Give these torques until the next command."""
+        """Give these torques; a push that is not renewed ends."""
         with self.in_log("push"):
             self.outcome(self.arm.push(torque))
 

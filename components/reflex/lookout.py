@@ -24,6 +24,7 @@ AGAIN_S = 0.1
 """What was refused, or not answered, is tried so often."""
 ASK_AGAIN_S = 1.0
 """While the reflex is blind it asks so often what is there: it may be another skin, another arm."""
+TIMELESS = "time stands still: who makes it has ended, or hangs"
 
 
 class Lookout(Served):
@@ -61,7 +62,13 @@ class Lookout(Served):
     def emergency(self) -> None:
         """Look for what is missing, until all has been there for a while."""
         now = self._now()
-        reason = self._not_stopped(now) or self._not_known(now) or self._missing(now)
+        if self.clock.silent:
+            reason = TIMELESS
+            if not self.machine.is_in("Frozen"):
+                self.freeze(reason)
+                self.declare_emergency(reason)
+        else:
+            reason = self._not_stopped(now) or self._not_known(now) or self._missing(now)
         if not reason:
             if self.presence.well_for(now) >= self.params.recovery:
                 self.end_emergency()

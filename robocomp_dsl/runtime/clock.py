@@ -42,17 +42,25 @@ class Clock(Protocol):
     def epoch(self) -> int:
         """How often time has begun anew; -1: it has not begun at all."""
 
+    @property
+    def silent(self) -> bool:
+        """Whether time stands still because who makes it has ended or hangs: it is no pause."""
+
     def now(self) -> float:
         """Seconds since some fixed moment; goes back only with another `epoch`."""
 
     def wait_until(self, moment: float | None, wake: Wake) -> None:
-        """Until `now()` is `moment` (None: for ever), `wake` is set or the epoch is another."""
+        """Until `now()` is `moment` (None: for ever), `wake` is set or the epoch is another.
+
+        While it is `silent`, a wait ends now and then.
+        """
 
 
 class WallClock:
     """The time of the machine."""
 
     epoch = 0
+    silent = False
 
     def now(self) -> float:
         """See `Clock`."""

@@ -23,7 +23,7 @@ BEHIND_S = 0.1
 FACTOR_S = 0.5
 """Time of the wall clock over which the real-time factor is taken."""
 BEAT_S = 0.5
-"""A source whose time stands still says so again after this time, for those who come late."""
+"""A source whose time does not move says so again after this time: it is there."""
 
 
 class Steps(Protocol):
@@ -41,6 +41,8 @@ class Steps(Protocol):
 
 class ClockSource:
     """A `Clock` that its owner's life cycle drives. Any thread may control it."""
+
+    silent = False
 
     def __init__(
         self,
@@ -209,7 +211,7 @@ class ClockSource:
                 goal = min(target, self._until) if self._paused else target
                 if (left := self._left(goal)) <= 0:
                     return goal
-                if not self._changed.wait(min(left, BEAT_S)) and self._paused:
+                if not self._changed.wait(min(left, BEAT_S)) and left >= BEAT_S:
                     self._publish(self.told)
         return None
 

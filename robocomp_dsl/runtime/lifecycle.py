@@ -3,7 +3,8 @@
 In: the hooks of the user's class, a clock, the token. Out: calls of the hooks, in order, until it
 is stopped. A `compute` that fails brings the component into Emergency. There, once a period,
 `emergency` and `restore` are called and `compute` is tried again; when all went well the component
-is back in Compute. An emergency that the user's code declared lasts until it ends it.
+is back in Compute. An emergency that the user's code declared lasts until it ends it. One is also
+that nobody tells the time; it lasts until somebody does.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from robocomp_dsl.runtime.statistics import Statistics
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency of a component that has no period of its own."""
+TIMELESS = "nobody tells the time any more: whoever makes it has ended, or hangs"
 
 
 class State(StrEnum):
@@ -164,7 +166,9 @@ class Lifecycle:
                 due, last = self._clock.now(), 0.0
                 if self.machine:
                     self.machine.restart_timers()
-            if self._wake.is_set():
+            if self._clock.silent:
+                self._stand_still()
+            if self._wake.is_set() or self._clock.silent:
                 self._wake.clear()
                 due, last = self._clock.now(), 0.0
 
@@ -217,7 +221,7 @@ class Lifecycle:
 
     def _recover(self) -> None:
         self._hooks.emergency()
-        if self._declared:
+        if self._declared or self._clock.silent:
             return
         self.state = State.RESTORE
         self._hooks.restore()
@@ -237,6 +241,11 @@ class Lifecycle:
             self._statistics.failures += 1
             self._tell(error)
             self._enter_emergency(describe(error))
+
+    def _stand_still(self) -> None:
+        if self.state is State.COMPUTE:
+            log.warning("emergency: %s", TIMELESS)
+            self._enter_emergency(TIMELESS)
 
     def _enter_emergency(self, reason: str) -> None:
         self.reason = reason

@@ -25,7 +25,7 @@ from robocomp_dsl.runtime.settings import RunSettings
 from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 from robocomp_dsl.runtime.spec import CalledPort
 
-DEADLINE = 10.0
+DEADLINE = 60.0
 NANO = 1_000_000_000
 
 
@@ -258,14 +258,17 @@ def test_components_wait_for_the_first_tick_and_follow() -> None:
         assert isinstance(clock := counter.worker.clock, SimulatedClock)
         ticks = hearing(counter), hearing(sleeper)
         assert counter.worker.times == []
-        for number in range(101):
+        ticks[0](Tick(0))
+        until(lambda: counter.worker.times == [0.0])
+        for number in range(1, 102):
             for tick in ticks:
                 tick(Tick(number * 10_000_000))
-            if number % 2 == 0:
-                until(lambda n=number: len(counter.worker.times) == n // 2 + 1)
+            # Its time is to begin with its first tick, not with one that comes before it has woken.
+            until(lambda: sleeper.lifecycle.machine.due() in (1.01, None))
+            until(lambda n=number: len(counter.worker.times) == n // 2 + 1)
         assert counter.worker.times == [n * 20 / 1000 for n in range(51)]
-        until(lambda: sleeper.worker.woken == [1.0])
-        assert clock.now() == 1.0
+        until(lambda: sleeper.worker.woken == [1.01])
+        assert clock.now() == 1.01
 
         # a reset: the grid begins anew
         for tick in ticks:
@@ -280,6 +283,53 @@ def hearing(runner: Runner) -> Callable[[Tick], None]:
     clock = runner.worker.clock
     assert isinstance(clock, SimulatedClock)
     return clock.hear
+
+
+@pytest.mark.parametrize("kind", [Counter, Sleeper])
+def test_a_source_that_falls_silent_is_an_emergency_until_it_is_heard(
+    kind: type[Component],
+) -> None:
+    """By the clock of the machine, as there is no other; time goes on from where it stood."""
+    clock = SimulatedClock(patience=0.05)
+    runner = Runner(kind, Parameters(), RunSettings(domain=uuid.uuid4().hex), clock)
+    recovered = []
+    runner.worker.restore = lambda: recovered.append(clock.now())
+    runner.start()
+    try:
+        until(lambda: runner.state is State.COMPUTE)
+        clock.hear(Tick(20_000_000))
+        until(lambda: runner.state is State.EMERGENCY)
+        assert "nobody tells the time" in runner.lifecycle.reason
+        assert clock.silent
+        moments = iter(range(40_000_000, NANO, 1_000_000))
+        until(lambda: clock.hear(Tick(next(moments))) or recovered)
+        until(lambda: clock.hear(Tick(next(moments))) or runner.state is State.COMPUTE)
+        assert 0.02 < recovered[0] <= clock.now()
+        times = getattr(runner.worker, "times", [0.02, 0.04])
+        assert times == sorted(times)
+        assert len(times) >= 2
+    finally:
+        runner.stop()
+        assert runner.wait()
+
+
+def test_a_source_that_never_was_is_waited_for() -> None:
+    clock, wake = SimulatedClock(patience=0.01), Wake()
+    threading.Timer(0.05, wake.set).start()
+    clock.wait_until(0.0, wake)
+    assert not clock.silent
+
+
+def test_a_slow_source_says_that_it_is_there() -> None:
+    told: list[Tick] = []
+    source, wake = ClockSource(told.append, speed=0.001), Wake()
+    source.wait_until(0.0, Wake())
+    waiting = threading.Thread(target=source.wait_until, args=(10.0, wake))
+    waiting.start()
+    until(lambda: len(told) >= 3)
+    wake.set()
+    waiting.join(DEADLINE)
+    assert {one.time for one in told} == {0}
 
 
 def test_a_timer_begins_again_with_the_time() -> None:

@@ -12,6 +12,7 @@ from typing import Any
 import shipped_component
 from served_robot import ServedRobot
 
+from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.lifecycle import State
 from robocomp_dsl.runtime.middleware import open_middleware
@@ -26,7 +27,7 @@ FIRST_BOARD = {"nao_h25": "LArm", "nao_h21": "LArm", "icub_v2": "left_arm"}
 _domains = (f"generic-arm-{number}" for number in count())
 
 
-def until(what: Callable[[], Any], seconds: float = 30.0) -> None:
+def until(what: Callable[[], Any], seconds: float = 120.0) -> None:
     """Wait for `what` to become true."""
     end = time.monotonic() + seconds
     while not what():
@@ -46,11 +47,13 @@ def refused(call: Callable[..., Any], *given: Any) -> str:
 class RunningArm:
     """A `generic_arm` of the domain; its operations are methods. `states` are what it published."""
 
-    def __init__(self, domain: str, wires: dict[str, str], *settings: str) -> None:
+    def __init__(
+        self, domain: str, wires: dict[str, str], *settings: str, clock: Clock | None = None
+    ) -> None:
         params = ARM.worker.SPEC.parameters.load(None, ("period=2", *settings))
         wired = {port: (peer,) for port, peer in wires.items()}
         said = RunSettings(domain=domain, middleware="inproc", wires=wired)
-        self.runner = Runner(ARM.worker, params, said)
+        self.runner = Runner(ARM.worker, params, said, clock)
         self._client = open_middleware("inproc", Host("client", domain, Execution(), Statistics()))
         self.states: list[Any] = []
         topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
@@ -59,7 +62,7 @@ class RunningArm:
         self.runner.start()
         interface = ARM.interfaces.GENERICARM
         link = self._client.proxy(Endpoint(interface, "client", "arm"))
-        assert link.wait(10)
+        assert link.wait(60)
         self._bound = {one.name: link.bind(one) for one in interface.operations}
 
     def __getattr__(self, operation: str) -> Any:
@@ -84,6 +87,7 @@ def arm_on(
     *settings: str,
     description: Path | None = None,
     pose: Mapping[str, float] | None = None,
+    clock: Clock | None = None,
     **wires: str,
 ) -> Iterator[tuple[RunningArm, ServedRobot]]:
     """A robot and its left arm, that has been reached. `wires` are boards of the robot by port.
@@ -98,6 +102,7 @@ def arm_on(
         wired or {"board": f"robot.{FIRST_BOARD[robot]}"},
         f"description={description or DESCRIPTIONS / f'{robot}.yaml'}",
         *settings,
+        clock=clock,
     )
     try:
         until(lambda: arm.states or arm.runner.lifecycle.state is State.EMERGENCY)

@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from arm_client import arm_on, refused, until
+from served_robot import ServedRobot
+
+from robocomp_dsl.hardware.control.modes import Mode
 
 ROBOTS = ("nao_h25", "icub_v2")
 GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
@@ -137,13 +140,32 @@ def test_a_pushed_joint_turns_the_way_it_is_pushed(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         before = arm.getState().position
         del arm.states[:]
-        arm.push({"nao_h25": 0.8, "icub_v2": 3.0}[robot] * ELBOW)
-        until(lambda: arm.getState().position[3] > before[3] + 0.15)
+        torque = {"nao_h25": 0.8, "icub_v2": 3.0}[robot] * ELBOW
+        until(lambda: arm.push(torque) or arm.getState().position[3] > before[3] + 0.15)
         assert max(one.torque[3] for one in arm.states) > 0
         arm.stop()
         rest = arm.rest()
         until(lambda: arm.states[-1].time > rest.time + 0.3)
         assert arm.getState().position == pytest.approx(rest.position, abs=0.05)
+
+
+@BOTH
+def test_a_push_ends_when_who_pushed_is_silent_and_the_arm_holds_its_place(robot: str) -> None:
+    """The board of the test lets joints be pushed for ever: it is the arm that ends it."""
+    with arm_on(robot, "push_hold=0.2") as (arm, served):
+        arm.push({"nao_h25": 0.4, "icub_v2": 1.5}[robot] * ELBOW)
+        until(lambda: elbow(served) is Mode.TORQUE)
+        until(lambda: elbow(served) is Mode.POSITION)
+        rest = arm.rest()
+        until(lambda: arm.states[-1].time > rest.time + 0.3)
+        assert arm.getState().position == pytest.approx(rest.position, abs=0.05)
+
+
+def elbow(served: ServedRobot) -> Mode:
+    """The control mode of the joint behind generic index 3."""
+    board = served.part.board
+    (row,) = {"LElbowRoll", "l_elbow"}.intersection(board.spec.names)
+    return board.state().modes[board.spec.names.index(row)]
 
 
 @BOTH

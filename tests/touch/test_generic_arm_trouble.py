@@ -14,7 +14,9 @@ from arm_client import ARM, DESCRIPTIONS, arm_on, refused, until
 
 from robocomp_dsl.hardware.control.faults import Fault
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.runtime.clock_interface import Tick
 from robocomp_dsl.runtime.lifecycle import State
+from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 
 GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
 NONE = np.zeros(0)
@@ -35,6 +37,55 @@ def on_two(tmp_path: Path) -> Path:
 
 
 # -- boards that go away, and come back -----------------------------------------------------------
+
+
+class Ticking:
+    """A source of time, until it is held up; the clock notices soon."""
+
+    def __init__(self) -> None:
+        self.clock, self._over, self._held = SimulatedClock(0.1), threading.Event(), False
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def _run(self) -> None:
+        moment = 0
+        while not self._over.wait(0.001):
+            if not self._held:
+                moment += 1_000_000
+                self.clock.hear(Tick(moment))
+
+    def hold_up(self, *, held: bool) -> None:
+        self._held = held
+
+    def close(self) -> None:
+        self._over.set()
+        self._thread.join()
+
+
+def test_while_nobody_tells_the_time_the_arm_is_stopped_and_all_goes_on_behind() -> None:
+    """The board answers all the while: it is the time that is missing."""
+    ticking = Ticking()
+    try:
+        with arm_on("nao_h25", clock=ticking.clock) as (arm, served):
+            arm.drive(np.array([0, 0, 0, 0.2, 0]))
+            until(lambda: arm.getState().moving)
+            served.calls.clear()
+            ticking.hold_up(held=True)
+            until(lambda: arm.runner.lifecycle.state is State.EMERGENCY)
+            until(lambda: ("LArm", "stopMotion") in served.calls)
+            until(lambda: arm.runner.worker.control.trouble)
+            assert "nobody tells the time" in refused(arm.getState)
+            assert "nobody tells the time" in refused(arm.move, GOAL, NONE)
+            told = len(arm.states)
+            ticking.hold_up(held=False)
+            until(lambda: arm.runner.lifecycle.state is State.COMPUTE)
+            until(lambda: len(arm.states) > told + 20)
+            assert ("LArm", "getJoints") in served.calls  # it may be another board
+            rest = arm.rest().position
+            arm.move(rest + 0.1, NONE)
+            assert arm.rest().position == pytest.approx(rest + 0.1, abs=0.03)
+    finally:
+        ticking.close()
 
 
 @BOTH
@@ -280,7 +331,7 @@ def test_the_later_command_wins() -> None:
         served.before["LArm", "setControlMode"] = meanwhile
         arm.follow(GOAL)
         until(lambda: ("LArm", "stopMotion") in served.calls)
-        stopping.join(10)
+        stopping.join(60)
         until(lambda: len(arm.states) > 20)
         assert ("LArm", "setPosition") not in served.calls
 

@@ -134,7 +134,7 @@ class GenericWorker(Component):
         raise rt.NotImplementedOperation("GenericArm_drive")
 
     def GenericArm_push(self, torque: Angles) -> None:
-        """Give these torques until the next command."""
+        """Give these torques; a push that is not renewed ends, and the arm holds its place."""
         raise rt.NotImplementedOperation("GenericArm_push")
 
     def GenericArm_glide(self, vx: float, vy: float, vz: float) -> None:

@@ -71,7 +71,17 @@ class GenericArmParams(Parameters):
             high=3600.0,
             unit="s",
             live=True,
-            doc="Driving, pushing and gliding end so long after the last command; 0: never.",
+            doc="Driving and gliding end so long after the last command; 0: never.",
+        ),
+        Parameter(
+            "push_hold",
+            "float",
+            default=0.5,
+            low=0.02,
+            high=60.0,
+            unit="s",
+            live=True,
+            doc="Pushing ends so long after the last command, and the arm holds its place: who pushes says so again and again.",
         ),
         Parameter(
             "patience",
@@ -97,7 +107,9 @@ class GenericArmParams(Parameters):
     compliant: bool
     # No joint moves faster than this share of its speed limit.
     speed: float
-    # Driving, pushing and gliding end so long after the last command; 0: never.
+    # Driving and gliding end so long after the last command; 0: never.
     hold: float
+    # Pushing ends so long after the last command, and the arm holds its place: who pushes says so again and again.
+    push_hold: float
     # A board that takes longer for an answer is away.
     patience: float

@@ -1118,7 +1118,7 @@ class GenericArmProxy(rt.Proxy):
         self._call_drive(velocity)
 
     def push(self, torque: RoboCompGenericArm_Angles) -> None:
-        """Give these torques until the next command."""
+        """Give these torques; a push that is not renewed ends, and the arm holds its place."""
         self._call_push(torque)
 
     def glide(self, vx: float, vy: float, vz: float) -> None:

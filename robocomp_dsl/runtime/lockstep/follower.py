@@ -20,6 +20,8 @@ NOTHING = -1
 class Follower:
     """The clock, and the servant of `Follower` of `interfaces/LockStep.idsl`."""
 
+    silent = False  # a source that waits for others is not heard of either
+
     def __init__(self, limit: float, restless: Callable[[], bool]) -> None:
         self._limit = limit
         self._restless = restless
