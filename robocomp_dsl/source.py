@@ -20,6 +20,8 @@ MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are refused: no description of a component comes near it."""
 
 
+_LINE_END = re.compile(r"\r\n?|\n")
+_LONE_RETURN = re.compile(r"\r(?!\n)")
 _DECLARED = re.compile(r"""\A(\s*<\?xml\b[^>]*?\sencoding\s*=\s*)(["'])([A-Za-z][\w.-]*)\2""")
 _POINTER = re.compile(rb"(version https://git-lfs\.)|[./]*/?\.git/annex/objects/\S+\s*\Z")
 _LEGACY = {
@@ -75,6 +77,8 @@ class Source(Record):
     @cached_property
     def line_starts(self) -> list[int]:
         """Offset of the first character of every line."""
+        if _LONE_RETURN.search(self.text):  # as old Macs ended lines, and editors still show them
+            return [0, *(one.end() for one in _LINE_END.finditer(self.text))]
         starts = [0]
         find = self.text.find
         at = find("\n")
@@ -201,8 +205,10 @@ def decode(data: bytes) -> str:
         declared = _DECLARED.match(data[:200].decode("ascii", "replace"))
         name = _LEGACY.get(declared[3].lower()) if declared else None
         if name is None:
+            line = data.count(b"\n", 0, error.start) + 1
             raise UnreadableSource(
-                f"the text is not UTF-8: byte 0x{data[error.start]:02x} at offset {error.start}"
+                f"the text is not UTF-8: byte 0x{data[error.start]:02x} in line {line}; "
+                "save it as UTF-8"
             ) from None
         return data.decode(name, "replace")
 

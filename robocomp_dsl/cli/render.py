@@ -104,6 +104,8 @@ def _rows(span: Span) -> Iterator[_Row]:
                 yield None, "", 0, 0, False
             continue
         text = span.source.line(number)
+        if not text.strip() and first < number < last:
+            continue
         start = begin - 1 if number == first else len(text) - len(text.lstrip())
         end = finish - 1 if number == last else len(text)
         yield number, *_columns(text, start, end), number == last

@@ -19,7 +19,7 @@ _KINDS = {
     "LINE_COMMENT": "LINE",
     "HASH_LINES": "LINE",
 }
-_HASH_LINE = re.compile(r"#[^\n]*")
+_HASH_LINE = re.compile(r"#[^\r\n]*")
 _BLANK = re.compile(r"\s+")
 
 

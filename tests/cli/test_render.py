@@ -89,6 +89,11 @@ EXCERPTS = {
         "a «b\n   c» d",
         "  --> robot.cdsl:1:3\n   |\n 1 | a b\n   |   ^\n 2 |    c d\n   |    ^ L\n",
     ),
+    "empty line": (
+        "«a\n\t\n{»",
+        "  --> robot.cdsl:1:1\n   |\n 1 | a\n   | ^\n 3 | {\n   | ^ L\n",
+    ),
+    "old Mac": ("a\rb «c»", "  --> robot.cdsl:2:3\n   |\n 2 | b c\n   |   ^ L\n"),
     "many lines": (
         "«1\n2\n3\n4\n5\n6\n7»",
         (

@@ -72,6 +72,7 @@ CDSL: list[tuple[str, str]] = [
     ("Component c { Communications { }; language Cpp//Cpp11//python;\n gui Qt(QWidget);\n };",
      "RC150"),
     ("import Laser.idsl;" + whole(), "RC108"),
+    ('import "A.idsl"; // as old Macs\r// end lines\r' + whole("requires A;"), ""),
     ("", "RC002"),
 ]  # fmt: skip
 
