@@ -49,7 +49,7 @@ class Source(Record):
     text: str
     memory: dict[str, Any] | None = None
     shift = 0
-    __slots__ = ("__dict__",)  # for `line_starts`
+    __slots__ = ("__dict__", "__weakref__")  # for `line_starts`, and editors keep more beside it
 
     @classmethod
     def read(cls, path: Path) -> Source:
