@@ -6,7 +6,6 @@ In: spans and words. Out: `Diagnostic` values collected in a `Report`.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from difflib import get_close_matches
 from enum import StrEnum
 
 from robocomp_dsl.record import Value
@@ -129,6 +128,8 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     letters = word.lower()
     if letters in by_letters:
         return by_letters[letters]
+    from difflib import get_close_matches  # noqa: PLC0415 - most runs find nothing misspelt
+
     found = get_close_matches(letters, _plausible(letters, by_letters), 1, _NEAR)
     return by_letters[found[0]] if found else None
 

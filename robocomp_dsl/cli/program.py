@@ -7,6 +7,7 @@ the output any more, 143 SIGTERM.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -22,6 +23,9 @@ OUR_MISTAKE = 70
 INTERRUPTED = 130
 NO_READER = 141
 TERMINATED = 143
+YOUNG = 20_000
+"""New objects before the garbage collector looks through them; a command makes few that become
+garbage in circles."""
 DEBUG = "ROBOCOMP_DEBUG"
 
 
@@ -98,7 +102,11 @@ def terminal_width() -> int:
 def run(program: click.Command, name: str) -> NoReturn:
     """Run `program` on the command line and leave the process with its exit code."""
     signal.signal(signal.SIGTERM, _terminated)
-    sys.exit(_exit_code(program, name))
+    gc.set_threshold(YOUNG)
+    try:
+        sys.exit(_exit_code(program, name))
+    finally:
+        gc.freeze()  # or the interpreter looks through everything once more before it ends
 
 
 def _exit_code(program: click.Command, name: str) -> int:
