@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from enum import StrEnum
 from pathlib import Path
+from threading import Thread
 
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.record import Value
@@ -71,10 +72,11 @@ def write(folder: Path, files: Sequence[OutputFile]) -> list[Change]:
             changes = [_compared(folder, one) for one in files]
             pending = [one for one in changes if one.pending]
             made = [(undo.write_beside(folder / c.file.path, c), c) for c in pending]
+            _sync(temporary for temporary, _ in made)
             for temporary, change in made:
                 undo.put_in_place(temporary, folder / change.file.path, change)
-            for parent in {(folder / c.file.path).parent for c in pending}:
-                _sync_folder(parent)
+            with suppress(OSError):  # some systems cannot do this with folders
+                _sync({(folder / c.file.path).parent for c in pending})
     return changes
 
 
@@ -121,7 +123,8 @@ class _Undo:
                 if change.old is None:
                     path.unlink()
                 else:
-                    _write_synced(path, change.old)
+                    path.write_bytes(change.old)
+                    _sync([path])
         for path in self._temporaries:
             with suppress(OSError):
                 path.unlink()
@@ -142,30 +145,41 @@ class _Undo:
         with suppress(FileNotFoundError):  # left by a writer that was killed
             temporary.unlink()
         self._temporaries.append(temporary)
-        _write_synced(temporary, change.file.data)
-        if change.old is not None:
-            temporary.chmod(path.stat().st_mode & 0o7777)
+        temporary.write_bytes(change.file.data)
         return temporary
 
     def put_in_place(self, temporary: Path, path: Path, change: Change) -> None:
+        if change.old is not None:
+            temporary.chmod(path.stat().st_mode & 0o7777)
         temporary.replace(path)
         self._placed.append((path, change))
 
 
-def _write_synced(path: Path, data: bytes) -> None:
-    with path.open("wb") as stream:
-        stream.write(data)
-        stream.flush()
-        os.fsync(stream.fileno())
+def _sync(paths: Iterable[Path]) -> None:
+    """Wait until files or folders are safe on the disk; it takes those together that come together.
+
+    Raises `OSError` if one is not.
+    """
+    failed: list[OSError] = []
+    threads = [Thread(target=_sync_one, args=(path, failed)) for path in paths]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+    if failed:
+        raise failed[0]
 
 
-def _sync_folder(folder: Path) -> None:
-    with suppress(OSError):  # some file systems and systems have no such thing
-        descriptor = os.open(folder, os.O_RDONLY)
+def _sync_one(path: Path, failed: list[OSError]) -> None:
+    try:
+        descriptor = os.open(path, os.O_RDONLY if path.is_dir() else os.O_RDWR)
         try:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
+    except OSError as error:
+        error.filename = error.filename or str(path)
+        failed.append(error)
 
 
 @contextmanager

@@ -98,6 +98,27 @@ def test_a_failure_in_the_middle_takes_all_back(
     assert not (tmp_path / "generated").exists()
 
 
+def test_nothing_is_put_in_place_that_is_not_safe_on_the_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All files are brought onto the disk at a time; one that cannot be stops all of them."""
+    (tmp_path / "main.py").write_text("old\n")
+    synced: list[str] = []
+
+    def failing(descriptor: int) -> None:
+        name = os.readlink(f"/proc/self/fd/{descriptor}")
+        synced.append(Path(name).name)
+        if name.endswith(f"a.py{writer.TEMPORARY}"):
+            raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", failing)
+    with pytest.raises(CannotWrite, match=r"`\S+generated/a.py`: the disk is full"):
+        write(tmp_path, FILES)
+    assert tree(tmp_path) == {"main.py": "old\n"}
+    temporaries = {f".{Path(f.path).name}{writer.TEMPORARY}" for f in FILES}
+    assert temporaries <= {*synced}
+
+
 def test_ctrl_c_in_the_middle_takes_all_back(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
