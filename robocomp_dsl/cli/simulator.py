@@ -49,6 +49,12 @@ if TYPE_CHECKING:
     metavar="FILE.yaml",
     help="Skin on the bodies of the world, as this description of touch has it.",
 )
+@click.option(
+    "--also",
+    multiple=True,
+    metavar="INTERFACE",
+    help="Serve an older interface, too: JointMotorSimple or Camera. Repeatable.",
+)
 @click.option("--strict", is_flag=True, help="Make nothing of an InnerModel file with errors.")
 @options.output_format
 @options.folders
@@ -59,6 +65,7 @@ def command(
     dry_run: bool,
     packages: tuple[Path, ...],
     tactile: Path | None,
+    also: tuple[str, ...],
     strict: bool,
     form: str,
     folders: tuple[Path, ...],
@@ -76,7 +83,8 @@ def command(
     workspace = Workspace(folders)
 
     def complete(made: Simulator) -> Simulator:
-        return _touched(made, tactile, workspace, report) if tactile else made
+        made = _touched(made, tactile, workspace, report) if tactile else made
+        return _asked(made, also, file, report) if also else made
 
     made = simulated(file, packages, workspace, told, report, strict=strict, complete=complete)
     folder = output or file.parent / (made.name if made else "")
@@ -143,6 +151,21 @@ def _touched(made: Simulator, path: Path, workspace: Workspace, report: Report) 
     from robocomp_dsl.cli.simulator_skin import touched  # noqa: PLC0415 - slow: numpy and YAML
 
     return touched(made, path, workspace, report)
+
+
+def _asked(made: Simulator, also: tuple[str, ...], file: Path, report: Report) -> Simulator:
+    from robocomp_dsl.generate.simulator import serving_also  # noqa: PLC0415 - late
+    from robocomp_dsl.generate.simulator.offers import ALSO  # noqa: PLC0415
+
+    for name in also:
+        if name not in ALSO:
+            raise click.UsageError(f"`--also {name}` is none of {', '.join(ALSO)}")
+    made = serving_also(made, also)
+    for name in also:
+        if not any(one.interface == name for one in made.ports):
+            said = f"nothing in this world is served as `{name}`"
+            report.add(codes.NOTHING_ASKED, Source(file, "").whole, said)
+    return made
 
 
 def _model(

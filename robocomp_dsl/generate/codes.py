@@ -192,6 +192,14 @@ file is missing or in a format that only OpenSceneGraph reads becomes a box, a n
 `engine="bullet"` inside another one moves with that instead of falling.""",
 )
 
+NOTHING_ASKED = Code(
+    "RC635",
+    Severity.WARNING,
+    "what was asked for has no device in this world",
+    """`rcgen simulator --also JointMotorSimple` serves joints by that interface, too, and
+`--also Camera` cameras; a world without them has nothing to serve.""",
+)
+
 UNDERSTOOD_WORLD = Code(
     "RC634",
     Severity.WARNING,

@@ -18,7 +18,13 @@ from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli.simulator_model import model_world
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.generate.simulator import Simulator, descriptions, files, simulator
+from robocomp_dsl.generate.simulator import (
+    Simulator,
+    descriptions,
+    files,
+    serving_also,
+    simulator,
+)
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
 from robocomp_dsl.hardware.scene import Scene
 from robocomp_dsl.hardware.serving import Port
@@ -177,7 +183,9 @@ class Served:
             self.simulation.advance(0.02)
 
 
-def served(folder: Path, text: str, options: Options | None = None) -> Served:
+def served(
+    folder: Path, text: str, options: Options | None = None, also: tuple[str, ...] = ()
+) -> Served:
     """All that `rcgen simulator` makes of a world, without a process and without a thread."""
     path = folder / "world.xml"
     path.write_text(text)
@@ -185,7 +193,7 @@ def served(folder: Path, text: str, options: Options | None = None) -> Served:
     body = check_innermodel(path, Workspace(environ={}), report)
     assert body is not None
     assert [one.message for one in report] == []
-    return _served(folder, simulator(body), options)
+    return _served(folder, serving_also(simulator(body), also), options)
 
 
 def served_model(folder: Path, text: str, name: str = "robot.xml") -> Served:

@@ -65,6 +65,7 @@ class Simulator:
     skin_rate: float = 0.0
     model: str = ""
     step: float = 2.0
+    also: tuple[str, ...] = ()
 
     @property
     def step_told(self) -> str:
@@ -114,7 +115,16 @@ def with_skin(made: Simulator, skin: dict[str, Any]) -> Simulator:
         "devices": [*made.scene["devices"], device],
         "skins": [*made.scene.get("skins", ()), skin],
     }
-    ports = served(scene)
+    return _serving(made, scene, made.also)
+
+
+def serving_also(made: Simulator, also: Sequence[str]) -> Simulator:
+    """The same world that serves interfaces of `offers.ALSO`, too."""
+    return _serving(made, made.scene, tuple(also))
+
+
+def _serving(made: Simulator, scene: dict[str, Any], also: tuple[str, ...]) -> Simulator:
+    ports = served(scene, also)
     return replace(
         made,
         scene=scene,
@@ -122,22 +132,14 @@ def with_skin(made: Simulator, skin: dict[str, Any]) -> Simulator:
         topics=published(ports),
         unserved=tuple(not_served(scene)),
         skin_rate=skin_rate(scene),
+        also=also,
     )
 
 
 def _simulator(path: Path, scene: dict[str, Any], model: str = "", step: float = 2.0) -> Simulator:
-    ports = served(scene)
-    return Simulator(
-        f"{identifier(path.stem)}_simulator",
-        path.name,
-        scene,
-        ports,
-        published(ports),
-        tuple(not_served(scene)),
-        skin_rate(scene),
-        model,
-        step,
-    )
+    name = f"{identifier(path.stem)}_simulator"
+    bare = Simulator(name, path.name, scene, (), (), (), model=model, step=step)
+    return _serving(bare, scene, ())
 
 
 def descriptions(made: Simulator) -> list[OutputFile]:

@@ -150,5 +150,9 @@ def _lines(port: Port, one: Operation, arguments: list[str], returns: str) -> It
         return
     ask, answer = names.unique(("ask", "answer"), arguments)
     yield f"{ask} = {operation}"
-    yield layout.statement(f"{answer}: {returns} = ", layout.call(ask, *arguments), BODY)
+    told = f"{answer}: {returns}"
+    if arguments:
+        yield layout.statement(f"{told} = ", layout.call(ask, *arguments), BODY)
+    else:
+        yield layout.assignment(told, f"{ask}()", BODY)
     yield f"return {answer}"

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,13 +19,15 @@ class Offer:
     """Devices of a `kind` serve `interface` of the file of that name.
 
     `shared`: one port for all of them, called as the interface; else one for each, called as the
-    device, with `_suffix` behind it where the device serves more than one.
+    device, with `_suffix` behind it where the device serves more than one. `asked`: only for those
+    who ask for it, because there is a newer interface for the same.
     """
 
     kind: str
     interface: str
     shared: bool = False
     suffix: str = ""
+    asked: bool = False
 
 
 OFFERS = (
@@ -55,7 +57,16 @@ OFFERS = (
     Offer("model_touch", "TouchSensor", shared=True),
     Offer("display", "Display"),
     Offer("skin", "Skin", shared=True),
+    Offer("joint", "JointMotorSimple", shared=True, asked=True),
+    Offer("prismaticjoint", "JointMotorSimple", shared=True, asked=True),
+    Offer("camera", "Camera", shared=True, asked=True),
+    Offer("rgbd", "Camera", shared=True, asked=True),
+    Offer("model_camera", "Camera", shared=True, asked=True),
+    Offer("model_rgbd", "Camera", shared=True, asked=True),
 )
+
+ALSO = tuple(dict.fromkeys(one.interface for one in OFFERS if one.asked))
+"""What can be asked for."""
 
 BOARDS = "ControlBoard"
 """The shared interface that has a port for each group of joints, called as the group; those of no
@@ -75,8 +86,8 @@ CLOCK = "Clock"
 """The topic on which it tells the time, where it makes that of a deployment."""
 
 
-_SHARED = tuple(dict.fromkeys(one.interface for one in OFFERS if one.shared))
-
+_ON_A_BASE = ("Laser", "RGBD", "Camera")
+"""Interfaces that tell the state of the base under the device, too."""
 
 PERIOD = 10
 """How often a topic is published that says nothing else [ms]."""
@@ -155,26 +166,25 @@ class ServedAs:
         return [*(id_ for id_, _ in self.devices or (("", ""),)), *self.with_]
 
 
-def served(scene: dict[str, Any]) -> tuple[ServedAs, ...]:
-    """The ports for a lowered scene, in the order of the table."""
-    taken = {one.lower() for one in (*_SHARED, *OF_THE_WORLD, CLOCK, COMPONENT)}
+def served(scene: dict[str, Any], also: Sequence[str] = ()) -> tuple[ServedAs, ...]:
+    """The ports for a lowered scene, in the order of the table; `also` is asked for."""
+    offers = [one for one in OFFERS if not one.asked or one.interface in also]
+    together = dict.fromkeys(one.interface for one in offers if one.shared)
+    taken = {one.lower() for one in (*together, *OF_THE_WORLD, CLOCK, COMPONENT)}
     found: list[ServedAs] = []
-    parents = {one["id"]: one["parent"] for one in scene["frames"]}
-    bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
-    for interface in dict.fromkeys(one.interface for one in OFFERS):
-        kinds = {one.kind: one for one in OFFERS if one.interface == interface}
+    beside = _bases(scene)
+    for interface in dict.fromkeys(one.interface for one in offers):
+        kinds = {one.kind: one for one in offers if one.interface == interface}
         here = [d for d in scene["devices"] if d["kind"] in kinds]
-        together = tuple((d["id"], d["kind"]) for d in here if kinds[d["kind"]].shared)
-        if together:
-            found.append(ServedAs(interface, interface, together))
+        if here and interface in together:
+            pairs = tuple((d["id"], d["kind"]) for d in here)
+            found.append(ServedAs(interface, interface, pairs, beside(interface, here[0])))
+            continue
         for device in here:
-            offer = kinds[device["kind"]]
-            if not offer.shared:
-                wanted = "_".join(filter(None, (identifier(device["id"]), offer.suffix)))
-                port = _free(wanted, taken)
-                pair = (device["id"], device["kind"])
-                beside = _base(device, parents, bases)
-                found.append(ServedAs(port, interface, (pair,), beside))
+            suffix = kinds[device["kind"]].suffix
+            port = _free("_".join(filter(None, (identifier(device["id"]), suffix))), taken)
+            pair = (device["id"], device["kind"])
+            found.append(ServedAs(port, interface, (pair,), beside(interface, device)))
     return (*_boards(found, scene, taken), *(ServedAs(name, name) for name in OF_THE_WORLD))
 
 
@@ -234,7 +244,7 @@ def identifier(written: str) -> str:
 
 def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
     """Devices (id, kind) that no interface is there for."""
-    kinds = {one.kind for one in OFFERS}
+    kinds = {one.kind for one in OFFERS if not one.asked}
     return [(d["id"], d["kind"]) for d in scene["devices"] if d["kind"] not in kinds]
 
 
@@ -249,11 +259,15 @@ def skin_rate(scene: dict[str, Any]) -> float:
     return float(min(max(*rates, slowest), fastest)) if rates else 0.0
 
 
-def _base(
-    device: dict[str, Any], parents: Mapping[str, str], bases: Mapping[str, str]
-) -> tuple[str, ...]:
-    """The mobile base that carries a laser or a camera with depth, by the frames of all bases."""
-    at = device["frame"] if device["kind"] in {"laser", "rgbd"} else ""
-    while at and at not in bases:
-        at = parents[at]
-    return (bases[at],) if at else ()
+def _bases(scene: dict[str, Any]) -> Callable[[str, dict[str, Any]], tuple[str, ...]]:
+    """What finds the mobile base under a device, for interfaces that tell its state."""
+    parents = {one["id"]: one["parent"] for one in scene["frames"]}
+    bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
+
+    def beside(interface: str, device: dict[str, Any]) -> tuple[str, ...]:
+        at = device["frame"] if interface in _ON_A_BASE else ""
+        while at and at not in bases:
+            at = parents[at]
+        return (bases[at],) if at else ()
+
+    return beside

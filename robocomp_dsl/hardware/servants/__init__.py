@@ -19,9 +19,11 @@ from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.display import DisplayServant
 from robocomp_dsl.hardware.servants.full_pose import FullPoseServant
 from robocomp_dsl.hardware.servants.gps import GpsServant
+from robocomp_dsl.hardware.servants.head_camera import HeadCameraServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
 from robocomp_dsl.hardware.servants.inner_model import InnerModelServant
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.joint_motor_simple import JointMotorSimpleServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
 from robocomp_dsl.hardware.servants.rgbd import SeenServant
 from robocomp_dsl.hardware.servants.servant import Servant
@@ -39,6 +41,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompFullPoseEstimation::FullPoseEstimation": FullPoseServant,
     "RoboCompLaser::Laser": LaserServant,
     "RoboCompJointMotor::JointMotor": JointMotorServant,
+    "RoboCompJointMotorSimple::JointMotorSimple": JointMotorSimpleServant,
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
@@ -46,6 +49,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompInnerModelManager::InnerModelManager": InnerModelServant,
     "RoboCompCameraSimple::CameraSimple": CameraServant,
     "RoboCompCameraRGBDSimple::CameraRGBDSimple": RgbdServant,
+    "RoboCompCamera::Camera": HeadCameraServant,
     "RoboCompDisplay::Display": DisplayServant,
     "RoboCompRGBD::RGBD": SeenServant,
     "RoboCompGPS::GPS": GpsServant,

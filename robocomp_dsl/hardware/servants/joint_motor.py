@@ -45,12 +45,19 @@ class JointMotorServant(Servant):
 
     def setSyncPosition(self, listGoals: Sequence[Any]) -> None:
         """Send several; all of them or none."""
-        joints = self._joints(one.name for one in listGoals)
-        position = [one.position for one in listGoals]
+        self.move(
+            [one.name for one in listGoals],
+            [one.position for one in listGoals],
+            [one.maxSpeed for one in listGoals],
+        )
+
+    def move(self, names: Sequence[str], position: Sequence[float], speed: Sequence[float]) -> None:
+        """Send the motors `names` to positions."""
+        joints = self._joints(names)
         self._move(
             joints,
             numbers("position", position, len(joints)) * self._units(joints),
-            numbers("maxSpeed", [one.maxSpeed for one in listGoals], len(joints)),
+            numbers("maxSpeed", speed, len(joints)),
         )
 
     def setZeroPos(self, name: str) -> None:
@@ -69,14 +76,22 @@ class JointMotorServant(Servant):
 
     def setSyncVelocity(self, listGoals: Sequence[Any]) -> None:
         """Turn several; a `maxAcc` of 0 leaves the acceleration as it is."""
-        board, joints = self._board, self._joints(one.name for one in listGoals)
+        self.drive(
+            [one.name for one in listGoals],
+            [one.velocity for one in listGoals],
+            [one.maxAcc for one in listGoals],
+        )
+
+    def drive(self, names: Sequence[str], speed: Sequence[float], most: Sequence[float]) -> None:
+        """Turn the motors `names`, with accelerations up to `most`."""
+        board, joints = self._board, self._joints(names)
         unit = self._units(joints)
-        velocity = numbers("velocity", [one.velocity for one in listGoals], len(joints)) * unit
-        most = numbers("maxAcc", [one.maxAcc for one in listGoals], len(joints)) * unit
+        velocity = numbers("velocity", speed, len(joints)) * unit
+        steepest = numbers("maxAcc", most, len(joints)) * unit
         self._refuse_beyond("velocity", joints, velocity, -board.limits.speed, board.limits.speed)
         board.set_modes(joints, [Mode.VELOCITY] * len(joints))
-        given = most > 0
-        board.references.acceleration[joints[given]] = most[given]
+        given = steepest > 0
+        board.references.acceleration[joints[given]] = steepest[given]
         board.references.drive(joints, velocity, np.inf)
 
     def _move(self, joints: Ints, goal: Floats, speed: Floats) -> None:

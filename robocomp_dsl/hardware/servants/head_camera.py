@@ -1,0 +1,181 @@
+"""RoboComp's first `Camera`: the cameras of a head by their numbers, in five forms.
+
+An image is a run of bytes, rows from the top; `BOTH` is those of all cameras, one behind the other.
+Luminance is that of ITU-R BT.601. Each image comes with the states of the joints and of the base.
+"""
+
+# ruff: noqa: N802  called as in the interface
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from contextlib import nullcontext
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.camera import CameraDevice, CameraSettings
+from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.runtime import types as rt
+
+Bytes = NDArray[np.uint8]
+
+BOTH = 5
+"""The number that means all cameras together, as components of RoboComp ask for them."""
+
+_LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
+_ANY_TIME = nullcontext()
+
+
+class HeadCameraServant(Servant):
+    """The devices of the port are cameras, then the base under the first, if there is one."""
+
+    TAKES_TURNS: ClassVar[bool] = False
+
+    def __init__(
+        self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
+    ) -> None:
+        super().__init__(interface, port, ids, devices)
+        self._motors = JointMotorServant(interface, port, ids, devices)
+        self._cameras = [one for one in ids if hasattr(devices[one], "picture")]
+        self._bases = [one for one in ids if one not in self._cameras]
+        self._fed = np.empty((0, 0, 3), dtype=np.uint8)
+
+    def getYUVImage(self, cam: int) -> tuple[Any, ...]:
+        """Luminance, then u and v of every second pixel of every second row, by turns."""
+        return self._told(self._all(cam, _semi_planar))
+
+    def getYImage(self, cam: int) -> tuple[Any, ...]:
+        """Luminance."""
+        return self._told(self._all(cam, _luminance))
+
+    def getYLogPolarImage(self, cam: int) -> tuple[Any, ...]:
+        """Refused: nothing tells how many rings and rays such an image has."""
+        self._numbers(cam)
+        raise CommandRefused("log-polar images are not made; `getYImage` has the same luminance")
+
+    def getYImageCR(self, cam: int, div: int) -> tuple[Any, ...]:
+        """Luminance, each pixel the mean of `div` times `div`; what is over at the edges is not."""
+        smallest = min(min(one.shape[:2]) for one in self._seen(cam))
+        if not 1 <= div <= smallest:
+            raise CommandRefused(f"`div` is {div}, it must be 1 to {smallest}")
+        return self._told(self._all(cam, lambda seen: _reduced(_luminance(seen), div)))
+
+    def getRGBPackedImage(self, cam: int) -> tuple[Any, ...]:
+        """Red, green and blue of each pixel."""
+        return self._told(self._all(cam, lambda seen: seen))
+
+    def getYRGBImage(self, cam: int) -> tuple[Any, ...]:
+        """Luminance, red, green and blue, one behind the other."""
+        return self._told(self._all(cam, _planes))
+
+    def getCamParams(self) -> Any:
+        """The first camera; all are told to be like it."""
+        it = self._settings(0)
+        return self.types.TCamParams(
+            name=self._cameras[0],
+            driver="robocomp_dsl",
+            device=self.port,
+            mode="RGB",
+            focal=round(it.focal),
+            width=it.width,
+            height=it.height,
+            size=it.width * it.height,
+            numCams=len(self._cameras),
+            FPS=round(1 / it.period),
+            timerPeriod=round(it.period * 1000),
+            leftCamera=0,
+            rightCamera=min(1, len(self._cameras) - 1),
+            bothCameras=BOTH,
+            talkToBase=bool(self._bases),
+            talkToJointMotor=self._has_joints(),
+        )
+
+    def setInnerImage(self, roi: Any) -> None:
+        """What the first camera sees from now on, with colours or grey; an empty one ends it."""
+        it, given = self._settings(0), np.asarray(roi, dtype=np.uint8)
+        if given.size not in (0, it.width * it.height, it.width * it.height * 3):
+            raise CommandRefused(
+                f"an image of {it.width} x {it.height} has {it.width * it.height} bytes, or three "
+                f"times as many with colours; not {given.size}"
+            )
+        shape = (it.height, it.width) if given.size else (0, 0)
+        grey = given.size == it.width * it.height
+        seen = given.reshape(*shape, 1 if grey else 3)
+        self._fed = np.repeat(seen, 3, axis=2) if grey else seen
+
+    # -- what is seen -------------------------------------------------------------------------
+
+    def _numbers(self, cam: int) -> range:
+        count = len(self._cameras)
+        if cam == BOTH:
+            return range(count)
+        if not 0 <= cam < count:
+            raise CommandRefused(f"there is no camera {cam}: 0 to {count - 1}, or {BOTH} for all")
+        return range(cam, cam + 1)
+
+    def _seen(self, cam: int) -> list[Bytes]:
+        """The latest images, each of shape (height, width, 3)."""
+        return [
+            self._fed if i == 0 and self._fed.size else self._camera(i).picture().colour
+            for i in self._numbers(cam)
+        ]
+
+    def _all(self, cam: int, form: Any) -> Bytes:
+        made: Bytes = np.concatenate([form(one).ravel() for one in self._seen(cam)])
+        return made
+
+    def _camera(self, number: int) -> CameraDevice:
+        found: CameraDevice = self.device(self._cameras[number])
+        return found
+
+    def _settings(self, number: int) -> CameraSettings:
+        return self._camera(number).settings
+
+    # -- what is around it --------------------------------------------------------------------
+
+    def _has_joints(self) -> bool:
+        return any(hasattr(one, "board") for one in tuple(self._devices.values()))
+
+    def _told(self, image: Bytes) -> tuple[Any, ...]:
+        """The image with the states of the joints and of the base; empty where there are none."""
+        base, head = self.types.TBaseState, self.types.THeadState
+        with getattr(self._camera(0), "turns", _ANY_TIME):  # a driver's world does not wait
+            joints = self._motors.getAllMotorState() if self._has_joints() else {}
+            state = told_state(base, self.device(self._bases[0]).state()) if self._bases else base()
+        moving = any(one.isMoving for one in joints.values())
+        return image, head(motorsState=joints, isMoving=moving), state
+
+
+def _luminance(seen: Bytes) -> Bytes:
+    """Shape (height, width)."""
+    made: Bytes = (seen @ _LUMINANCE).round().astype(np.uint8)
+    return made
+
+
+def _planes(seen: Bytes) -> Bytes:
+    return np.concatenate([_luminance(seen)[None], np.moveaxis(seen, 2, 0)])
+
+
+def _semi_planar(seen: Bytes) -> Bytes:
+    """4:2:0 in two planes; the colours of an odd last row or column are its own."""
+    grey = seen @ _LUMINANCE
+    few = seen[::2, ::2].astype(np.float32)
+    blue, red = few[..., 2] - grey[::2, ::2], few[..., 0] - grey[::2, ::2]
+    colours = np.stack([blue * 0.564, red * 0.713], axis=-1) + 128
+    return np.concatenate([_luminance(seen).ravel(), _byte(colours).ravel()])
+
+
+def _reduced(grey: Bytes, div: int) -> Bytes:
+    rows, columns = grey.shape[0] // div, grey.shape[1] // div
+    blocks = grey[: rows * div, : columns * div].reshape(rows, div, columns, div)
+    return _byte(blocks.mean(axis=(1, 3)))
+
+
+def _byte(values: NDArray[Any]) -> Bytes:
+    made: Bytes = values.round().clip(0, 255).astype(np.uint8)
+    return made
