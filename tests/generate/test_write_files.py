@@ -106,9 +106,9 @@ def test_nothing_is_put_in_place_that_is_not_safe_on_the_disk(
     synced: list[str] = []
 
     def failing(descriptor: int) -> None:
-        name = os.readlink(f"/proc/self/fd/{descriptor}")
-        synced.append(Path(name).name)
-        if name.endswith(f"a.py{writer.TEMPORARY}"):
+        path = Path(f"/proc/self/fd/{descriptor}").readlink()
+        synced.append(path.name)
+        if path.name == f".a.py{writer.TEMPORARY}":
             raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(os, "fsync", failing)
