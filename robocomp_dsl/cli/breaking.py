@@ -1,7 +1,7 @@
 """`rcgen breaking`: what a change of descriptions breaks.
 
 In: a folder or file, and an earlier version of it: a git revision or another folder. Out: findings;
-the exit code is 1 where peers, code or configurations break.
+the exit code is 1 where peers, code, configurations or deployments break.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,12 +21,16 @@ import click
 from robocomp_dsl.check import check_file
 from robocomp_dsl.check.workspace import Workspace
 from robocomp_dsl.cli import options
+from robocomp_dsl.cli.breaking_deployments import judge
 from robocomp_dsl.cli.program import FINDINGS
 from robocomp_dsl.compare import Version, compare
 from robocomp_dsl.diagnostics import Diagnostic, Report, Severity
 from robocomp_dsl.source import Source, Span
 
 SUFFIXES = (".idsl", ".cdsl", ".pdsl")
+DEPLOYMENTS = ".ddsl"
+NEEDED = (*SUFFIXES, DEPLOYMENTS, ".smdsl", ".scxml", ".yaml", ".yml", ".toml")
+"""What is taken out of an archive: descriptions, and what they name."""
 GIT_PATIENCE_S = 60.0
 SKIPPED = {".git", ".venv", "node_modules", "build", ".rcgen"}
 
@@ -46,25 +50,36 @@ class NoSuchVersion(Exception):
 @options.output_format
 @options.folders
 def command(*, path: Path, against: str, form: str, folders: tuple[Path, ...]) -> None:
-    """List the changes that break peers, code or configurations, with the kind of each.
+    """List the changes that break peers, code, configurations or deployments, with their kinds.
 
-    RC641 breaks peers on the wire, RC642 code, RC643 configurations; RC644 changes a meaning.
+    RC641 breaks peers on the wire, RC642 code, RC643 configurations; RC644 changes a meaning;
+    RC645 breaks the wiring of a deployment, RC646 parameter values of one.
     """
     if not path.exists():
         options.complain(f"there is no `{path}`")
+        sys.exit(FINDINGS)
+    if path.is_file() and path.suffix.lower() not in (*SUFFIXES, DEPLOYMENTS):
+        listed = ", ".join((*SUFFIXES, DEPLOYMENTS))
+        options.complain(f"`{path}` is none of the files that are compared: {listed}")
         sys.exit(FINDINGS)
     found = Report()
     try:
         with _earlier(path, against) as before:
             unread, report = Report(), Report()
-            old = _version(before.path, before.folders(folders), unread)
-            new = _version(path, folders, report)
+            then, now = before.folders(folders), (*folders, _root(path))
+            old, new = _version(before.path, then, unread), _version(path, now, report)
+            deployments = [
+                judge(one, before.then(one), now, then) for one in _files(path, (DEPLOYMENTS,))
+            ]
+            report.extend(d for one in deployments for d in one.own)
             if report.failed:
                 options.show(report.sorted(), form, sys.stderr)
                 options.complain("mend these first; only what is right can be compared")
                 sys.exit(FINDINGS)
             _tell_unread(unread, before)
-            compare(old, new, found)
+            wired = [one.deployment for one in deployments if one.deployment]
+            compare(old, new, wired, found)
+            found.extend(d for one in deployments for d in one.broken)
             named = [before.named(one) for one in found.sorted()]
     except NoSuchVersion as error:
         options.complain(str(error))
@@ -90,11 +105,12 @@ class _Earlier:
 
     def folders(self, given: tuple[Path, ...]) -> tuple[Path, ...]:
         """Folders within the tree as they were; others are the same for both."""
-        return tuple(self._then(one.resolve()) or one for one in given)
+        return (*(self.then(one) or one for one in given), _root(self.path))
 
-    def _then(self, one: Path) -> Path | None:
-        new = self.new_root.resolve()
-        return self.root / one.relative_to(new) if one.is_relative_to(new) else None
+    def then(self, one: Path) -> Path | None:
+        """Where a file or folder was; None for one that is not in the tree."""
+        new, whole = self.new_root.resolve(), one.resolve()
+        return self.root / whole.relative_to(new) if whole.is_relative_to(new) else None
 
     def named(self, one: Diagnostic) -> Diagnostic:
         """With places that the user can look up."""
@@ -124,22 +140,26 @@ def _tell_unread(unread: Report, before: _Earlier) -> None:
 
 def _version(path: Path, folders: tuple[Path, ...], report: Report) -> Version:
     """All models at `path`; `report` gets the errors only."""
-    workspace = Workspace((*folders, path if path.is_dir() else path.parent))
+    workspace = Workspace(folders)
     version = Version()
-    for one in _files(path):
+    for one in _files(path, SUFFIXES):
         found = Report()
         version.add(check_file(one, workspace, found))
         report.extend(d for d in found if d.severity is Severity.ERROR)
     return version
 
 
-def _files(path: Path) -> list[Path]:
+def _root(path: Path) -> Path:
+    return path if path.is_dir() else path.parent
+
+
+def _files(path: Path, suffixes: Collection[str]) -> list[Path]:
     if path.is_file():
-        return [path]
+        return [path] if path.suffix.lower() in suffixes else []
     return sorted(
         p
         for p in path.rglob("*")
-        if p.suffix.lower() in SUFFIXES and not SKIPPED & set(p.relative_to(path).parts)
+        if p.suffix.lower() in suffixes and not SKIPPED & set(p.relative_to(path).parts)
     )
 
 
@@ -170,7 +190,7 @@ def _unpack(data: bytes, folder: Path) -> None:
             content = archive.extractfile(member) if member.isfile() else None
             path = folder / member.name
             inside = path.resolve().is_relative_to(folder)
-            if content and inside and path.suffix.lower() in SUFFIXES:
+            if content and inside and path.suffix.lower() in NEEDED:
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content.read())
 

@@ -7,6 +7,7 @@ the new place, or at the old one where there is none any more. Things are matche
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 
@@ -14,8 +15,10 @@ from robocomp_dsl.compare.changes import Changes
 from robocomp_dsl.compare.components import compare_components
 from robocomp_dsl.compare.interfaces import compare_declarations
 from robocomp_dsl.compare.parameters import compare_of_components, compare_sets
+from robocomp_dsl.compare.users import Users
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.types import Declaration
@@ -43,10 +46,10 @@ class Version:
                 self.declarations |= {d.qualified: d for d in model.declarations}
 
 
-def compare(old: Version, new: Version, report: Report) -> None:
-    """Everything that breaks somebody."""
+def compare(old: Version, new: Version, deployments: Iterable[Deployment], report: Report) -> None:
+    """Everything that breaks somebody; `deployments` are those of now that may use it."""
     changes = Changes(report)
-    compare_declarations(old.declarations, new.declarations, changes)
+    compare_declarations(old.declarations, new.declarations, Users(deployments), report)
     compare_components(old.components, new.components, changes)
     compare_of_components(old.components, new.components, changes)
     # What belongs to a component of both was compared with it, whatever it is called.

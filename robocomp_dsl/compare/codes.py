@@ -41,3 +41,26 @@ BEHAVIOUR = Code(
 value that was meant in mm may now be read in m. No tool sees that at run
 time, so it is said here.""",
 )
+
+WIRING = Code(
+    "RC645",
+    Severity.ERROR,
+    "a change breaks the wiring of a deployment",
+    """A deployment that was right with the components as they were is wrong with those of now: it
+connects a port that is gone or has another interface, or a component requires what nobody in it
+implements, or hears what nobody publishes any more. What is told is what `rcgen check` says of the
+deployment; nothing is told of one that was changed along with its components.
+
+Bring the deployment up to date, or give the component its port back.""",
+)
+
+VALUES = Code(
+    "RC646",
+    Severity.ERROR,
+    "a change breaks parameter values of a deployment",
+    """A deployment, or a configuration that its components read, gives parameters values that were
+right and are not any more: the parameter is gone, is of another type, does not take the value, or
+must be given now. The component would refuse to start.
+
+Change the value, or widen the range of the parameter.""",
+)

@@ -11,23 +11,32 @@ from typing import Any
 
 from robocomp_dsl.compare import codes
 from robocomp_dsl.compare.changes import Changes
+from robocomp_dsl.compare.users import Users
+from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model import types
 from robocomp_dsl.model.interface import Interface, Operation, Param
 from robocomp_dsl.model.types import Declaration, Enum, Field, Type
 
 
 def compare_declarations(
-    old: Mapping[str, Declaration], new: Mapping[str, Declaration], changes: Changes
+    old: Mapping[str, Declaration], new: Mapping[str, Declaration], users: Users, report: Report
 ) -> None:
-    """Each declaration with the one of the same name."""
+    """Each declaration with the one of the same name; `users` are told of what breaks them."""
     for name, was in old.items():
-        now = new.get(name)
-        if now is None:
-            changes.add(codes.WIRE, was, None, f"{_kind(was)} `{name}` is gone")
-        elif type(now) is not type(was):
-            changes.add(codes.WIRE, was, now, f"`{name}` was {_article(was)}, now {_article(now)}")
-        else:
-            _compare(was, now, changes)
+        changes = Changes(Report())
+        _compare_named(name, was, new.get(name), changes)
+        for one in changes.report:
+            notes = users.notes(name) if one.code is codes.WIRE else []
+            report.extend([one.replaced(notes=(*one.notes, *notes))])
+
+
+def _compare_named(name: str, was: Declaration, now: Declaration | None, changes: Changes) -> None:
+    if now is None:
+        changes.add(codes.WIRE, was, None, f"{_kind(was)} `{name}` is gone")
+    elif type(now) is not type(was):
+        changes.add(codes.WIRE, was, now, f"`{name}` was {_article(was)}, now {_article(now)}")
+    else:
+        _compare(was, now, changes)
 
 
 def type_name(type_: Type | None) -> str:

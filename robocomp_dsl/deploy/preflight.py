@@ -39,7 +39,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
             found.append(_elsewhere(instance))
             continue
         missing = list(_executable(instance, process))
-        found += missing or _configuration(instance, process)
+        found += missing or configuration(instance, process)
     found += _ports(deployment) if ports else ()
     return found
 
@@ -82,8 +82,11 @@ def _found(program: str, process: Process) -> bool:
     return bool(shutil.which(str(beside) if os.sep in program else program, path=path))
 
 
-def _configuration(instance: Instance, process: Process) -> list[Diagnostic]:
-    """The component would refuse it at its start; here it is told before anything starts."""
+def configuration(instance: Instance, process: Process) -> list[Diagnostic]:
+    """What is wrong with the values that an instance would get.
+
+    The component would refuse it at its start; here it is told before anything starts.
+    """
     own = instance.component.parameters
     known = schema(own.parameters) if own else ()
     beside = process.cwd / OWN_CONFIG

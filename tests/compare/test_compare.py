@@ -90,7 +90,7 @@ def version(folder: Path, changed: str = "", old: str = "", new: str = "") -> Ve
 
 def compared(tmp_path: Path, changed: str, old: str, new: str) -> list[Diagnostic]:
     report = Report()
-    compare(version(tmp_path / "old"), version(tmp_path / "new", changed, old, new), report)
+    compare(version(tmp_path / "old"), version(tmp_path / "new", changed, old, new), (), report)
     return report.sorted()
 
 
@@ -108,7 +108,7 @@ def test_changes(tmp_path: Path, changed: str, old: str, new: str, kind: str, wo
 
 def test_what_is_gone_is_shown_where_it_was(tmp_path: Path) -> None:
     report = Report()
-    compare(version(tmp_path / "old"), Version(), report)
+    compare(version(tmp_path / "old"), Version(), (), report)
     said = {d.message: d for d in report}
     assert "interface `M::Base` is gone" in said
     assert "component `c` is gone" in said

@@ -59,7 +59,7 @@ CASES: list[tuple[str, str, set[str], set[str]]] = [
     ("d.ddsl", DDSL.format("set pid.|", ""), {"gain"}, {"rate"}),
     ("d.ddsl", DDSL.format("restart |", ""), {"on-failure", "always", "never"}, set()),
     ("d.ddsl", DDSL.format("pre|", ""), {"prefix", "after", "context"}, {"connect"}),
-    ("d.ddsl", DDSL.format("prefix |", "component x { prefix left; };"), {"left"}, {"eye", "after"}),
+    ("d.ddsl", DDSL.format("prefix |", "component x { prefix left; };"), {"left"}, {"eye"}),
     ("d.ddsl", DDSL.format("", "connect |"), {"eye", "base"}, {"reader"}),
     ("d.ddsl", DDSL.format("", "connect eye.|"), {"Laser"}, {"eye"}),
     ("d.ddsl", DDSL.format("", "connect eye.Laser -> base.|"), {"Laser"}, {"eye"}),
