@@ -5,13 +5,13 @@ In: the tree. Out: a `StateMachine` of nested states, and findings about names.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.check.files import Parsed
 from robocomp_dsl.check.names import report_repeat
-from robocomp_dsl.diagnostics import Note, Report, did_you_mean
+from robocomp_dsl.diagnostics import Edit, Fix, Note, Report, did_you_mean, nearest
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 from robocomp_dsl.syntax import ast_smdsl as ast
 from robocomp_dsl.syntax.ast_base import Name
@@ -24,11 +24,14 @@ MAX_DEPTH = 200
 class Blocks:
     """The blocks of a file by the state they are inside ("" for the machine).
 
-    `home` tells the block of every state; of a name that is used twice the first.
+    `home` tells the block of every state; of a name that is used twice the first. `guessed` are
+    the transitions with a slip in a name, as they are likely meant: no part of the machine, but
+    what they lead to is not out of reach.
     """
 
     inside: dict[str, ast.Block] = field(default_factory=dict)
     home: dict[str, str] = field(default_factory=dict)
+    guessed: list[Transition] = field(default_factory=list)
 
     def around(self, block: str) -> Iterator[str]:
         """The block, and those around it, innermost first."""
@@ -136,24 +139,32 @@ def _transitions(
 ) -> Iterator[Transition]:
     allowed = set(blocks.around(block))
     for edge in tree.edges:
-        known = _known(edge.source, {block}, blocks, report)
-        for target in edge.targets:
-            if not _known(target, allowed, blocks, report) or not known:
+        source = _meant(edge.source, {block}, tree, blocks, report)
+        for written in edge.targets:
+            target = _meant(written, allowed, tree, blocks, report)
+            if not target or not source:
                 continue
-            event = edge.event.text if edge.event else f"t_{edge.source.text}_to_{target.text}"
+            event = edge.event.text if edge.event else f"t_{source}_to_{target}"
             after = edge.after.seconds if edge.after else None
             if edge.after and not edge.event:
                 event = ""
-            yield Transition(edge.source.text, target.text, event, target.span, after, edge.doc)
+            made = Transition(source, target, event, written.span, after, edge.doc)
+            if (source, target) == (edge.source.text, written.text):
+                yield made
+            else:
+                blocks.guessed.append(made)
 
 
-def _known(name: Name, allowed: set[str], blocks: Blocks, report: Report) -> bool:
+def _meant(
+    name: Name, allowed: set[str], tree: ast.Block, blocks: Blocks, report: Report
+) -> str | None:
+    """The state called `name`; of an unknown name the state that is likely meant."""
     home = blocks.home.get(name.text)
     if home in allowed:
-        return True
+        return name.text
     if home is None:
-        _unknown(name, dict.fromkeys(blocks.home, name), report)
-        return False
+        _unknown(name, blocks.home, report, tree)
+        return nearest(name.text, [one for one, at in blocks.home.items() if at in allowed])
     block = blocks.inside.get(home)  # not there for a block that belongs to no state
     where = f"inside `{home}`" if home else "outside of this block"
     report.add(
@@ -163,13 +174,28 @@ def _known(name: Name, allowed: set[str], blocks: Blocks, report: Report) -> boo
         notes=[Note(block.name.span, "it belongs to this block")] if block else [],
         help=f"write the transition in the block of `{home}`" if home else "",
     )
-    return False
+    return None
 
 
-def _unknown(name: Name, known: dict[str, Name], report: Report) -> None:
+def _unknown(
+    name: Name, known: Mapping[str, object], report: Report, tree: ast.Block | None = None
+) -> None:
+    """Report a name of nothing; where nothing like it is known, it may be missing in `tree`."""
+    guess = did_you_mean(name.text, known)
+    missing = tree is not None and not guess
     report.add(
         codes.UNKNOWN_STATE,
         name.span,
         f"there is no state `{name.text}`",
-        label=did_you_mean(name.text, known),
+        label=guess,
+        help="list it under `states`" if missing else "",
+        fix=_listed(name, tree.states) if tree is not None and missing else None,
     )
+
+
+def _listed(name: Name, states: Sequence[Name]) -> Fix | None:
+    if not states:
+        return None
+    last = states[-1].span
+    edit = Edit(last.part(last.end, last.end), f", {name.text}")
+    return Fix(f"add `{name.text}` to the states", (edit,))

@@ -17,7 +17,7 @@ def judge_smdsl(machine: StateMachine, blocks: Blocks, report: Report) -> None:
     """Report what is wrong with beginnings and ends, and what `rules_states` says."""
     for block in blocks.inside.values():
         _judge_ends(block, report)
-    judge_machine(machine, report)
+    judge_machine(machine, report, blocks.guessed)
 
 
 def _judge_ends(block: ast.Block, report: Report) -> None:

@@ -6,14 +6,18 @@ transitions that are never taken.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from robocomp_dsl.check import codes
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 
 
-def judge_machine(machine: StateMachine, report: Report) -> None:
-    """Report what is wrong with ways and ends."""
-    reached = _Reached(machine).states
+def judge_machine(
+    machine: StateMachine, report: Report, guessed: Sequence[Transition] = ()
+) -> None:
+    """Report what is wrong with ways and ends; what is `guessed` leads somewhere as well."""
+    reached = _Reached(machine, guessed).states
     _judge_level(machine.states, reached, report)
     _judge_ends(machine, report)
     _judge_repeats(machine, report)
@@ -22,14 +26,14 @@ def judge_machine(machine: StateMachine, report: Report) -> None:
 class _Reached:
     """`states` are the names of those that can become active."""
 
-    def __init__(self, machine: StateMachine) -> None:
+    def __init__(self, machine: StateMachine, guessed: Sequence[Transition]) -> None:
         self.states: set[str] = set()
         self._known = {one.name: one for one in machine.every_state()}
         self._around = {
             inner.name: outer for outer in self._known.values() for inner in outer.inside
         }
         self._ways: dict[str, list[Transition]] = {}
-        for way in machine.transitions:
+        for way in (*machine.transitions, *guessed):
             self._ways.setdefault(way.source, []).append(way)
         self._todo: list[str] = []
         self._enter_all(machine.states, machine.start, parallel=False)
