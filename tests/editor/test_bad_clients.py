@@ -90,7 +90,26 @@ def many_lines(number: int) -> str:
     return f"ComponentParams a\n{{\n{lines}    last flaot 1;\n}};\n"
 
 
-async def test_others_are_answered_while_a_huge_file_is_checked(editor: Editor) -> None:
+HELD = """
+import sys, time
+from pathlib import Path
+from robocomp_dsl.editor import aside, server
+check, gate = aside._check, Path(sys.argv[1])
+def held(*what):
+    while not gate.exists():
+        time.sleep(0.01)
+    return check(*what)
+aside._check = held
+server.serve_stdio()
+"""
+
+
+async def test_others_are_answered_while_a_huge_file_is_checked(  # type: ignore[no-untyped-def]
+    start, tmp_path, monkeypatch
+) -> None:
+    gate = tmp_path / "gate"
+    monkeypatch.setitem(start.__globals__, "SERVER", [sys.executable, "-c", HELD, str(gate)])
+    editor = await start(tmp_path)
     project.write(editor)
     big = lsp.TextDocumentIdentifier(editor.open("big.pdsl", many_lines(50_000)))
     place = editor.at("app.ddsl", project.marked("app.ddsl", "eye"))
@@ -101,6 +120,7 @@ async def test_others_are_answered_while_a_huge_file_is_checked(editor: Editor) 
     assert refused.value.code == lsp.LSPErrorCodes.ContentModified
     symbols = await editor.client.workspace_symbol_async(lsp.WorkspaceSymbolParams("eye"))
     assert [one.name for one in symbols or ()] == ["eye"]
+    gate.touch()
     await editor.until("big.pdsl", bool)
     at = lsp.HoverParams(big, lsp.Position(2, 6))
     hover = await editor.client.text_document_hover_async(at)
