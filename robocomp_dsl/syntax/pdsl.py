@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import Any, ClassVar
 
-from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.diagnostics import Note, Report, nearest
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax import ast_pdsl as ast
 from robocomp_dsl.syntax import codes
@@ -18,6 +18,7 @@ from robocomp_dsl.syntax.read import read
 
 _COUNT = re.compile(r"(\d*)(\s*:\s*)?(\d*)")
 _FLAG = re.compile(r"[A-Z]")
+_NO_UNIT = re.compile(r"[-+.]?\d[\d.]*\s*:|:\s*[-+.]?\d|\d+\Z")
 
 
 def parse(source: Source, report: Report) -> ast.File:
@@ -98,7 +99,9 @@ class PdslBuilder(Builder):
         bounds: ast.Range | None = None
         live: Name | None = None
         for one in attributes:
-            if isinstance(one, Unit):
+            if isinstance(one, Unit) and _NO_UNIT.match(one.text):
+                self._numbers_in_brackets(one, name)
+            elif isinstance(one, Unit):
                 unit = self.once(unit, one, "the unit")
             elif isinstance(one, ast.Range):
                 bounds = self.once(bounds, one, "the range")
@@ -117,6 +120,9 @@ class PdslBuilder(Builder):
             return False
         if word.text.lower() == "live" or word.text == "T":
             return True
+        if default is not None and nearest(word.text, ("live",)):
+            self.vocabulary(word, ("live",), "flag")
+            return True
         if not _FLAG.fullmatch(word.text):
             return False
         self.say(
@@ -127,6 +133,24 @@ class PdslBuilder(Builder):
             fix=self.rewrite("delete it", word.span),
         )
         return True
+
+    def _numbers_in_brackets(self, unit: Unit, name: Name) -> None:
+        """`[0:2]` or `[3]`: a range, or the length of a list, where a unit stands."""
+        if ":" in unit.text:
+            self.say(
+                codes.UNEXPECTED,
+                unit.span,
+                "a range stands without brackets",
+                label="this is where a unit is",
+                fix=self.rewrite(f"write `{unit.text}`", unit.span, unit.text),
+            )
+            return
+        self.say(
+            codes.UNEXPECTED,
+            unit.span,
+            f"`{unit.text}` is no unit",
+            help=f"a list is a group: `{name.text}[{unit.text}] {{ … }};`",
+        )
 
     def _default(self, first: Literal | None, one: Text | Number | Name) -> Literal:
         value: Literal = one

@@ -53,7 +53,10 @@ def hopeless(situation: Situation) -> Repair:
     """No correction but the finding alone, for a statement that is given up."""
     start, end = situation.place()
     if situation.ahead[0].kind != END or not situation.opened:
-        return Repair(codes.UNEXPECTED, start, end)
+        # Only in one place of a deployment nothing but a dot can follow.
+        ports = situation.tables.language == "ddsl" and situation.accepted() == ["DOT"]
+        said = "a connection joins ports: `component.Port -> component.Port`" if ports else ""
+        return Repair(codes.UNEXPECTED, start, end, help=said)
     opened = situation.opened[-1]
     return Repair(
         codes.UNCLOSED_BLOCK,

@@ -49,7 +49,11 @@ _SYNONYMS = {
     "offers": "implements",
     "uses": "requires",
     "needs": "requires",
-    "proxy": "requires",
+    "parameters": "ComponentParams",
+    "params": "ComponentParams",
+    "system": "Deployment",
+    "node": "component",
+    "machine": "host",
     "events": "subscribesTo",
     "initial": "initial_state",
     "start": "initial_state",
@@ -59,6 +63,7 @@ _SYNONYMS = {
 """What other languages call the same thing."""
 
 _BARE_TEXT = re.compile(r"[^\s;{}\",]{1,400}")
+_BARE_WORDS = re.compile(r"[^\s;{}\",]{1,400}(?:[ \t]+[^\s;{}\",]{1,400}){1,20}(?=[ \t]*;)")
 _OPEN_BRACKET = re.compile(r"\[[^\s\[\]{};,\"]+")
 _BARE_NAME = re.compile(r"[^\s;{}()<>\[\],:=\"'/#.]{1,400}")
 
@@ -132,24 +137,27 @@ def foreign(situation: Situation, item: list[Token], keep: int) -> Iterator[Repa
 
 
 def bare_text(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
-    """A text without quotes."""
+    """A text without quotes: a word, or all words up to the `;`."""
     token = situation.ahead[0]
-    run = _BARE_TEXT.match(situation.source.text, token.start)
-    if "STRING" not in accepted or "ID" in accepted or not run or token.kind in ("STRING", END):
+    if "STRING" not in accepted or "ID" in accepted or token.kind in ("STRING", END):
         return
-    right = f'"{run.group()}"'
-    yield Repair(
-        codes.UNQUOTED_TEXT,
-        token.start,
-        run.end(),
-        "a text stands in quotes",
-        label=f"write {right}",
-        title="add the quotes",
-        edits=((token.start, run.end(), right),),
-        put=(Token("STRING", right, token.start, run.end()),),
-        skip=_tokens_before(situation, run.end()),
-        need=1,
-    )
+    for pattern in (_BARE_TEXT, _BARE_WORDS):
+        run = pattern.match(situation.source.text, token.start)
+        if not run:
+            return
+        right = f'"{run.group()}"'
+        yield Repair(
+            codes.UNQUOTED_TEXT,
+            token.start,
+            run.end(),
+            "a text stands in quotes",
+            label=f"write {right}",
+            title="add the quotes",
+            edits=((token.start, run.end(), right),),
+            put=(Token("STRING", right, token.start, run.end()),),
+            skip=_tokens_before(situation, run.end()),
+            need=1,
+        )
 
 
 def open_bracket(situation: Situation, accepted: list[str]) -> Iterator[Repair]:

@@ -134,6 +134,8 @@ def expectation(situation: Situation, items: Mapping[str, str]) -> str:
     else:
         kinds = [kind for kind in accepted if kind not in _UNSAID]
         kinds = [kind for kind in kinds if kind not in _RARE] or kinds
+    if kinds == ["ID"] and situation.before.kind == "NUMBER":
+        return "a unit of time (`ms`, `s`, `min`, `h`)"
     texts = situation.tables.texts
     words += sorted(_NAMES[kind] for kind in kinds if kind in _NAMES)
     words += sorted(f"`{texts[kind]}`" for kind in kinds if kind in texts)
