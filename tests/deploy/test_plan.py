@@ -99,7 +99,7 @@ def test_a_prefix_is_before_the_names_of_all_that_meet_it() -> None:
     nav, far = instance("nav", NAV), instance("far", NAV, prefix="right")
     wires = [wire(one, 0, base, 0, Qos()) for one in (nav, far)]
     clock = Clock("sim", base, lockstep=True)
-    robot = replace(deployment([nav, base, far], *wires), clock=clock)
+    robot = deployment([nav, base, far], *wires).replaced(clock=clock)
     made = plan(robot, name="robot", domain="d-1", interpreter="/py")
     argv = {process.name: process.argv for process in made.processes}
     assert list(argv) == ["nav", "left/base", "right/far"]
