@@ -31,7 +31,7 @@ from robocomp_dsl.runtime.simulated_clock import SimulatedClock
 from robocomp_dsl.runtime.spec import ComponentSpec
 
 LEADING = "Leader"
-LEAVE_S = 0.5
+LEAVE_S = 2.0
 """What telling the source of the own end may take."""
 
 
