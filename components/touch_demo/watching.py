@@ -79,7 +79,7 @@ class Watching:
             self._links.hear(interface, component, port, handlers)
         self._until(lambda: self.heard.complete, "frames of the skin and states of the arm")
         for joint in FINGER_JOINTS:
-            self._asked(self._finger.setPid, joint, board.Pid(**STIFF))
+            self._asked(self._finger.setPid, board.Loop.PositionLoop, joint, board.Pid(**STIFF))
         self._look_at_finger()
         self._patience = PATIENCE_S if most is None else float("inf")
 

@@ -12,7 +12,7 @@ import time
 from collections.abc import Mapping
 from contextlib import AbstractContextManager
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -46,6 +46,14 @@ class MotorBus(Protocol):
 
     def write(self, torque: Floats) -> None:
         """Let the motors give these torques [N·m, N] at the joints until the next call."""
+
+
+@runtime_checkable
+class FeelsTorque(Protocol):
+    """A driver whose joints have sensors of torque may have this beside; without, none is felt."""
+
+    def feel_torque(self) -> Floats:
+        """The torques [N·m, N] that the joints feel now, (n,)."""
 
 
 class DrivenBoard:
@@ -96,6 +104,11 @@ class DrivenBoard:
 
     def _step(self, seconds: float) -> None:
         position, velocity = self._bus.read()
+        looks = self.board.law.deviations
+        if looks.feels:
+            bus: object = self._bus
+            felt = bus.feel_torque() if isinstance(bus, FeelsTorque) else self.board.torque
+            looks.felt = self.board.trusted(felt)
         self._bus.write(self.board.step(position, velocity, seconds))
 
     def _lost(self, error: Exception) -> None:

@@ -143,12 +143,10 @@ def test_regulators_have_proportion_integral_damping_and_bounds():
         bank.step(np.array([1.0]), np.zeros(1), 0.1)
     assert bank.integral == pytest.approx([0.3])
     assert bank.step(np.array([100.0]), np.zeros(1), 0.1) == pytest.approx([10])
-    bank.enable(ONE, on=False)
+    bank.choose(bank.gains, np.zeros(1, bool))
     assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([0])
-    bank.enable(ONE, on=True)
+    bank.choose(bank.gains, np.ones(1, bool))
     assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([2.2])
-    bank.use(np.zeros(1, bool))
-    assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([0])
 
 
 def test_an_integral_does_not_wind_up_at_the_bound():

@@ -158,8 +158,16 @@ def test_every_operation_of_the_board_answers(arm: Served) -> None:
     board, i = arm.ports["ControlBoard"], arm.types
     assert [one.name for one in board.getJoints()] == ["shoulder", "elbow", "lift"]
     assert board.getJoints()[2].prismatic
-    board.setPid("elbow", i.Pid(200.0, 1.0, 5.0, 0.0, 40.0, 20.0))
-    assert board.getPid("elbow").kp == 200.0
+    for loop in i.Loop:
+        board.setPid(loop, "elbow", i.Pid(200.0 + loop, 1.0, 5.0, 0.0, 40.0, 20.0, 0.5))
+        board.resetPid(loop, ["elbow"])
+        board.enablePid(loop, ["lift"], False)
+        assert board.isPidEnabled(loop, []).tolist() == [True, True, False]
+        board.enablePid(loop, [], True)
+        for asked in (board.getPidReferences, board.getPidErrors, board.getPidOutputs):
+            assert asked(loop, ["elbow", "lift"]).shape == (2,)
+    assert [board.getPid(one, "elbow").kp for one in i.Loop] == [200.0, 201.0, 202.0, 203.0]
+    assert board.getPid(i.Loop.TorqueLoop, "elbow").feedforward == 0.5
     board.setImpedance("elbow", i.Impedance(10.0, 1.0, 0.5))
     assert board.getImpedance("elbow").offset == 0.5
     assert board.getLastFault("elbow").code == 0

@@ -60,7 +60,7 @@ def test_joints_of_another_board_are_not_there(arm: Served) -> None:
     with pytest.raises(arm.types.UnknownJoint, match="`grip` is not on `arm`: elbow, shoulder"):
         board.positionMove(["grip"], [0.02])
     with pytest.raises(arm.types.UnknownJoint):
-        board.getPid("grip")
+        board.getPid(0, "grip")
     keys = board.getVariables()
     assert "pid.elbow" in keys
     assert "pid.grip" not in keys

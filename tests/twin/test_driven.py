@@ -12,7 +12,9 @@ import pytest
 
 from robocomp_dsl.hardware.control.faults import Fault
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
+from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.pid import Gains
 from robocomp_dsl.hardware.driven import Hardware
 from robocomp_dsl.hardware.errors import HardwareError, NotWritten
 from robocomp_dsl.hardware.rules import RULES, Broken, Rule
@@ -142,6 +144,36 @@ def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
     assert state.interactions == (Interaction.COMPLIANT,)
     assert state.faults.tolist() == [Fault.SILENCE]
     until(lambda: abs(motor.velocity) < 0.01)
+
+
+class Feeling(Motor):
+    """Its gear keeps a fifth of the torque for itself, which a sensor tells."""
+
+    broken = False
+
+    def feel_torque(self) -> np.ndarray:
+        return np.array([np.nan if self.broken else 0.8 * self.torque])
+
+
+def test_a_motor_with_a_sensor_gives_the_torque_that_is_asked_for() -> None:
+    motor = Feeling()
+    hardware = Hardware(motor, ("pan",), motors=True)
+    try:
+        with hardware.working():
+            device = hardware.devices["pan"]
+        with hardware.turns:
+            device.commands.set_mode(None, Mode.TORQUE)
+            gains = Gains(ki=20.0, max_output=5.0, max_integral=5.0, feedforward=1.0)
+            device.settings.set_pid("pan", gains, Loop.TORQUE)
+            device.commands.set_torque(None, 0.02)
+        until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
+        assert device.settings.pid_error(None, Loop.TORQUE) == pytest.approx([0.0], abs=1e-3)
+        motor.broken = True
+        until(lambda: device.board.table.modes == [Mode.HW_FAULT])
+        assert device.settings.last_fault("pan").message == "the torque sensor reads no number"
+        until(lambda: motor.torque == 0.0)
+    finally:
+        hardware.close()
 
 
 @pytest.mark.parametrize("rule", RULES["joint"], ids=str)

@@ -263,15 +263,24 @@ Joints = list[JointInfo]
 _Joints = rt.Sequence(JointInfo)
 
 
-class Pid(rt.Struct):
-    """Position regulator; output in N m.
-
-    offset [Nm]
-    maxOutput [Nm]
-    maxIntegral [Nm]
+class Loop(rt.Enum):
+    """What a regulator regulates: the position (modes Position, PositionDirect, Mixed, while stiff), the velocity
+    (Velocity, VelocityDirect, while stiff), the torque that the joint feels, the current of the motor. The first
+    three give torques in N m, that of the current gives percents of the motor's supply.
     """
 
-    __slots__ = ("kd", "ki", "kp", "maxIntegral", "maxOutput", "offset")
+    PositionLoop = 0
+    VelocityLoop = 1
+    TorqueLoop = 2
+    CurrentLoop = 3
+
+
+class Pid(rt.Struct):
+    """Output per error (rad, rad/s, N m, A), per its integral and derivative; all of it stays within maxOutput.
+    `feedforward` multiplies the reference of torque or current, or the speed of the reference otherwise.
+    """
+
+    __slots__ = ("feedforward", "kd", "ki", "kp", "maxIntegral", "maxOutput", "offset")
     _fields_ = (
         ("kp", rt.DOUBLE),
         ("ki", rt.DOUBLE),
@@ -279,6 +288,7 @@ class Pid(rt.Struct):
         ("offset", rt.DOUBLE),
         ("maxOutput", rt.DOUBLE),
         ("maxIntegral", rt.DOUBLE),
+        ("feedforward", rt.DOUBLE),
     )
 
     def __init__(
@@ -289,6 +299,7 @@ class Pid(rt.Struct):
         offset: float = 0.0,
         maxOutput: float = 0.0,
         maxIntegral: float = 0.0,
+        feedforward: float = 0.0,
     ) -> None:
         self.kp = kp
         self.ki = ki
@@ -296,6 +307,7 @@ class Pid(rt.Struct):
         self.offset = offset
         self.maxOutput = maxOutput
         self.maxIntegral = maxIntegral
+        self.feedforward = feedforward
 
 
 class Impedance(rt.Struct):
@@ -322,7 +334,8 @@ class Impedance(rt.Struct):
 
 class JointFault(rt.Struct):
     """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder, 4 tracking, 5 calibration,
-    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set.
+    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set;
+    8 the sensor of torque.
     """
 
     __slots__ = ("code", "what")
@@ -893,7 +906,7 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "setPid",
             rt.Pattern.QUERY,
-            inputs=(("joint", rt.STRING), ("pid", Pid)),
+            inputs=(("loop", Loop), ("joint", rt.STRING), ("pid", Pid)),
             outputs=(),
             throws=(Refused, UnknownJoint),
             idempotent=False,
@@ -901,7 +914,7 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "getPid",
             rt.Pattern.QUERY,
-            inputs=(("joint", rt.STRING),),
+            inputs=(("loop", Loop), ("joint", rt.STRING)),
             outputs=(("", Pid),),
             throws=(UnknownJoint,),
             idempotent=True,
@@ -909,18 +922,50 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "enablePid",
             rt.Pattern.QUERY,
-            inputs=(("joints", _Names), ("on", rt.BOOL)),
+            inputs=(("loop", Loop), ("joints", _Names), ("on", rt.BOOL)),
             outputs=(),
             throws=(UnknownJoint,),
             idempotent=False,
         ),
         rt.Operation(
+            "isPidEnabled",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _Names)),
+            outputs=(("", _RoboCompControlBoard_Flags),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
             "resetPid",
             rt.Pattern.QUERY,
-            inputs=(("joints", _Names),),
+            inputs=(("loop", Loop), ("joints", _Names)),
             outputs=(),
             throws=(UnknownJoint,),
             idempotent=False,
+        ),
+        rt.Operation(
+            "getPidReferences",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _Names)),
+            outputs=(("", _Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
+            "getPidErrors",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _Names)),
+            outputs=(("", _Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
+            "getPidOutputs",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _Names)),
+            outputs=(("", _Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
         ),
         rt.Operation(
             "setPositionLimits",
@@ -1049,6 +1094,9 @@ class ControlBoardProxy(rt.Proxy):
         "_call_getJoints",
         "_call_getLastFault",
         "_call_getPid",
+        "_call_getPidErrors",
+        "_call_getPidOutputs",
+        "_call_getPidReferences",
         "_call_getReferenceSpeed",
         "_call_getState",
         "_call_getTargets",
@@ -1056,6 +1104,7 @@ class ControlBoardProxy(rt.Proxy):
         "_call_getVariables",
         "_call_home",
         "_call_isBusy",
+        "_call_isPidEnabled",
         "_call_motionDone",
         "_call_park",
         "_call_positionMove",
@@ -1109,7 +1158,11 @@ class ControlBoardProxy(rt.Proxy):
     _call_setPid: Callable[..., None]
     _call_getPid: Callable[..., Pid]
     _call_enablePid: Callable[..., None]
+    _call_isPidEnabled: Callable[..., RoboCompControlBoard_Flags]
     _call_resetPid: Callable[..., None]
+    _call_getPidReferences: Callable[..., Values]
+    _call_getPidErrors: Callable[..., Values]
+    _call_getPidOutputs: Callable[..., Values]
     _call_setPositionLimits: Callable[..., None]
     _call_setSpeedLimits: Callable[..., None]
     _call_setMaxCurrent: Callable[..., None]
@@ -1151,21 +1204,25 @@ class ControlBoardProxy(rt.Proxy):
         self._call_setPid = bind(CONTROLBOARD.operations[22])
         self._call_getPid = bind(CONTROLBOARD.operations[23])
         self._call_enablePid = bind(CONTROLBOARD.operations[24])
-        self._call_resetPid = bind(CONTROLBOARD.operations[25])
-        self._call_setPositionLimits = bind(CONTROLBOARD.operations[26])
-        self._call_setSpeedLimits = bind(CONTROLBOARD.operations[27])
-        self._call_setMaxCurrent = bind(CONTROLBOARD.operations[28])
-        self._call_setEncoder = bind(CONTROLBOARD.operations[29])
-        self._call_setMotorEncoder = bind(CONTROLBOARD.operations[30])
-        self._call_getLastFault = bind(CONTROLBOARD.operations[31])
-        self._call_getVariables = bind(CONTROLBOARD.operations[32])
-        self._call_getVariable = bind(CONTROLBOARD.operations[33])
-        self._call_setVariable = bind(CONTROLBOARD.operations[34])
-        self._call_calibrate = bind(CONTROLBOARD.operations[35])
-        self._call_home = bind(CONTROLBOARD.operations[36])
-        self._call_park = bind(CONTROLBOARD.operations[37])
-        self._call_isBusy = bind(CONTROLBOARD.operations[38])
-        self._call_quit = bind(CONTROLBOARD.operations[39])
+        self._call_isPidEnabled = bind(CONTROLBOARD.operations[25])
+        self._call_resetPid = bind(CONTROLBOARD.operations[26])
+        self._call_getPidReferences = bind(CONTROLBOARD.operations[27])
+        self._call_getPidErrors = bind(CONTROLBOARD.operations[28])
+        self._call_getPidOutputs = bind(CONTROLBOARD.operations[29])
+        self._call_setPositionLimits = bind(CONTROLBOARD.operations[30])
+        self._call_setSpeedLimits = bind(CONTROLBOARD.operations[31])
+        self._call_setMaxCurrent = bind(CONTROLBOARD.operations[32])
+        self._call_setEncoder = bind(CONTROLBOARD.operations[33])
+        self._call_setMotorEncoder = bind(CONTROLBOARD.operations[34])
+        self._call_getLastFault = bind(CONTROLBOARD.operations[35])
+        self._call_getVariables = bind(CONTROLBOARD.operations[36])
+        self._call_getVariable = bind(CONTROLBOARD.operations[37])
+        self._call_setVariable = bind(CONTROLBOARD.operations[38])
+        self._call_calibrate = bind(CONTROLBOARD.operations[39])
+        self._call_home = bind(CONTROLBOARD.operations[40])
+        self._call_park = bind(CONTROLBOARD.operations[41])
+        self._call_isBusy = bind(CONTROLBOARD.operations[42])
+        self._call_quit = bind(CONTROLBOARD.operations[43])
 
     def getJoints(self) -> Joints:
         """What joints there are."""
@@ -1325,30 +1382,52 @@ class ControlBoardProxy(rt.Proxy):
         """May raise UnknownJoint."""
         return self._call_getImpedance(joint)
 
-    def setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise Refused, UnknownJoint.
         """
-        self._call_setPid(joint, pid)
+        self._call_setPid(loop, joint, pid)
 
-    def getPid(self, joint: str) -> Pid:
+    def getPid(self, loop: Loop, joint: str) -> Pid:
         """May raise UnknownJoint."""
-        return self._call_getPid(joint)
+        return self._call_getPid(loop, joint)
 
-    def enablePid(self, joints: Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def enablePid(self, loop: Loop, joints: Names, on: bool) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self._call_enablePid(joints, on)
+        self._call_enablePid(loop, joints, on)
 
-    def resetPid(self, joints: Names) -> None:
+    def isPidEnabled(self, loop: Loop, joints: Names) -> RoboCompControlBoard_Flags:
+        """May raise UnknownJoint."""
+        return self._call_isPidEnabled(loop, joints)
+
+    def resetPid(self, loop: Loop, joints: Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self._call_resetPid(joints)
+        self._call_resetPid(loop, joints)
+
+    def getPidReferences(self, loop: Loop, joints: Names) -> Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        return self._call_getPidReferences(loop, joints)
+
+    def getPidErrors(self, loop: Loop, joints: Names) -> Values:
+        """May raise UnknownJoint."""
+        return self._call_getPidErrors(loop, joints)
+
+    def getPidOutputs(self, loop: Loop, joints: Names) -> Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        return self._call_getPidOutputs(loop, joints)
 
     def setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.

@@ -31,6 +31,7 @@ from generated.interfaces import (
     JointFault,
     JointMotorPubProxy,
     Joints,
+    Loop,
     Magnetic,
     Matrix,
     Model,
@@ -123,7 +124,11 @@ class GenericWorker(Component):
                     "setPid": "torso_setPid",
                     "getPid": "torso_getPid",
                     "enablePid": "torso_enablePid",
+                    "isPidEnabled": "torso_isPidEnabled",
                     "resetPid": "torso_resetPid",
+                    "getPidReferences": "torso_getPidReferences",
+                    "getPidErrors": "torso_getPidErrors",
+                    "getPidOutputs": "torso_getPidOutputs",
                     "setPositionLimits": "torso_setPositionLimits",
                     "setSpeedLimits": "torso_setSpeedLimits",
                     "setMaxCurrent": "torso_setMaxCurrent",
@@ -169,7 +174,11 @@ class GenericWorker(Component):
                     "setPid": "head_setPid",
                     "getPid": "head_getPid",
                     "enablePid": "head_enablePid",
+                    "isPidEnabled": "head_isPidEnabled",
                     "resetPid": "head_resetPid",
+                    "getPidReferences": "head_getPidReferences",
+                    "getPidErrors": "head_getPidErrors",
+                    "getPidOutputs": "head_getPidOutputs",
                     "setPositionLimits": "head_setPositionLimits",
                     "setSpeedLimits": "head_setSpeedLimits",
                     "setMaxCurrent": "head_setMaxCurrent",
@@ -215,7 +224,11 @@ class GenericWorker(Component):
                     "setPid": "left_arm_setPid",
                     "getPid": "left_arm_getPid",
                     "enablePid": "left_arm_enablePid",
+                    "isPidEnabled": "left_arm_isPidEnabled",
                     "resetPid": "left_arm_resetPid",
+                    "getPidReferences": "left_arm_getPidReferences",
+                    "getPidErrors": "left_arm_getPidErrors",
+                    "getPidOutputs": "left_arm_getPidOutputs",
                     "setPositionLimits": "left_arm_setPositionLimits",
                     "setSpeedLimits": "left_arm_setSpeedLimits",
                     "setMaxCurrent": "left_arm_setMaxCurrent",
@@ -261,7 +274,11 @@ class GenericWorker(Component):
                     "setPid": "right_arm_setPid",
                     "getPid": "right_arm_getPid",
                     "enablePid": "right_arm_enablePid",
+                    "isPidEnabled": "right_arm_isPidEnabled",
                     "resetPid": "right_arm_resetPid",
+                    "getPidReferences": "right_arm_getPidReferences",
+                    "getPidErrors": "right_arm_getPidErrors",
+                    "getPidOutputs": "right_arm_getPidOutputs",
                     "setPositionLimits": "right_arm_setPositionLimits",
                     "setSpeedLimits": "right_arm_setSpeedLimits",
                     "setMaxCurrent": "right_arm_setMaxCurrent",
@@ -307,7 +324,11 @@ class GenericWorker(Component):
                     "setPid": "finger_setPid",
                     "getPid": "finger_getPid",
                     "enablePid": "finger_enablePid",
+                    "isPidEnabled": "finger_isPidEnabled",
                     "resetPid": "finger_resetPid",
+                    "getPidReferences": "finger_getPidReferences",
+                    "getPidErrors": "finger_getPidErrors",
+                    "getPidOutputs": "finger_getPidOutputs",
                     "setPositionLimits": "finger_setPositionLimits",
                     "setSpeedLimits": "finger_setSpeedLimits",
                     "setMaxCurrent": "finger_setMaxCurrent",
@@ -353,7 +374,11 @@ class GenericWorker(Component):
                     "setPid": "finger2_setPid",
                     "getPid": "finger2_getPid",
                     "enablePid": "finger2_enablePid",
+                    "isPidEnabled": "finger2_isPidEnabled",
                     "resetPid": "finger2_resetPid",
+                    "getPidReferences": "finger2_getPidReferences",
+                    "getPidErrors": "finger2_getPidErrors",
+                    "getPidOutputs": "finger2_getPidOutputs",
                     "setPositionLimits": "finger2_setPositionLimits",
                     "setSpeedLimits": "finger2_setSpeedLimits",
                     "setMaxCurrent": "finger2_setMaxCurrent",
@@ -764,33 +789,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("torso_getImpedance")
 
-    def torso_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def torso_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("torso_setPid")
 
-    def torso_getPid(self, joint: str) -> Pid:
+    def torso_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("torso_getPid")
 
-    def torso_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def torso_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("torso_enablePid")
 
-    def torso_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def torso_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("torso_isPidEnabled")
+
+    def torso_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("torso_resetPid")
+
+    def torso_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("torso_getPidReferences")
+
+    def torso_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("torso_getPidErrors")
+
+    def torso_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("torso_getPidOutputs")
 
     def torso_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1100,33 +1174,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("head_getImpedance")
 
-    def head_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("head_setPid")
 
-    def head_getPid(self, joint: str) -> Pid:
+    def head_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("head_getPid")
 
-    def head_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def head_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("head_enablePid")
 
-    def head_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def head_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("head_isPidEnabled")
+
+    def head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("head_resetPid")
+
+    def head_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("head_getPidReferences")
+
+    def head_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("head_getPidErrors")
+
+    def head_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("head_getPidOutputs")
 
     def head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1436,33 +1559,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("left_arm_getImpedance")
 
-    def left_arm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def left_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("left_arm_setPid")
 
-    def left_arm_getPid(self, joint: str) -> Pid:
+    def left_arm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("left_arm_getPid")
 
-    def left_arm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def left_arm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("left_arm_enablePid")
 
-    def left_arm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def left_arm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("left_arm_isPidEnabled")
+
+    def left_arm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("left_arm_resetPid")
+
+    def left_arm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("left_arm_getPidReferences")
+
+    def left_arm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("left_arm_getPidErrors")
+
+    def left_arm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("left_arm_getPidOutputs")
 
     def left_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1776,33 +1948,86 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("right_arm_getImpedance")
 
-    def right_arm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def right_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("right_arm_setPid")
 
-    def right_arm_getPid(self, joint: str) -> Pid:
+    def right_arm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("right_arm_getPid")
 
-    def right_arm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def right_arm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("right_arm_enablePid")
 
-    def right_arm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def right_arm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("right_arm_isPidEnabled")
+
+    def right_arm_resetPid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("right_arm_resetPid")
+
+    def right_arm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("right_arm_getPidReferences")
+
+    def right_arm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("right_arm_getPidErrors")
+
+    def right_arm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("right_arm_getPidOutputs")
 
     def right_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2116,33 +2341,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("finger_getImpedance")
 
-    def finger_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_setPid")
 
-    def finger_getPid(self, joint: str) -> Pid:
+    def finger_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_getPid")
 
-    def finger_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_enablePid")
 
-    def finger_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_isPidEnabled")
+
+    def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_resetPid")
+
+    def finger_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidReferences")
+
+    def finger_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidErrors")
+
+    def finger_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidOutputs")
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2452,33 +2726,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("finger2_getImpedance")
 
-    def finger2_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_setPid")
 
-    def finger2_getPid(self, joint: str) -> Pid:
+    def finger2_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_getPid")
 
-    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger2_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_enablePid")
 
-    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger2_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_isPidEnabled")
+
+    def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_resetPid")
+
+    def finger2_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidReferences")
+
+    def finger2_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidErrors")
+
+    def finger2_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidOutputs")
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.

@@ -28,6 +28,7 @@ from generated.interfaces import (
     InteractionMode,
     JointFault,
     Joints,
+    Loop,
     Magnetic,
     Matrix,
     Model,
@@ -531,35 +532,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def torso_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def torso_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["torso"].setPid(joint, pid)
+        self.ports["torso"].setPid(loop, joint, pid)
 
-    def torso_getPid(self, joint: str) -> Pid:
+    def torso_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["torso"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def torso_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def torso_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["torso"].enablePid(joints, on)
+        self.ports["torso"].enablePid(loop, joints, on)
 
-    def torso_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def torso_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["torso"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def torso_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["torso"].resetPid(joints)
+        self.ports["torso"].resetPid(loop, joints)
+
+    def torso_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["torso"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def torso_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["torso"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def torso_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["torso"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def torso_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -907,35 +965,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def head_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["head"].setPid(joint, pid)
+        self.ports["head"].setPid(loop, joint, pid)
 
-    def head_getPid(self, joint: str) -> Pid:
+    def head_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["head"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def head_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def head_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["head"].enablePid(joints, on)
+        self.ports["head"].enablePid(loop, joints, on)
 
-    def head_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def head_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["head"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["head"].resetPid(joints)
+        self.ports["head"].resetPid(loop, joints)
+
+    def head_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["head"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def head_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["head"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def head_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["head"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1283,35 +1398,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def left_arm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def left_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["left_arm"].setPid(joint, pid)
+        self.ports["left_arm"].setPid(loop, joint, pid)
 
-    def left_arm_getPid(self, joint: str) -> Pid:
+    def left_arm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["left_arm"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def left_arm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def left_arm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["left_arm"].enablePid(joints, on)
+        self.ports["left_arm"].enablePid(loop, joints, on)
 
-    def left_arm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def left_arm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["left_arm"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def left_arm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["left_arm"].resetPid(joints)
+        self.ports["left_arm"].resetPid(loop, joints)
+
+    def left_arm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["left_arm"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def left_arm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["left_arm"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def left_arm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["left_arm"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def left_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1663,35 +1835,96 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def right_arm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def right_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["right_arm"].setPid(joint, pid)
+        self.ports["right_arm"].setPid(loop, joint, pid)
 
-    def right_arm_getPid(self, joint: str) -> Pid:
+    def right_arm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["right_arm"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def right_arm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def right_arm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["right_arm"].enablePid(joints, on)
+        self.ports["right_arm"].enablePid(loop, joints, on)
 
-    def right_arm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def right_arm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["right_arm"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def right_arm_resetPid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["right_arm"].resetPid(joints)
+        self.ports["right_arm"].resetPid(loop, joints)
+
+    def right_arm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["right_arm"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def right_arm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["right_arm"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def right_arm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["right_arm"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def right_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2043,35 +2276,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def finger_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["finger"].setPid(joint, pid)
+        self.ports["finger"].setPid(loop, joint, pid)
 
-    def finger_getPid(self, joint: str) -> Pid:
+    def finger_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["finger"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def finger_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["finger"].enablePid(joints, on)
+        self.ports["finger"].enablePid(loop, joints, on)
 
-    def finger_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["finger"].resetPid(joints)
+        self.ports["finger"].resetPid(loop, joints)
+
+    def finger_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2419,35 +2709,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def finger2_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["finger2"].setPid(joint, pid)
+        self.ports["finger2"].setPid(loop, joint, pid)
 
-    def finger2_getPid(self, joint: str) -> Pid:
+    def finger2_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["finger2"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger2_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["finger2"].enablePid(joints, on)
+        self.ports["finger2"].enablePid(loop, joints, on)
 
-    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger2_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["finger2"].resetPid(joints)
+        self.ports["finger2"].resetPid(loop, joints)
+
+    def finger2_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger2_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger2_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.

@@ -32,6 +32,7 @@ from generated.interfaces import (
     JointFault,
     JointMotorPubProxy,
     Joints,
+    Loop,
     Magnetic,
     Matrix,
     Model,
@@ -125,7 +126,11 @@ class GenericWorker(Component):
                     "setPid": "Head_setPid",
                     "getPid": "Head_getPid",
                     "enablePid": "Head_enablePid",
+                    "isPidEnabled": "Head_isPidEnabled",
                     "resetPid": "Head_resetPid",
+                    "getPidReferences": "Head_getPidReferences",
+                    "getPidErrors": "Head_getPidErrors",
+                    "getPidOutputs": "Head_getPidOutputs",
                     "setPositionLimits": "Head_setPositionLimits",
                     "setSpeedLimits": "Head_setSpeedLimits",
                     "setMaxCurrent": "Head_setMaxCurrent",
@@ -171,7 +176,11 @@ class GenericWorker(Component):
                     "setPid": "LArm_setPid",
                     "getPid": "LArm_getPid",
                     "enablePid": "LArm_enablePid",
+                    "isPidEnabled": "LArm_isPidEnabled",
                     "resetPid": "LArm_resetPid",
+                    "getPidReferences": "LArm_getPidReferences",
+                    "getPidErrors": "LArm_getPidErrors",
+                    "getPidOutputs": "LArm_getPidOutputs",
                     "setPositionLimits": "LArm_setPositionLimits",
                     "setSpeedLimits": "LArm_setSpeedLimits",
                     "setMaxCurrent": "LArm_setMaxCurrent",
@@ -217,7 +226,11 @@ class GenericWorker(Component):
                     "setPid": "RArm_setPid",
                     "getPid": "RArm_getPid",
                     "enablePid": "RArm_enablePid",
+                    "isPidEnabled": "RArm_isPidEnabled",
                     "resetPid": "RArm_resetPid",
+                    "getPidReferences": "RArm_getPidReferences",
+                    "getPidErrors": "RArm_getPidErrors",
+                    "getPidOutputs": "RArm_getPidOutputs",
                     "setPositionLimits": "RArm_setPositionLimits",
                     "setSpeedLimits": "RArm_setSpeedLimits",
                     "setMaxCurrent": "RArm_setMaxCurrent",
@@ -263,7 +276,11 @@ class GenericWorker(Component):
                     "setPid": "LLeg_setPid",
                     "getPid": "LLeg_getPid",
                     "enablePid": "LLeg_enablePid",
+                    "isPidEnabled": "LLeg_isPidEnabled",
                     "resetPid": "LLeg_resetPid",
+                    "getPidReferences": "LLeg_getPidReferences",
+                    "getPidErrors": "LLeg_getPidErrors",
+                    "getPidOutputs": "LLeg_getPidOutputs",
                     "setPositionLimits": "LLeg_setPositionLimits",
                     "setSpeedLimits": "LLeg_setSpeedLimits",
                     "setMaxCurrent": "LLeg_setMaxCurrent",
@@ -309,7 +326,11 @@ class GenericWorker(Component):
                     "setPid": "RLeg_setPid",
                     "getPid": "RLeg_getPid",
                     "enablePid": "RLeg_enablePid",
+                    "isPidEnabled": "RLeg_isPidEnabled",
                     "resetPid": "RLeg_resetPid",
+                    "getPidReferences": "RLeg_getPidReferences",
+                    "getPidErrors": "RLeg_getPidErrors",
+                    "getPidOutputs": "RLeg_getPidOutputs",
                     "setPositionLimits": "RLeg_setPositionLimits",
                     "setSpeedLimits": "RLeg_setSpeedLimits",
                     "setMaxCurrent": "RLeg_setMaxCurrent",
@@ -355,7 +376,11 @@ class GenericWorker(Component):
                     "setPid": "finger_setPid",
                     "getPid": "finger_getPid",
                     "enablePid": "finger_enablePid",
+                    "isPidEnabled": "finger_isPidEnabled",
                     "resetPid": "finger_resetPid",
+                    "getPidReferences": "finger_getPidReferences",
+                    "getPidErrors": "finger_getPidErrors",
+                    "getPidOutputs": "finger_getPidOutputs",
                     "setPositionLimits": "finger_setPositionLimits",
                     "setSpeedLimits": "finger_setSpeedLimits",
                     "setMaxCurrent": "finger_setMaxCurrent",
@@ -401,7 +426,11 @@ class GenericWorker(Component):
                     "setPid": "finger2_setPid",
                     "getPid": "finger2_getPid",
                     "enablePid": "finger2_enablePid",
+                    "isPidEnabled": "finger2_isPidEnabled",
                     "resetPid": "finger2_resetPid",
+                    "getPidReferences": "finger2_getPidReferences",
+                    "getPidErrors": "finger2_getPidErrors",
+                    "getPidOutputs": "finger2_getPidOutputs",
                     "setPositionLimits": "finger2_setPositionLimits",
                     "setSpeedLimits": "finger2_setSpeedLimits",
                     "setMaxCurrent": "finger2_setMaxCurrent",
@@ -820,33 +849,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("Head_getImpedance")
 
-    def Head_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def Head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("Head_setPid")
 
-    def Head_getPid(self, joint: str) -> Pid:
+    def Head_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("Head_getPid")
 
-    def Head_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def Head_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("Head_enablePid")
 
-    def Head_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def Head_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("Head_isPidEnabled")
+
+    def Head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("Head_resetPid")
+
+    def Head_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("Head_getPidReferences")
+
+    def Head_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("Head_getPidErrors")
+
+    def Head_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("Head_getPidOutputs")
 
     def Head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1156,33 +1234,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("LArm_getImpedance")
 
-    def LArm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def LArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("LArm_setPid")
 
-    def LArm_getPid(self, joint: str) -> Pid:
+    def LArm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LArm_getPid")
 
-    def LArm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def LArm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LArm_enablePid")
 
-    def LArm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def LArm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LArm_isPidEnabled")
+
+    def LArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LArm_resetPid")
+
+    def LArm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LArm_getPidReferences")
+
+    def LArm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LArm_getPidErrors")
+
+    def LArm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LArm_getPidOutputs")
 
     def LArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1492,33 +1619,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("RArm_getImpedance")
 
-    def RArm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def RArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("RArm_setPid")
 
-    def RArm_getPid(self, joint: str) -> Pid:
+    def RArm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RArm_getPid")
 
-    def RArm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def RArm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RArm_enablePid")
 
-    def RArm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def RArm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RArm_isPidEnabled")
+
+    def RArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RArm_resetPid")
+
+    def RArm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RArm_getPidReferences")
+
+    def RArm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RArm_getPidErrors")
+
+    def RArm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RArm_getPidOutputs")
 
     def RArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1828,33 +2004,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("LLeg_getImpedance")
 
-    def LLeg_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def LLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("LLeg_setPid")
 
-    def LLeg_getPid(self, joint: str) -> Pid:
+    def LLeg_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LLeg_getPid")
 
-    def LLeg_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def LLeg_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LLeg_enablePid")
 
-    def LLeg_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def LLeg_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LLeg_isPidEnabled")
+
+    def LLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("LLeg_resetPid")
+
+    def LLeg_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LLeg_getPidReferences")
+
+    def LLeg_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LLeg_getPidErrors")
+
+    def LLeg_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("LLeg_getPidOutputs")
 
     def LLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2164,33 +2389,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("RLeg_getImpedance")
 
-    def RLeg_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def RLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("RLeg_setPid")
 
-    def RLeg_getPid(self, joint: str) -> Pid:
+    def RLeg_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RLeg_getPid")
 
-    def RLeg_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def RLeg_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RLeg_enablePid")
 
-    def RLeg_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def RLeg_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RLeg_isPidEnabled")
+
+    def RLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("RLeg_resetPid")
+
+    def RLeg_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RLeg_getPidReferences")
+
+    def RLeg_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RLeg_getPidErrors")
+
+    def RLeg_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("RLeg_getPidOutputs")
 
     def RLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2500,33 +2774,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("finger_getImpedance")
 
-    def finger_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_setPid")
 
-    def finger_getPid(self, joint: str) -> Pid:
+    def finger_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_getPid")
 
-    def finger_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_enablePid")
 
-    def finger_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_isPidEnabled")
+
+    def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger_resetPid")
+
+    def finger_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidReferences")
+
+    def finger_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidErrors")
+
+    def finger_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger_getPidOutputs")
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2836,33 +3159,82 @@ class GenericWorker(Component):
         """
         raise rt.NotImplementedOperation("finger2_getImpedance")
 
-    def finger2_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_setPid")
 
-    def finger2_getPid(self, joint: str) -> Pid:
+    def finger2_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_getPid")
 
-    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger2_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_enablePid")
 
-    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger2_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_isPidEnabled")
+
+    def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
         raise rt.NotImplementedOperation("finger2_resetPid")
+
+    def finger2_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidReferences")
+
+    def finger2_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidErrors")
+
+    def finger2_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        raise rt.NotImplementedOperation("finger2_getPidOutputs")
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.

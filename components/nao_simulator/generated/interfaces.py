@@ -511,15 +511,24 @@ Joints = list[JointInfo]
 _Joints = rt.Sequence(JointInfo)
 
 
-class Pid(rt.Struct):
-    """Position regulator; output in N m.
-
-    offset [Nm]
-    maxOutput [Nm]
-    maxIntegral [Nm]
+class Loop(rt.Enum):
+    """What a regulator regulates: the position (modes Position, PositionDirect, Mixed, while stiff), the velocity
+    (Velocity, VelocityDirect, while stiff), the torque that the joint feels, the current of the motor. The first
+    three give torques in N m, that of the current gives percents of the motor's supply.
     """
 
-    __slots__ = ("kd", "ki", "kp", "maxIntegral", "maxOutput", "offset")
+    PositionLoop = 0
+    VelocityLoop = 1
+    TorqueLoop = 2
+    CurrentLoop = 3
+
+
+class Pid(rt.Struct):
+    """Output per error (rad, rad/s, N m, A), per its integral and derivative; all of it stays within maxOutput.
+    `feedforward` multiplies the reference of torque or current, or the speed of the reference otherwise.
+    """
+
+    __slots__ = ("feedforward", "kd", "ki", "kp", "maxIntegral", "maxOutput", "offset")
     _fields_ = (
         ("kp", rt.DOUBLE),
         ("ki", rt.DOUBLE),
@@ -527,6 +536,7 @@ class Pid(rt.Struct):
         ("offset", rt.DOUBLE),
         ("maxOutput", rt.DOUBLE),
         ("maxIntegral", rt.DOUBLE),
+        ("feedforward", rt.DOUBLE),
     )
 
     def __init__(
@@ -537,6 +547,7 @@ class Pid(rt.Struct):
         offset: float = 0.0,
         maxOutput: float = 0.0,
         maxIntegral: float = 0.0,
+        feedforward: float = 0.0,
     ) -> None:
         self.kp = kp
         self.ki = ki
@@ -544,6 +555,7 @@ class Pid(rt.Struct):
         self.offset = offset
         self.maxOutput = maxOutput
         self.maxIntegral = maxIntegral
+        self.feedforward = feedforward
 
 
 class Impedance(rt.Struct):
@@ -570,7 +582,8 @@ class Impedance(rt.Struct):
 
 class JointFault(rt.Struct):
     """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder, 4 tracking, 5 calibration,
-    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set.
+    6 hardware, 7 silence: nobody pushed it any more, and it holds its place, compliant, until its mode is set;
+    8 the sensor of torque.
     """
 
     __slots__ = ("code", "what")
@@ -2097,7 +2110,7 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "setPid",
             rt.Pattern.QUERY,
-            inputs=(("joint", rt.STRING), ("pid", Pid)),
+            inputs=(("loop", Loop), ("joint", rt.STRING), ("pid", Pid)),
             outputs=(),
             throws=(RoboCompControlBoard_Refused, UnknownJoint),
             idempotent=False,
@@ -2105,7 +2118,7 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "getPid",
             rt.Pattern.QUERY,
-            inputs=(("joint", rt.STRING),),
+            inputs=(("loop", Loop), ("joint", rt.STRING)),
             outputs=(("", Pid),),
             throws=(UnknownJoint,),
             idempotent=True,
@@ -2113,18 +2126,54 @@ CONTROLBOARD = rt.Interface(
         rt.Operation(
             "enablePid",
             rt.Pattern.QUERY,
-            inputs=(("joints", _RoboCompControlBoard_Names), ("on", rt.BOOL)),
+            inputs=(
+                ("loop", Loop),
+                ("joints", _RoboCompControlBoard_Names),
+                ("on", rt.BOOL),
+            ),
             outputs=(),
             throws=(UnknownJoint,),
             idempotent=False,
         ),
         rt.Operation(
+            "isPidEnabled",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _RoboCompControlBoard_Names)),
+            outputs=(("", _Flags),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
             "resetPid",
             rt.Pattern.QUERY,
-            inputs=(("joints", _RoboCompControlBoard_Names),),
+            inputs=(("loop", Loop), ("joints", _RoboCompControlBoard_Names)),
             outputs=(),
             throws=(UnknownJoint,),
             idempotent=False,
+        ),
+        rt.Operation(
+            "getPidReferences",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _RoboCompControlBoard_Names)),
+            outputs=(("", _RoboCompControlBoard_Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
+            "getPidErrors",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _RoboCompControlBoard_Names)),
+            outputs=(("", _RoboCompControlBoard_Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
+        ),
+        rt.Operation(
+            "getPidOutputs",
+            rt.Pattern.QUERY,
+            inputs=(("loop", Loop), ("joints", _RoboCompControlBoard_Names)),
+            outputs=(("", _RoboCompControlBoard_Values),),
+            throws=(UnknownJoint,),
+            idempotent=True,
         ),
         rt.Operation(
             "setPositionLimits",

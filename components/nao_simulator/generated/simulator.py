@@ -28,6 +28,7 @@ from generated.interfaces import (
     InteractionMode,
     JointFault,
     Joints,
+    Loop,
     Magnetic,
     Matrix,
     Model,
@@ -535,35 +536,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def Head_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def Head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["Head"].setPid(joint, pid)
+        self.ports["Head"].setPid(loop, joint, pid)
 
-    def Head_getPid(self, joint: str) -> Pid:
+    def Head_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["Head"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def Head_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def Head_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["Head"].enablePid(joints, on)
+        self.ports["Head"].enablePid(loop, joints, on)
 
-    def Head_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def Head_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["Head"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def Head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["Head"].resetPid(joints)
+        self.ports["Head"].resetPid(loop, joints)
+
+    def Head_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["Head"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def Head_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["Head"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def Head_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["Head"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def Head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -911,35 +969,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def LArm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def LArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["LArm"].setPid(joint, pid)
+        self.ports["LArm"].setPid(loop, joint, pid)
 
-    def LArm_getPid(self, joint: str) -> Pid:
+    def LArm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["LArm"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def LArm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def LArm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["LArm"].enablePid(joints, on)
+        self.ports["LArm"].enablePid(loop, joints, on)
 
-    def LArm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def LArm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LArm"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def LArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["LArm"].resetPid(joints)
+        self.ports["LArm"].resetPid(loop, joints)
+
+    def LArm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LArm"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def LArm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LArm"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def LArm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LArm"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def LArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1287,35 +1402,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def RArm_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def RArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["RArm"].setPid(joint, pid)
+        self.ports["RArm"].setPid(loop, joint, pid)
 
-    def RArm_getPid(self, joint: str) -> Pid:
+    def RArm_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["RArm"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def RArm_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def RArm_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["RArm"].enablePid(joints, on)
+        self.ports["RArm"].enablePid(loop, joints, on)
 
-    def RArm_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def RArm_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RArm"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def RArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["RArm"].resetPid(joints)
+        self.ports["RArm"].resetPid(loop, joints)
+
+    def RArm_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RArm"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def RArm_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RArm"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def RArm_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RArm"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def RArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -1663,35 +1835,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def LLeg_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def LLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["LLeg"].setPid(joint, pid)
+        self.ports["LLeg"].setPid(loop, joint, pid)
 
-    def LLeg_getPid(self, joint: str) -> Pid:
+    def LLeg_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["LLeg"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def LLeg_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def LLeg_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["LLeg"].enablePid(joints, on)
+        self.ports["LLeg"].enablePid(loop, joints, on)
 
-    def LLeg_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def LLeg_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LLeg"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def LLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["LLeg"].resetPid(joints)
+        self.ports["LLeg"].resetPid(loop, joints)
+
+    def LLeg_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LLeg"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def LLeg_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LLeg"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def LLeg_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["LLeg"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def LLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2039,35 +2268,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def RLeg_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def RLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["RLeg"].setPid(joint, pid)
+        self.ports["RLeg"].setPid(loop, joint, pid)
 
-    def RLeg_getPid(self, joint: str) -> Pid:
+    def RLeg_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["RLeg"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def RLeg_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def RLeg_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["RLeg"].enablePid(joints, on)
+        self.ports["RLeg"].enablePid(loop, joints, on)
 
-    def RLeg_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def RLeg_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RLeg"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def RLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["RLeg"].resetPid(joints)
+        self.ports["RLeg"].resetPid(loop, joints)
+
+    def RLeg_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RLeg"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def RLeg_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RLeg"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def RLeg_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["RLeg"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def RLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2415,35 +2701,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def finger_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["finger"].setPid(joint, pid)
+        self.ports["finger"].setPid(loop, joint, pid)
 
-    def finger_getPid(self, joint: str) -> Pid:
+    def finger_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["finger"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def finger_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["finger"].enablePid(joints, on)
+        self.ports["finger"].enablePid(loop, joints, on)
 
-    def finger_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["finger"].resetPid(joints)
+        self.ports["finger"].resetPid(loop, joints)
+
+    def finger_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.
@@ -2791,35 +3134,92 @@ class Simulator(GenericWorker):
         answer: Impedance = ask(joint)
         return answer
 
-    def finger2_setPid(self, joint: str, pid: Pid) -> None:
-        """The position regulator.
+    def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
+        """A regulator of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
-        self.ports["finger2"].setPid(joint, pid)
+        self.ports["finger2"].setPid(loop, joint, pid)
 
-    def finger2_getPid(self, joint: str) -> Pid:
+    def finger2_getPid(self, loop: Loop, joint: str) -> Pid:
         """RoboCompControlBoard::ControlBoard: getPid.
 
         May raise UnknownJoint.
         """
         ask = self.ports["finger2"].getPid
-        answer: Pid = ask(joint)
+        answer: Pid = ask(loop, joint)
         return answer
 
-    def finger2_enablePid(self, joints: RoboCompControlBoard_Names, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque.
+    def finger2_enablePid(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+        on: bool,
+    ) -> None:
+        """Switch regulators on or off; one that is off gives nothing.
 
         May raise UnknownJoint.
         """
-        self.ports["finger2"].enablePid(joints, on)
+        self.ports["finger2"].enablePid(loop, joints, on)
 
-    def finger2_resetPid(self, joints: RoboCompControlBoard_Names) -> None:
+    def finger2_isPidEnabled(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> Flags:
+        """RoboCompControlBoard::ControlBoard: isPidEnabled.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].isPidEnabled
+        answer: Flags = ask(loop, joints)
+        return answer
+
+    def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
         """Forget what the regulators have summed up.
 
         May raise UnknownJoint.
         """
-        self.ports["finger2"].resetPid(joints)
+        self.ports["finger2"].resetPid(loop, joints)
+
+    def finger2_getPidReferences(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators are to bring about, and what is missing from it.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidReferences
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger2_getPidErrors(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """RoboCompControlBoard::ControlBoard: getPidErrors.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidErrors
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
+
+    def finger2_getPidOutputs(
+        self,
+        loop: Loop,
+        joints: RoboCompControlBoard_Names,
+    ) -> RoboCompControlBoard_Values:
+        """What regulators give now; 0 where those of this kind do not work.
+
+        May raise UnknownJoint.
+        """
+        ask = self.ports["finger2"].getPidOutputs
+        answer: RoboCompControlBoard_Values = ask(loop, joints)
+        return answer
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
         """Limits may be narrowed, never be wider than the joint's own.

@@ -18,10 +18,10 @@ from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
 from robocomp_dsl.hardware.control.law import Law
 from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.loops import Loops
 from robocomp_dsl.hardware.control.mode_table import ModeTable
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.pid import PidBank, default_gains
 from robocomp_dsl.hardware.control.references import References
 from robocomp_dsl.hardware.control.state import BoardState
 from robocomp_dsl.hardware.control.watchdog import Watchdog
@@ -34,11 +34,12 @@ class Board:
         n = len(spec.joints)
         self.spec, self.select = spec, Selector(spec.names)
         self.limits, self.motors, self.faults = Limits(spec), Motors(spec), Faults(n)
-        self.pid = PidBank(default_gains(spec))
+        self.loops = Loops(spec)
+        self.pid = self.loops.bank
         bounds = tuple(Bounds(20 * j.torque_limit, 2 * j.torque_limit) for j in spec.joints)
         self.impedance = Impedance(bounds)
         self.references = References(spec, self.limits)
-        self.law = Law(self.pid, self.impedance, self.motors)
+        self.law = Law(self.loops, self.impedance, self.motors)
         self.ease = Ease(self.limits, self.pid)
         self.table, self.watchdog = ModeTable(spec), Watchdog(spec)
         self.leaders: list[Callable[[float], None]] = []
@@ -134,6 +135,13 @@ class Board:
         self.position[joints] = position
         self.references.reset(joints, position)
 
+    def trusted(self, felt: Floats) -> Floats:
+        """What sensors of torque tell (n,); joints where that is no number have a fault."""
+        good = np.isfinite(felt)
+        if not good.all():
+            self._trip(np.flatnonzero(~good), Fault.SENSOR, "the torque sensor reads no number")
+        return np.where(good, felt, 0.0)
+
     def refresh(self) -> None:
         """Work out anew what depends on modes and calibration."""
         self.limits.trust(self.table.calibrated)
@@ -162,6 +170,7 @@ class Board:
         """A new mode starts from what is measured: no jump, no memory."""
         self.references.reset(joints, self.position[joints])
         self.pid.reset(joints)
+        self.law.currents.reset(joints)
         idle = [self.table.modes[i] is Mode.IDLE for i in joints.tolist()]
         self.law.torque[joints] = np.where(idle, 0.0, self.torque[joints])
         self.law.duty[joints] = 0.0

@@ -25,6 +25,7 @@ class Fault(IntEnum):
     CALIBRATION = 5
     EXTERNAL = 6
     SILENCE = 7
+    SENSOR = 8
 
 
 @dataclass(frozen=True, slots=True)

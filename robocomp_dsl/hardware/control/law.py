@@ -10,59 +10,79 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from robocomp_dsl.hardware.control.currents import Currents
+from robocomp_dsl.hardware.control.deviations import Deviations
 from robocomp_dsl.hardware.control.impedance import Impedance
 from robocomp_dsl.hardware.control.joints import Bools, Floats
+from robocomp_dsl.hardware.control.loops import Loop, Loops, loop_of
 from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.pid import PidBank
 
 
 class Law:
     """`torque`, `duty` and `current` (n,) are the references of the modes of the same name.
 
-    Whoever changes one of them calls `apply`. `positioned` (n,) tells which joints hold a position
-    now, `driven` which motors are on (1, else 0).
+    Whoever changes one of them calls `apply`, and `regulate` after a change of gains. `positioned`
+    (n,) tells which joints hold a position now, `driven` which motors are on (1, else 0).
     """
 
-    def __init__(self, pid: PidBank, impedance: Impedance, motors: Motors) -> None:
-        n = len(pid.gains)
-        self._pid, self._impedance, self._motors = pid, impedance, motors
+    def __init__(self, loops: Loops, impedance: Impedance, motors: Motors) -> None:
+        n = len(loops.active)
+        self._loops, self._bank = loops, loops.bank
+        self._impedance, self._motors = impedance, motors
+        self.deviations, self.currents = Deviations(n), Currents(motors)
         self.torque, self.duty, self.current = np.zeros(n), np.zeros(n), np.zeros(n)
         self.positioned: Bools = np.zeros(n, bool)
         self.driven = np.zeros(n)
-        self._modes: tuple[Mode, ...] = (Mode.IDLE,) * n
         self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
-        self._by_torque, self._by_duty, self._by_current = np.zeros(n), np.zeros(n), np.zeros(n)
-        self._electric = False
+        self._by_torque, self._by_duty = np.zeros(n), np.zeros(n)
+        self._ahead: Floats | None = None
         self._back_emf: Floats | None = None
-        self._commanded = self._alone = False
-        self._stiff = self._comply = self.all_driven = False
+        self._commanded = self._alone = self._odd = False
+        self._regulated = self._comply = self.all_driven = False
 
     def choose(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
         """Work out which terms each joint uses."""
-        self._modes = tuple(modes)
+        self._loops.use([loop_of(*one) for one in zip(modes, interactions, strict=True)])
+        self.regulate()
         comply = np.array([one is Interaction.COMPLIANT for one in interactions])
         self.positioned = np.array([mode in POSITIONED for mode in modes])
-        stiff, soft = self.positioned & ~comply, self.positioned & comply
-        self._pid.use(stiff)
-        self._stiff, self._comply = bool(stiff.any()), bool(soft.any())
-        self._held, self._spring = self.positioned.astype(float), soft.astype(float)
-        self._by_torque, self._by_duty = self._mask(Mode.TORQUE), self._mask(Mode.PWM)
-        self._by_current = self._mask(Mode.CURRENT)
-        self.driven = self._held + self._by_torque + self._by_duty + self._by_current
+        self._regulated = any(self._loops.active)
+        self._held = self.positioned.astype(float)
+        self._spring = (self.positioned & comply).astype(float)
+        self._comply = bool(self._spring.any())
+        self._by_torque, self._by_duty, by_current = (
+            np.array([float(one is mode) for one in modes])
+            for mode in (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
+        )
+        self.driven = self._held + self._by_torque + self._by_duty + by_current
         self.all_driven = bool(self.driven.all())
         duty = self._by_duty.any()
-        self._electric = bool(duty or self._by_current.any())
         self._back_emf = self._by_duty[:, None] * self._motors.back_emf if duty else None
         self.apply()
 
+    def regulate(self) -> None:
+        """Follow a change of gains."""
+        loops = self._loops
+        self.deviations.choose(loops)
+        flows = loops.works(Loop.CURRENT)
+        self.currents.choose(loops.gains[Loop.CURRENT], flows, loops.enabled[Loop.CURRENT])
+        self.currents.feed(self.current)
+        moving = loops.works(Loop.POSITION) | loops.works(Loop.VELOCITY)
+        ahead = moving * (self._bank.feedforward > 0.0)
+        self._ahead = ahead if ahead.any() else None
+        self._odd = self.deviations.mixed or self._ahead is not None
+
     def apply(self) -> None:
-        """Work out the torques that torque, duty and current commands make at standstill."""
-        self._direct = self._by_torque * self.torque
-        if self._electric:
-            self._direct += self._made_by_currents()
+        """Take over torque, duty and current commands."""
+        self._bank.feed(self._by_torque * self.torque)
+        if self.currents.active:
+            self.currents.feed(self.current)
+        stalled = self._motors.stall_current(self._by_duty * self.duty)
+        self._direct = self._motors.torque_of_current(stalled)
         self._commanded = bool(np.count_nonzero(self._direct))
-        self._alone = not (self._commanded or self._comply or self._back_emf is not None)
+        open_ = self._commanded or self._back_emf is not None
+        self._alone = not (open_ or self._comply or self.currents.active)
 
     def step(
         self,
@@ -76,17 +96,31 @@ class Law:
 
         `feedforward` (n,) is added where a position is held: weight, mostly.
         """
-        held = self._pid.propose(error, velocity_error, dt) if self._stiff else None
+        held = None
+        if self._odd:
+            held = self._propose(error, velocity_error, velocity, dt)
+        elif self._regulated:
+            held = self._bank.propose(error, velocity_error, dt)
         if held is not None and feedforward is None and self._alone:
             return held
+        if self.currents.active:
+            self.currents.step(velocity, dt)
         return self._sum(held, error, velocity_error, velocity, feedforward)
 
     def bounded(
         self, error: Floats, velocity_error: Floats, velocity: Floats, feedforward: Floats | None
     ) -> Floats:
         """The torques that `step` gave last, with the bounds of all regulators."""
-        held = self._pid.bounded() if self._stiff else None
+        held = self._bank.bounded() if self._regulated else None
         return self._sum(held, error, velocity_error, velocity, feedforward)
+
+    def _propose(self, error: Floats, late: Floats, velocity: Floats, dt: float) -> Floats:
+        """What regulators give that not all regulate positions alone."""
+        derivative = late
+        ahead = None if self._ahead is None else self._ahead * (late + velocity)
+        if self.deviations.mixed:
+            error, derivative = self.deviations.of(error, late, self.torque, dt)
+        return self._bank.propose(error, derivative, dt, ahead)
 
     def _sum(
         self,
@@ -103,15 +137,8 @@ class Law:
             wished = wished + self._spring * self._impedance.torque(error, velocity_error)
         if feedforward is not None:
             wished = wished + self._held * feedforward
+        if self.currents.active:
+            wished = wished + self.currents.torque
         if self._back_emf is not None:
             wished = wished - self._back_emf @ velocity
         return wished
-
-    def _made_by_currents(self) -> Floats:
-        duty, current, motors = self._by_duty, self._by_current, self._motors
-        made = duty * motors.torque_of_current(motors.stall_current(self.duty * duty))
-        made += current * motors.torque_of_current(self.current * current)
-        return made
-
-    def _mask(self, mode: Mode) -> Floats:
-        return np.array([float(one is mode) for one in self._modes])

@@ -72,6 +72,11 @@ class Motors:
         duty: Floats = self._duty_of_torque @ torque + self._duty_of_speed @ joint_velocity
         return np.minimum(np.maximum(duty, -100.0), 100.0)
 
+    def duty_of_speed(self, joint_velocity: Floats) -> Floats:
+        """Duty cycles [%] that the back EMF of motors makes up for, beyond +-100 for fast ones."""
+        duty: Floats = self._duty_of_speed @ joint_velocity
+        return duty
+
     def encoder(self, joint_angles: Floats) -> Floats:
         """Encoder counts of the motors, whole numbers."""
         return np.asarray(np.floor(self._to_counts @ joint_angles) + self.zero)

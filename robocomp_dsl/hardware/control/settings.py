@@ -11,7 +11,8 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Joints, Values
 from robocomp_dsl.hardware.control.faults import FaultReport
-from robocomp_dsl.hardware.control.joints import Floats, numbers
+from robocomp_dsl.hardware.control.joints import Bools, Floats, numbers
+from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.pid import Gains
 
 
@@ -53,21 +54,60 @@ class Settings:
         chosen = self._board.select.indices(joints)
         self._board.impedance.offset[chosen] = numbers("torque", torque, len(chosen))
 
-    def set_pid(self, joint: str | int, gains: Gains) -> None:
-        """The position regulator of one joint."""
-        self._board.pid.set(self._board.select.index(joint), gains)
+    def set_pid(self, joint: str | int, gains: Gains, loop: Loop = Loop.POSITION) -> None:
+        """A regulator of one joint."""
+        self._board.loops.set(loop, self._board.select.index(joint), gains)
+        self._board.law.regulate()
 
-    def pid(self, joint: str | int) -> Gains:
-        """The position regulator of one joint."""
-        return self._board.pid.gains[self._board.select.index(joint)]
+    def pid(self, joint: str | int, loop: Loop = Loop.POSITION) -> Gains:
+        """A regulator of one joint."""
+        return self._board.loops.gains[loop][self._board.select.index(joint)]
 
-    def enable_pid(self, joints: Joints, on: bool) -> None:
-        """Switch position regulators on or off; one that is off gives no torque."""
-        self._board.pid.enable(self._board.select.indices(joints), on)
+    def enable_pid(self, joints: Joints, on: bool, loop: Loop = Loop.POSITION) -> None:
+        """Switch regulators on or off; one that is off gives nothing."""
+        self._board.loops.enable(loop, self._board.select.indices(joints), on=on)
+        self._board.law.regulate()
 
-    def reset_pid(self, joints: Joints = None) -> None:
+    def pid_enabled(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Bools:
+        """Which regulators are on."""
+        return self._board.loops.enabled[loop][self._board.select.indices(joints)]
+
+    def reset_pid(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> None:
         """Forget what the regulators have summed up."""
-        self._board.pid.reset(self._board.select.indices(joints))
+        chosen = self._board.select.indices(joints)
+        if loop is Loop.CURRENT:
+            self._board.law.currents.reset(chosen)
+        else:
+            self._board.loops.reset(loop, chosen)
+
+    def pid_reference(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
+        """What regulators of this kind are to bring about, whether they work or not."""
+        board, chosen = self._board, self._board.select.indices(joints)
+        found = {
+            Loop.POSITION: board.references.position,
+            Loop.VELOCITY: board.references.velocity,
+            Loop.TORQUE: board.law.torque,
+            Loop.CURRENT: board.law.current,
+        }
+        return found[loop][chosen]
+
+    def pid_error(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
+        """What is missing from the references."""
+        board, chosen = self._board, self._board.select.indices(joints)
+        looks = board.law.deviations
+        found = {
+            Loop.POSITION: board.position,
+            Loop.VELOCITY: board.velocity,
+            Loop.TORQUE: looks.felt if looks.feels else board.torque,
+            Loop.CURRENT: board.current,
+        }
+        return self.pid_reference(joints, loop) - found[loop][chosen]
+
+    def pid_output(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
+        """What regulators give, 0 where those of this kind do not work."""
+        board, chosen = self._board, self._board.select.indices(joints)
+        output = board.law.currents.output if loop is Loop.CURRENT else board.pid.output
+        return np.where(board.loops.works(loop), output, 0.0)[chosen]
 
     def impedance(self, joint: str | int) -> tuple[float, float, float]:
         """Stiffness [N m/rad], damping [N m s/rad] and offset [N m] of one joint."""

@@ -13,6 +13,7 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ControlRefused
 from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
+from robocomp_dsl.hardware.control.settings import Settings
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,14 +82,14 @@ class RemoteVariables:
 
 def _gains(board: Board, joint: int) -> Variable:
     """The position regulator of one joint as kp, ki, kd, offset."""
+    settings = Settings(board)
 
     def read() -> Floats:
-        g = board.pid.gains[joint]
+        g = settings.pid(joint)
         return np.array([g.kp, g.ki, g.kd, g.offset])
 
     def write(values: Floats) -> None:
         kp, ki, kd, offset = (float(value) for value in values)
-        made = replace(board.pid.gains[joint], kp=kp, ki=ki, kd=kd, offset=offset)
-        board.pid.set(joint, made)
+        settings.set_pid(joint, replace(settings.pid(joint), kp=kp, ki=ki, kd=kd, offset=offset))
 
     return Variable(read, write, "position regulator: kp, ki, kd, offset")

@@ -30,6 +30,9 @@ WARMING = 4.0
 COOLING = 120.0
 """Time constant of its temperature [s]."""
 
+FEELING = 0.005
+"""Time constant of the sensors of torque [s]."""
+
 HEAT_PERIOD = 0.1
 """How often temperatures are worked out [s]."""
 
@@ -79,6 +82,7 @@ class SimulatedBoard:
         ]
         self._where, self._speed, self._motor = (np.array(one) for one in zip(*found, strict=True))
         self._damping = model.dof_damping[self._speed].copy()
+        self._armature = model.dof_armature[self._speed].copy()
         self._borne = bool(model.ngravcomp)
         self._look()
 
@@ -97,6 +101,8 @@ class SimulatedBoard:
         """Measure, let the board work, and set the motors."""
         q, dq = self._measure()
         weight = self._weight() if self._hold_weight else None
+        if self.board.law.deviations.feels:
+            self._feel(dt)
         torque = self.board.step(q, dq, dt, weight)
         self._ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
         self._unheated += dt
@@ -109,6 +115,14 @@ class SimulatedBoard:
         if not self._plain:
             q, dq = self._to_joint @ q, self._to_joint @ dq
         return (q if self._zero is None else q + self._zero), dq
+
+    def _feel(self, dt: float) -> None:
+        """What sensors behind the motors tell: their torques less what their own turning takes."""
+        motors, turning = self._data.qfrc_actuator[self._speed], self._data.qacc[self._speed]
+        torque = motors - self._armature * turning - self._damping * self._speeds[self._speed]
+        felt = self.board.law.deviations.felt
+        told = torque if self._plain else self._to_board @ torque
+        self.board.law.deviations.felt = felt + (told - felt) * (dt / (dt + FEELING))
 
     def _weight(self) -> Floats:
         """Torques that hold the arm against gravity, its own swing and the drag of its joints."""

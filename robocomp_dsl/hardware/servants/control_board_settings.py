@@ -15,13 +15,15 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import UnknownJoint
-from robocomp_dsl.hardware.control.joints import Floats, Ints
+from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints
+from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.pid import Gains
 from robocomp_dsl.hardware.control.settings import Settings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from robocomp_dsl.hardware.servants.servant import Servant
 
 Names = Sequence[str]
+_LOOPS = tuple(Loop)  # in the order of the interface
 
 
 class BoardSettings(Servant):
@@ -114,14 +116,22 @@ class BoardSettings(Servant):
             offset=float(board.impedance.offset[at]),
         )
 
-    def setPid(self, joint: str, pid: Any) -> None:
-        """The position regulator."""
-        gains = Gains(pid.kp, pid.ki, pid.kd, pid.offset, pid.maxOutput, pid.maxIntegral)
-        self._settings.set_pid(self._one(joint), gains)
+    def setPid(self, loop: int, joint: str, pid: Any) -> None:
+        """A regulator."""
+        gains = Gains(
+            pid.kp,
+            pid.ki,
+            pid.kd,
+            pid.offset,
+            pid.maxOutput,
+            pid.maxIntegral,
+            pid.feedforward,
+        )
+        self._settings.set_pid(self._one(joint), gains, _LOOPS[loop])
 
-    def getPid(self, joint: str) -> Any:
-        """The position regulator."""
-        it = self._settings.pid(self._one(joint))
+    def getPid(self, loop: int, joint: str) -> Any:
+        """A regulator."""
+        it = self._settings.pid(self._one(joint), _LOOPS[loop])
         return self.types.Pid(
             kp=it.kp,
             ki=it.ki,
@@ -129,15 +139,32 @@ class BoardSettings(Servant):
             offset=it.offset,
             maxOutput=it.max_output,
             maxIntegral=it.max_integral,
+            feedforward=it.feedforward,
         )
 
-    def enablePid(self, joints: Names, on: bool) -> None:
-        """Switch position regulators on or off."""
-        self._settings.enable_pid(self._some(joints), on)
+    def enablePid(self, loop: int, joints: Names, on: bool) -> None:
+        """Switch regulators on or off."""
+        self._settings.enable_pid(self._some(joints), on, _LOOPS[loop])
 
-    def resetPid(self, joints: Names) -> None:
+    def isPidEnabled(self, loop: int, joints: Names) -> Bools:
+        """Which regulators are on."""
+        return self._settings.pid_enabled(self._some(joints), _LOOPS[loop])
+
+    def resetPid(self, loop: int, joints: Names) -> None:
         """Forget what the regulators have summed up."""
-        self._settings.reset_pid(self._some(joints))
+        self._settings.reset_pid(self._some(joints), _LOOPS[loop])
+
+    def getPidReferences(self, loop: int, joints: Names) -> Floats:
+        """What regulators are to bring about."""
+        return self._settings.pid_reference(self._some(joints), _LOOPS[loop])
+
+    def getPidErrors(self, loop: int, joints: Names) -> Floats:
+        """What is missing from it."""
+        return self._settings.pid_error(self._some(joints), _LOOPS[loop])
+
+    def getPidOutputs(self, loop: int, joints: Names) -> Floats:
+        """What regulators give now."""
+        return self._settings.pid_output(self._some(joints), _LOOPS[loop])
 
     def setSpeedLimits(self, joints: Names, speed: Floats) -> None:
         """Largest speeds."""
