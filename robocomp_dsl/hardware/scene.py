@@ -113,7 +113,8 @@ class Model:
     `start` are positions of joints (one number, four of a ball, seven of a free body) and `held`
     the commands of motors that no device drives, by name, where these are not 0. What moves without
     mass has at least `boundmass` kg. `couplings` of boards whose n joints share motors have n · n
-    numbers: motor angles are `gear` times this matrix, row by row, times joint angles.
+    numbers: motor angles are `gear` times this matrix, row by row, times joint angles. `pulled` are
+    the joints that motors of tendons move, by the names of these.
     """
 
     file: Path
@@ -121,6 +122,7 @@ class Model:
     start: Mapping[str, Sequence[float]] = field(default_factory=dict)
     held: Mapping[str, float] = field(default_factory=dict)
     couplings: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    pulled: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -143,6 +143,7 @@ GOOD: dict[str, Callable[[Clock], Device]] = {
 }
 GOOD |= {f"model_{kind}": GOOD[kind] for kind in ("camera", "rgbd", "imu")}
 GOOD["model_touch"] = GOOD["touchsensor"]
+GOOD["model_range"] = GOOD["ultrasound"]
 
 
 @pytest.mark.parametrize("kind", RULES)

@@ -39,6 +39,7 @@ PROTOCOLS: Mapping[str, tuple[str, str]] = {
     "model_imu": ("imu", "ImuDevice"),
     "gps": ("gps", "GpsDevice"),
     "ultrasound": ("ultrasound", "UltrasoundDevice"),
+    "model_range": ("ultrasound", "UltrasoundDevice"),
     "battery": ("battery", "BatteryDevice"),
     "touchsensor": ("touch_sensor", "TouchSensorDevice"),
     "model_touch": ("touch_sensor", "TouchSensorDevice"),

@@ -55,6 +55,7 @@ OFFERS = (
     Offer("model_rgbd", "CameraRGBDSimple", shared=True),
     Offer("model_imu", "IMU"),
     Offer("model_touch", "TouchSensor", shared=True),
+    Offer("model_range", "Ultrasound", shared=True),
     Offer("display", "Display"),
     Offer("skin", "Skin", shared=True),
     Offer("joint", "JointMotorSimple", shared=True, asked=True),

@@ -26,7 +26,14 @@ import numpy as np
 
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
-from robocomp_dsl.hardware.mujoco.model_motors import armature_of, force_of, motors_of, others
+from robocomp_dsl.hardware.mujoco.model_motors import (
+    Acting,
+    armature_of,
+    followers,
+    force_of,
+    motors_of,
+    others,
+)
 from robocomp_dsl.hardware.mujoco.model_start import Started
 from robocomp_dsl.hardware.mujoco.scene_joints import SPEED
 from robocomp_dsl.hardware.scene import JOINTS
@@ -42,7 +49,7 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
     """A device for every joint, those without a motor under kinds that nothing is served as."""
     frames = {one.name: one.frame for one in seen.joints}
     motors = motors_of(model)
-    followers = _followers(model)
+    tied = followers(model)
     boards = _boards(model, started.findings)
     made, light = [], list[tuple[str, float]]()
     for joint in (*boards, *(one for one in range(model.njnt) if one not in boards)):
@@ -50,9 +57,9 @@ def joints_of(model: Any, seen: Mirror, started: Started) -> list[Data]:
         kind = _KINDS.get(mujoco.mjtJoint(model.jnt_type[joint]))
         if kind is None:
             continue
-        without = joint in followers or (motors and joint not in motors and joint not in boards)
+        without = joint in tied or (motors and joint not in motors and joint not in boards)
         if without:
-            said = "followingjoint" if joint in followers else "passivejoint"
+            said = "followingjoint" if joint in tied else "passivejoint"
             made.append({"id": name, "kind": said, "frame": frames[name], "settings": {}})
             continue
         settings = _settings(model, joint, kind, motors.get(joint, []), started, light)
@@ -73,7 +80,7 @@ def _settings(
     model: Any,
     joint: int,
     kind: str,
-    motors: list[int],
+    motors: list[Acting],
     started: Started,
     light: list[tuple[str, float]],
 ) -> Data:
@@ -92,17 +99,6 @@ def _settings(
     if model.jnt_limited[joint]:
         made["low"], made["high"] = model.jnt_range[joint].tolist()
     return made
-
-
-def _followers(model: Any) -> set[int]:
-    """Joints that are tied to another one."""
-    return {
-        int(model.eq_obj1id[i])
-        for i in range(model.neq)
-        if int(model.eq_type[i]) == int(mujoco.mjtEq.mjEQ_JOINT)
-        and model.eq_active0[i]
-        and model.eq_obj2id[i] >= 0
-    }
 
 
 def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:

@@ -1,12 +1,14 @@
-"""How strong the motors of a model file are, and how slow they must be.
+"""Which motors of a model file act on a joint, how strong they are, and how slow they must be.
 
-In: the compiled model. Out: the largest torque [N·m] or force [N] of a joint, and the inertia that
-its motor has.
+In: the compiled model. Out: the motors by joint, the largest torque [N·m] or force [N] of a joint,
+and the inertia that its motor has. A tendon that is nothing but joints of which all but one follow
+that one, as both fingers of a gripper do, moves one joint: its motor is one of that joint.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import mujoco
@@ -15,6 +17,7 @@ import numpy as np
 from robocomp_dsl.hardware.mujoco.scene_joints import FORCE
 
 _ON_JOINTS = {int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPARENT)}
+_ON_TENDON = int(mujoco.mjtTrn.mjTRN_TENDON)
 _PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
 _STRONG = 2.0
 """A joint of unknown force holds so many times the weight that it may carry."""
@@ -25,25 +28,72 @@ _SLOWNESS = 1.0
 whose damping is half its torque per rad/s stays calm then."""
 
 
-def motors_of(model: Any) -> dict[int, list[int]]:
-    """The actuators that act on a joint, by joint."""
-    found: dict[int, list[int]] = {}
+@dataclass(frozen=True, slots=True)
+class Acting:
+    """A motor, and what its force is worth at the joint."""
+
+    motor: int
+    worth: float = 1.0
+
+
+def motors_of(model: Any) -> dict[int, list[Acting]]:
+    """The actuators that act on a joint, by joint; those of tendons where it has no other."""
+    found: dict[int, list[Acting]] = {}
     for motor in range(model.nu):
         if int(model.actuator_trntype[motor]) in _ON_JOINTS:
-            found.setdefault(int(model.actuator_trnid[motor, 0]), []).append(motor)
-    return found
+            found.setdefault(int(model.actuator_trnid[motor, 0]), []).append(Acting(motor))
+    pulled: dict[int, list[Acting]] = {}
+    for motor in range(model.nu):
+        if int(model.actuator_trntype[motor]) == _ON_TENDON:
+            joint, worth = _of_tendon(model, int(model.actuator_trnid[motor, 0]))
+            if worth and joint not in found:
+                pulled.setdefault(joint, []).append(Acting(motor, worth))
+    return found | pulled
+
+
+def through_tendons(model: Any) -> dict[str, str]:
+    """The joints that motors of tendons move, by the names of the motors."""
+    return {
+        model.actuator(one.motor).name: model.joint(joint).name
+        for joint, motors in motors_of(model).items()
+        for one in motors
+        if int(model.actuator_trntype[one.motor]) == _ON_TENDON
+    }
 
 
 def others(model: Any) -> list[str]:
-    """The actuators that act on something else."""
-    return [
-        model.actuator(motor).name
-        for motor in range(model.nu)
-        if int(model.actuator_trntype[motor]) not in _ON_JOINTS
-    ]
+    """The actuators that act on something else than a joint."""
+    known = {one.motor for motors in motors_of(model).values() for one in motors}
+    return [model.actuator(motor).name for motor in range(model.nu) if motor not in known]
 
 
-def force_of(model: Any, joint: int, kind: str, motors: list[int]) -> float:
+def followers(model: Any) -> dict[int, tuple[int, float]]:
+    """Joints that are tied to another one: to which, and how fast they go with it."""
+    return {
+        int(model.eq_obj1id[i]): (int(model.eq_obj2id[i]), float(model.eq_data[i, 1]))
+        for i in range(model.neq)
+        if int(model.eq_type[i]) == int(mujoco.mjtEq.mjEQ_JOINT)
+        and model.eq_active0[i]
+        and model.eq_obj2id[i] >= 0
+    }
+
+
+def _of_tendon(model: Any, tendon: int) -> tuple[int, float]:
+    """The joint that a tendon moves, and its length per motion of it; 0: not one alone."""
+    first = int(model.tendon_adr[tendon])
+    parts = range(first, first + int(model.tendon_num[tendon]))
+    if any(int(model.wrap_type[i]) != int(mujoco.mjtWrap.mjWRAP_JOINT) for i in parts):
+        return -1, 0.0
+    tied, lengths = followers(model), dict[int, float]()
+    for i in parts:
+        joint, share = int(model.wrap_objid[i]), float(model.wrap_prm[i])
+        leads, faster = tied.get(joint, (joint, 1.0))
+        lengths[leads] = lengths.get(leads, 0.0) + share * faster
+    joint, length = lengths.popitem()
+    return (joint, length) if not lengths and joint not in tied else (-1, 0.0)
+
+
+def force_of(model: Any, joint: int, kind: str, motors: list[Acting]) -> float:
     """What the file gives it, or else what is usual and holds what it carries."""
     known = [most for one in motors if (most := _most(model, one)) < math.inf]
     force = max(known, default=math.inf)
@@ -54,9 +104,9 @@ def force_of(model: Any, joint: int, kind: str, motors: list[int]) -> float:
     return max(FORCE[kind], _STRONG * _weight(model, joint, kind))
 
 
-def _most(model: Any, motor: int) -> float:
+def _most(model: Any, acting: Acting) -> float:
     """The largest force of an actuator at its joint."""
-    found = math.inf
+    found, motor = math.inf, acting.motor
     kind = (
         mujoco.mjtGain(model.actuator_gaintype[motor]),
         mujoco.mjtBias(model.actuator_biastype[motor]),
@@ -66,7 +116,7 @@ def _most(model: Any, motor: int) -> float:
         found = gain * float(np.abs(model.actuator_ctrlrange[motor]).max())
     if model.actuator_forcelimited[motor]:
         found = min(found, float(np.abs(model.actuator_forcerange[motor]).max()))
-    return found * abs(float(model.actuator_gear[motor, 0]))
+    return found * abs(float(model.actuator_gear[motor, 0]) * acting.worth)
 
 
 def _weight(model: Any, joint: int, kind: str) -> float:

@@ -2,7 +2,7 @@
 
 In: the path of a file in MJCF or URDF. Out: the data for `hardware.scene.Scene`, as JSON holds
 them, and findings. The frames are those of `mirror`: bodies, joints and marks; the devices are
-joints with motors, cameras, inertial units and touch sensors.
+joints with motors, cameras, inertial units, touch sensors and range finders.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
 from robocomp_dsl.hardware.mujoco.model_joints import couplings_of, joints_of
-from robocomp_dsl.hardware.mujoco.model_motors import others
+from robocomp_dsl.hardware.mujoco.model_motors import others, through_tendons
 from robocomp_dsl.hardware.mujoco.model_sensors import sensors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started, begin
 from robocomp_dsl.hardware.scene import ROOT
@@ -65,7 +65,8 @@ def _model(model: Any, file: str, started: Started) -> Data:
         if list(places) != list(model.joint(joint).qpos0)
     }
     held = {name: started.held[name] for name in others(model) if name in started.held}
-    return data | {name: given for name, given in (("start", start), ("held", held)) if given}
+    more = (("start", start), ("held", held), ("pulled", through_tendons(model)))
+    return data | {name: given for name, given in more if given}
 
 
 def _names(seen: Mirror) -> list[str]:

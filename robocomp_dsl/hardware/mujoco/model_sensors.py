@@ -1,7 +1,8 @@
-"""Cameras, inertial units and touch sensors of a model file, as devices of a scene.
+"""Cameras, inertial units, touch sensors and range finders of a model file, as devices of a scene.
 
 In: the compiled model. Out: a device for each. A gyroscope and an accelerometer at one site are an
-inertial unit, called as the site; a camera whose `output` has a depth is one with depth.
+inertial unit, called as the site; a camera whose `output` has a depth is one with depth; a range
+finder that tells more than one distance is of a kind that nothing is served as.
 """
 
 from __future__ import annotations
@@ -12,12 +13,16 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.hardware.camera import CameraSettings
+from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
 
 Data = dict[str, Any]
 
 _SENSOR = mujoco.mjtSensor
 _FORCE, _TURN = int(_SENSOR.mjSENS_ACCELEROMETER), int(_SENSOR.mjSENS_GYRO)
+_FARTHEST = 1e6
+"""What a range finder without a cutoff tells where nothing is [mm]."""
+
 _DEPTH = mujoco.mjtCamOutBit.mjCAMOUT_DEPTH | mujoco.mjtCamOutBit.mjCAMOUT_DIST
 
 
@@ -27,7 +32,9 @@ def sensors_of(model: Any, seen: Mirror, taken: set[str]) -> list[Data]:
     units = [_unit(model, seen, site, kinds, taken) for site, kinds in _units(model).items()]
     felt = np.flatnonzero(model.sensor_type == int(_SENSOR.mjSENS_TOUCH))
     touches = [_touch(model, seen, int(i), taken) for i in felt]
-    return [*cameras, *units, *touches]
+    far = np.flatnonzero(model.sensor_type == int(_SENSOR.mjSENS_RANGEFINDER))
+    ranges = [_range(model, seen, int(i), taken) for i in far]
+    return [*cameras, *units, *touches, *ranges]
 
 
 def _camera(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
@@ -80,6 +87,24 @@ def _touch(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
         "kind": "model_touch",
         "frame": seen.bodies[model.site_bodyid[site]],
         "settings": {"sensor": name},
+    }
+
+
+def _range(model: Any, seen: Mirror, i: int, taken: set[str]) -> Data:
+    name, at = model.sensor(i).name, int(model.sensor_objid[i])
+    on_site = int(model.sensor_objtype[i]) == int(mujoco.mjtObj.mjOBJ_SITE)
+    plain = on_site and int(model.sensor_dim[i]) == 1
+    cutoff = float(model.sensor_cutoff[i]) / MM
+    body = int(model.site_bodyid[at] if on_site else model.cam_bodyid[at])
+    return {
+        "id": _claim(name, seen.sites[at] if on_site else "", taken),
+        "kind": "model_range" if plain else "manyranges",
+        "frame": seen.bodies[body],
+        "settings": {
+            "sensor": name,
+            "max": min(cutoff, _FARTHEST) if cutoff > 0 else _FARTHEST,
+            "noise": float(model.sensor_noise[i]) / MM,
+        },
     }
 
 

@@ -24,6 +24,7 @@ from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
 from robocomp_dsl.hardware.mujoco.mobile_base import MobileBase
 from robocomp_dsl.hardware.mujoco.model_touch import ModelTouch
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
+from robocomp_dsl.hardware.mujoco.range_finder import RangeFinder
 from robocomp_dsl.hardware.mujoco.scene_joints import JointBoard, driven
 from robocomp_dsl.hardware.mujoco.scene_spec import body_name
 from robocomp_dsl.hardware.mujoco.screen import Screen
@@ -156,6 +157,12 @@ def _model_touch(site: Site, device: Device) -> ModelTouch:  # noqa: ARG001
     return ModelTouch(str(device.settings["sensor"]), name=device.id)
 
 
+def _model_range(site: Site, device: Device) -> RangeFinder:
+    given = device.settings
+    farthest, noise = float(given["max"]), float(given["noise"])
+    return RangeFinder(str(given["sensor"]), farthest, noise, site.noise, name=device.id)
+
+
 def _display(site: Site, device: Device) -> Screen:  # noqa: ARG001
     return Screen(name=device.id)
 
@@ -176,6 +183,7 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "model_rgbd": _model_camera,
     "model_imu": _model_imu,
     "model_touch": _model_touch,
+    "model_range": _model_range,
 }
 """Kinds of devices that are simulated one by one."""
 

@@ -74,6 +74,7 @@ class JointBoard(SimulatedBoard):
         robot_board = RobotBoard(spec, names, np.eye(len(joints)))
         super().__init__(robot_board, hold_weight=model is not None)
         self._driven = tuple(joints)
+        self._pulled = dict(model.pulled) if model else {}
         self.groups = {one.name: one.group for one in joints}
         self.homes = np.array([one.home for one in joints])
         homes = np.clip(self.homes, self.board.limits.low, self.board.limits.high)
@@ -91,6 +92,8 @@ class JointBoard(SimulatedBoard):
         """A motor for each, in the place of those that a model file gives it."""
         given: dict[str, list[Any]] = {}
         for motor in spec.actuators:
+            if motor.name in self._pulled:
+                motor.trntype, motor.target = _ON_JOINTS[0], self._pulled[motor.name]
             if motor.trntype in _ON_JOINTS:
                 given.setdefault(motor.target, []).append(motor)
         taken = {motor.name for motor in spec.actuators}

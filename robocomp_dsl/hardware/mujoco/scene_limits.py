@@ -53,6 +53,7 @@ DEVICES: Mapping[str, Mapping[str, Limits]] = {
     "omnirobot": {"noise": _NOISE},
     "imu": {"noise": _NOISE, "gyronoise": _NOISE},
     "model_imu": {"noise": _NOISE, "gyronoise": _NOISE},
+    "model_range": {"noise": _NOISE},
     "touchsensor": dict.fromkeys(("nx", "ny", "nz"), _FAR),
     "gps": {
         "latitude": Limits(-84, 84),

@@ -26,6 +26,7 @@ RULES: dict[str, tuple[Rule, ...]] = {
     "model_rgbd": pictures.RGBD,
     "model_imu": sensors.IMU,
     "model_touch": sensors.TOUCH,
+    "model_range": ranges.ULTRASOUND,
     "joint": joints.JOINTS,
     "prismaticjoint": joints.JOINTS,
 }
