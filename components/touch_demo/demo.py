@@ -11,6 +11,7 @@ import argparse
 import os
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 from body import Body
@@ -75,7 +76,7 @@ def touched(subject: Subject, touches: int) -> Recording:
     print(f"{subject.name}: starting simulator, arm and reflex ...", flush=True)
     with (
         deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
-        Watching(_name(subject), PART, alive, None) as stage,
+        closing(Watching(_name(subject), PART, alive, None)) as stage,
     ):
         rest, places = stage.joints(), stage.places()
         body = Body(subject.world, stage.skin, subject.part)
@@ -104,12 +105,13 @@ def watch_live(subject: Subject, port: int) -> None:
     """One robot in the browser, touched again and again until Ctrl-C."""
     with (
         deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
-        Watching(_name(subject), PART, alive, LIVE_FRAMES) as stage,
+        closing(Watching(_name(subject), PART, alive, LIVE_FRAMES)) as stage,
     ):
         rest, places = stage.joints(), stage.places()
         body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
-        with Live(subject.name, stage.simulation(), stage.skin, stage.heard, port) as live:
+        page = Live(subject.name, stage.simulation(), stage.skin, stage.heard, port)
+        with closing(page) as live:
             said = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
             print(said, flush=True)
             while True:

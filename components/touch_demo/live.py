@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from colours import on_robot
@@ -33,7 +32,7 @@ log = logging.getLogger("touch_demo")
 
 
 class Live:
-    """The page; a context manager. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
+    """The page, until `close`. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
 
     def __init__(self, name: str, hand: Any, skin: Skin, heard: Heard, port: int) -> None:
         try:
@@ -53,6 +52,7 @@ class Live:
         self.show()
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._run, name="page", daemon=True)
+        self._thread.start()
 
     def _look(self) -> None:
         """From ahead and from the touched side, so near that taxels are seen."""
@@ -87,23 +87,10 @@ class Live:
         points = self._skin.placed(limb, self._skin.points[mine])
         self._page.page.show_points(f"skin of {limb}", body, points, colours, _DOT)
 
-    def __enter__(self) -> Self:
-        self._thread.start()
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def close(self) -> None:
         """The page is gone."""
         self._over.set()
-        if self._thread.is_alive():
-            self._thread.join()
+        self._thread.join()
         self._page.close()
 
 

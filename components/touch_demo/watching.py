@@ -9,20 +9,21 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from types import TracebackType
-from typing import Any, Self
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from failure import DemoFailed
 from heard import Heard, skin_of
-from links import Links, interfaces
 from recording import Floats, Place
 
 from robocomp_dsl.hardware.simulation_interface import SIMULATION, SimulationProxy
 from robocomp_dsl.runtime.component_interface import LifeState
 from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
 from robocomp_dsl.runtime.middleware.zenoh.watch import Watch
+from robocomp_dsl.runtime.onlooker import Onlooker, interfaces
 
+COMPONENTS = Path(__file__).parents[1]
 ROBOT, ARM, REFLEX = "robot", "arm", "reflex"
 FINGER = "finger"
 FINGER_JOINTS = ["finger_x", "finger_y", "finger_z"]
@@ -38,7 +39,7 @@ _CALM_S, _STILL = 0.15, 0.004
 
 
 class Watching:
-    """The robot, from the start of its components to `close`; a context manager.
+    """The robot, from the start of its components to `close`.
 
     `alive` raises when the deployment has ended. With `most`, only so much is kept of all that is
     heard, and simulated time may stand still and begin anew. Raises `DemoFailed` when the
@@ -47,7 +48,7 @@ class Watching:
 
     def __init__(self, domain: str, part: str, alive: Callable[[], None], most: int | None) -> None:
         self._alive, self._lost, self._patience = alive, "", PATIENCE_S
-        self._links, self._watch = Links(domain), Watch(domain)
+        self._links, self._watch = Onlooker(domain), Watch(domain)
         try:
             self._find(part, most)
         except BaseException:
@@ -55,7 +56,7 @@ class Watching:
             raise
 
     def _find(self, part: str, most: int | None) -> None:
-        touch, board = interfaces(REFLEX), interfaces("generic_arm")
+        touch, board = interfaces(COMPONENTS / "reflex"), interfaces(COMPONENTS / "generic_arm")
         self._waiting = threading.Condition()
         self._until(self._all_run, "that all components run")
         self._watch.start(self._seen)
@@ -206,17 +207,6 @@ class Watching:
     def _seen(self, name: str, _pid: int, state: str) -> None:
         if not state and name in {ROBOT, ARM, REFLEX}:
             self._lost = self._lost or name
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Leave the domain."""

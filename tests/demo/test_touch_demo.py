@@ -16,6 +16,7 @@ from parts import COMPONENTS
 from touched import demo
 
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.onlooker import Onlooker
 
 DEADLINE = 150.0
 COMPONENT_NAMES = ("robot", "arm", "reflex")
@@ -106,7 +107,7 @@ def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
 
 def running(domain: str) -> dict[str, int]:
     """The process ids of the components, once all of them run."""
-    links = demo().links.Links(domain)
+    links = Onlooker(domain)
     deadline = time.monotonic() + DEADLINE
     try:
         while time.monotonic() < deadline:

@@ -15,7 +15,7 @@ from robocomp_dsl.hardware.robots.catalog import ROBOTS, description
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 
 NAMES = ("recording", "way", "outcome", "body", "heard", "skin_map", "colours", "photograph",
-         "sheet", "curves", "poster", "pressing", "deployed", "failure", "links", "watching",
+         "sheet", "curves", "poster", "pressing", "deployed", "failure", "watching",
          "live", "subject", "report", "demo")  # fmt: skip
 ARM = "left_arm"
 STEP = 0.02

@@ -1,7 +1,7 @@
 """A program's place in a running deployment: what its components serve and publish.
 
-In: the name of a domain, interfaces as the components' own generated modules have them. Out:
-their operations as functions, and calls of handlers.
+In: the name of a domain, interfaces as components' own generated modules have them. Out: their
+operations as functions, and calls of handlers. The program is no component: nobody sees it.
 """
 
 from __future__ import annotations
@@ -20,18 +20,16 @@ from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Link
 from robocomp_dsl.runtime.statistics import Statistics
 
-COMPONENTS = Path(__file__).parents[1]
 _ME = "onlooker"
 
 
-class Links:
+class Onlooker:
     """Connections into one domain; `close` them at the end."""
 
-    def __init__(self, domain: str) -> None:
+    def __init__(self, domain: str, middleware: str = "zenoh") -> None:
         self._execution = Execution()
-        self._middleware = open_middleware(
-            "zenoh", Host(_ME, domain, self._execution, Statistics())
-        )
+        host = Host(_ME, domain, self._execution, Statistics())
+        self._middleware = open_middleware(middleware, host)
 
     def component(self, name: str) -> ComponentProxy:
         """What the component called `name` tells of itself."""
@@ -62,13 +60,17 @@ class Links:
         self._middleware.close()
 
 
-def interfaces(component: str) -> ModuleType:
-    """The generated interfaces of a shipped component, under a name of their own."""
-    path, name = COMPONENTS / component / "generated" / "interfaces.py", f"{component}_interfaces"
+def interfaces(folder: Path) -> ModuleType:
+    """The generated interfaces of the component in `folder`, under a name of their own.
+
+    Raises `FileNotFoundError`.
+    """
+    name = f"{folder.name}_interfaces"
     if name not in sys.modules:
-        spec = spec_from_file_location(name, path)
-        if spec is None or spec.loader is None:
-            raise ImportError(f"there are no interfaces at {path}")
-        sys.modules[name] = module_from_spec(spec)
-        spec.loader.exec_module(sys.modules[name])
+        spec = spec_from_file_location(name, folder / "generated" / "interfaces.py")
+        assert spec is not None  # noqa: S101 - the file's name ends in .py
+        assert spec.loader is not None  # noqa: S101
+        module = module_from_spec(spec)
+        spec.loader.exec_module(module)
+        sys.modules[name] = module
     return sys.modules[name]
