@@ -113,6 +113,7 @@ def opened_tab() -> Iterator[Tab]:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = subprocess.Popen(
             [CHROMIUM, *SWITCHES, f"--user-data-dir={profile}", "about:blank"],
+            env=os.environ | {"HOME": profile, "TMPDIR": profile},  # what it leaves goes with it
             stderr=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             start_new_session=True,

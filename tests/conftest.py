@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
+from pathlib import Path
+
 import pytest
 from hypothesis import HealthCheck, settings
 
@@ -11,6 +15,26 @@ ANYWHERE = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("same", ANYWHERE, derandomize=True)
 settings.register_profile("random", ANYWHERE)
 settings.load_profile("same")
+
+
+_HOMES = ("CONFIG_HOME", "DATA_HOME", "STATE_HOME", "CACHE_HOME")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Give the tests homes of their own, which end with them: nothing of the user is met or left.
+
+    Sockets of each worker are in a folder of its own, so that no two tests share a domain by
+    accident; the paths are short, as those of sockets must be.
+    """
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "")
+    if not worker:
+        home = tempfile.TemporaryDirectory(prefix="rc-", ignore_cleanup_errors=True)
+        config.add_cleanup(home.cleanup)
+        os.environ |= {f"XDG_{one}": str(Path(home.name) / one.lower()) for one in _HOMES}
+        os.environ["XDG_RUNTIME_DIR"] = home.name
+    runtime = Path(os.environ["XDG_RUNTIME_DIR"], worker or "alone")
+    runtime.mkdir(mode=0o700)
+    os.environ["XDG_RUNTIME_DIR"] = str(runtime)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
