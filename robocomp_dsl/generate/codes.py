@@ -73,6 +73,15 @@ UNKNOWN_OPERATION = Code(
 removed in the IDSL file, or it is misspelt. The line raises `AttributeError` when it runs.""",
 )
 
+UNKNOWN_EVENT = Code(
+    "RC624",
+    Severity.WARNING,
+    "the code names an event or a state that the machine has not",
+    """`self.machine.go("<event>")` or `self.machine.is_in("<state>")` names nothing of the state
+machine: it was renamed or removed in the SMDSL or SCXML file, or it is misspelt. The line raises
+`UnknownEvent` when it runs.""",
+)
+
 MERGED = Code(
     "RC618",
     Severity.NOTE,

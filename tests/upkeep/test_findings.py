@@ -42,6 +42,17 @@ SIGNATURES = {
     "own annotations": ("def Talk_say(self, words: object): ...", "int say(Tone w);", ""),
     "followed": ("def Talk_say(self, w: Tone) -> int: ...", "int say(Tone w);", ""),
     "wrapped": ("@wrap\n    def Talk_say(self): ...", "int say(Tone w);", ""),
+    "wrapped as it was": (
+        "@wrap\n    def Talk_say(self, w: Word): ...",
+        "int say(Tone w);",
+        "Tone",
+    ),
+    "wrapped, and one more": (
+        "@wrap\n    def Talk_say(self, w): ...",
+        "int say(Word w, int n);",
+        "it gets 2 arguments",
+    ),
+    "wrapped for anything": ("@wrap\n    def Talk_say(self, *a): ...", "int say(Tone v);", ""),
     "keyword only": (
         "def Talk_say(self, w, *, loud): ...",
         "int say(Word w);",
@@ -164,6 +175,79 @@ def test_states_come_and_go(talker: Talker) -> None:
     talker.imports()
 
 
+def with_machine(talker: Talker, text: str) -> None:
+    (talker.folder / "m.smdsl").write_text(text)
+    talker.describe("int say(Word w);")
+    cdsl = talker.folder / "talker.cdsl"
+    cdsl.write_text(cdsl.read_text().replace("language", 'statemachine "m.smdsl"; language'))
+
+
+MACHINE = "m {{ states a{0}; initial_state b; transitions {{ b => a{0} on start; }}; }};\n"
+
+
+def test_the_stub_of_a_state_that_was_deleted_stays_deleted(talker: Talker) -> None:
+    with_machine(talker, MACHINE.format(1))
+    assert [d.span.text for d in talker.generate()] == ["state_b", "state_a1"]
+    put(talker, "def Talk_say(self, w): ...")
+    assert talker.generate() == []
+    (talker.folder / "m.smdsl").write_text(MACHINE.format(2))
+    assert [d.span.text for d in talker.generate()] == ["state_a2"]
+
+
+def test_states_that_come_while_the_file_cannot_be_read_are_not_forgotten(talker: Talker) -> None:
+    text = talker.worker.read_text()
+    talker.worker.write_text(f"{text}\n    def broken(:\n")
+    with_machine(talker, MACHINE.format(1))
+    assert [d.code.id for d in talker.generate()] == ["RC613"]
+    assert talker.worker.read_text() == f"{text}\n    def broken(:\n"
+    talker.worker.write_text(text)
+    assert [d.span.text for d in talker.generate()] == ["state_b", "state_a1"]
+
+
+EVENTS = {
+    'self.machine.go("start")': "",
+    'self.machine.go("strat", speed=1)': "there is no event `strat`",
+    'self.machine.is_in("a1")': "",
+    'self.machine.is_in("a2")': "there is no state `a2`",
+    'self.machine.is_in("start")': "there is no state `start`",
+    "self.machine.go(self.name)": "",
+    'self.machine.states.count("x")': "",
+    'other.machine.go("x")': "",
+}
+
+
+@pytest.mark.parametrize("use", EVENTS)
+def test_unknown_events(talker: Talker, use: str) -> None:
+    with_machine(talker, MACHINE.format(1))
+    put(talker, f"def compute(self): {use}")
+    found = [d for d in talker.generate() if d.code.id == "RC624"]
+    assert [d.message for d in found] == ([EVENTS[use]] if EVENTS[use] else [])
+    if found:
+        assert found[0].span.text in use
+        assert found[0].span.text.startswith('"')
+
+
+def test_events_of_a_machine_that_is_gone(talker: Talker) -> None:
+    put(talker, 'def compute(self): self.machine.go("start")', "def Talk_say(self, w): ...")
+    assert [d.message for d in talker.generate()] == ["there is no state machine"]
+
+
+def test_patterns_of_events_take_what_they_take_when_it_runs(talker: Talker) -> None:
+    scxml = (
+        '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" initial="a">'
+        '<state id="a"><transition event="arm.moved arm.lost.*" target="b"/></state>'
+        '<state id="b"/></scxml>'
+    )
+    (talker.folder / "m.scxml").write_text(scxml)
+    talker.describe("int say(Word w);")
+    cdsl = talker.folder / "talker.cdsl"
+    cdsl.write_text(cdsl.read_text().replace("language", 'statemachine "m.scxml"; language'))
+    events = ("arm.moved", "arm.moved.far", "arm.lost", "arm.lost.x", "arm", "arm.mov")
+    put(talker, *(f'def f{i}(self): self.machine.go("{e}")' for i, e in enumerate(events)))
+    found = [d.span.text for d in talker.generate() if d.code.id == "RC624"]
+    assert found == ['"arm"', '"arm.mov"']
+
+
 WITHIN = "from generated.genericworker import GenericWorker\nif True:\n    "
 
 # The user's module, and a beside module; what is said of `say`, and where.
@@ -172,7 +256,18 @@ ELSEWHERE = {
     "another name": (
         f"{HEAD.replace('Specific', 'My')}    pass\nSpecificWorker = MyWorker\n",
         "",
-        "margin",
+        "`MyWorker` had no method for the operation `say`; this stub is added",
+    ),
+    "two workers": (
+        f"{HEAD.replace('Specific', 'My')}    pass\n\n"
+        "class Other(MyWorker):\n    pass\n\nSpecificWorker = Other if True else MyWorker\n",
+        "",
+        "what its base `SpecificWorker` has cannot be seen here",
+    ),
+    "the second of two workers": (
+        f"{HEAD.replace('Specific', 'My')}    pass\n\nclass SpecificWorker(MyWorker):\n    pass\n",
+        "",
+        "`SpecificWorker` had no method for the operation `say`; this stub is added",
     ),
     "all in another file": ("from mine import SpecificWorker\n", f"{HEAD}    pass\n", "margin"),
     "a base beside it": (

@@ -56,6 +56,7 @@ def test_the_same_lines(talker: Talker, config: Path) -> None:
     (found,) = talker.generate()
     assert found.code.id == "RC619"
     assert ".rcgen/conflicts/etc/config.yaml" in found.help
+    assert (found.span.text, found.label) == ('name: "mine"', 'rcgen has `name: "b"` here')
     assert config.read_text() == mine
     proposal = (talker.folder / ".rcgen/conflicts/etc/config.yaml").read_text()
     assert (

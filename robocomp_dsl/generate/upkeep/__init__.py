@@ -14,12 +14,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.upkeep import judge, members_used, merge, record, stubs, user_module
-from robocomp_dsl.generate.upkeep.hierarchy import CLASS
+from robocomp_dsl.generate.upkeep import (
+    events_used,
+    judge,
+    members_used,
+    merge,
+    record,
+    stubs,
+    user_module,
+)
 from robocomp_dsl.generate.upkeep.methods import Method, methods_of
 from robocomp_dsl.generate.upkeep.user_module import UserModule
+from robocomp_dsl.generate.worker import machine_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import UnreadableSource
 
@@ -53,7 +62,10 @@ def keep_up(
         kept = "" if writes else "a stub would be added"
         made = list(_with_stubs(user, missing, methods, kept, report)) or made
         members_used.judge(user, component, called, report)
-    recorded = record.written(methods, known, user)
+        events_used.judge(user, machine_of(component), report)
+    # What Python cannot read now is judged by the old record when it is mended.
+    unread = any(one.code is codes.UNREADABLE_WORKER for one in report)
+    recorded = record.file_of(known if unread else record.of_now(methods, known, user))
     return [*made, *merge.merged(folder, others, report, writes=writes), recorded]
 
 
@@ -87,6 +99,6 @@ def _untouchable(user: UserModule) -> str:
         return "the file is read-only"
     if user.hierarchy.unknown:
         return f"what its base `{user.hierarchy.unknown[0]}` has cannot be seen here"
-    if user.worker is None or user.hierarchy.classes[0][1] is not user.worker:
-        return f"no `class {CLASS}` stands at the margin of `{WORKER}`"
+    if user.worker is None:
+        return f"its class does not stand at the margin of `{WORKER}`"
     return ""

@@ -31,12 +31,14 @@ def judge(
 ) -> Iterator[Method]:
     """The methods that the class lacks; the findings about those it has go to `report`.
 
-    What a base from elsewhere may have is only taken for missing when it is new.
+    What a base from elsewhere may have is only taken for missing when it is new, and so is what a
+    state does: who has deleted it does not need it.
     """
     has = user.members
     for name, method in methods.items():
         if name not in has:
-            if not method.optional and not (user.hierarchy.unknown and name in known):
+            is_old = name in known and (user.hierarchy.unknown or not method.code.call)
+            if not method.optional and not is_old:
                 yield method
         elif (member := has[name]) is not None:
             _judge_signature(member, method, known.get(name), report)
@@ -55,12 +57,13 @@ def report_missing(
     """Say which methods there are none of, and `why` no stubs are added, or what would be."""
     worker = user.hierarchy.classes[0] if user.hierarchy.classes else None
     where = worker[0].span_of(worker[1]) if worker else user.source.whole
+    name = worker[1].name if worker else CLASS
     for one in missing:
         guess = near(user, one, methods)
         report.add(
             codes.MISSING_METHOD,
             where,
-            f"`{CLASS}` has no method `{one.name}` for {one.what}; {why}",
+            f"`{name}` has no method `{one.name}` for {one.what}; {why}",
             label=f"did you mean `{guess}`?" if guess else "",
             notes=[one.origin],
             help=f"`{BASE}` in generated/genericworker.py has its signature",
@@ -80,8 +83,10 @@ def follows(function: Function, old: Signature, new: Signature) -> bool:
 
 def _judge_signature(member: Member, method: Method, old: Signature | None, report: Report) -> None:
     new, function = method.signature, member.function
-    if any(ast.unparse(d) not in _PLAIN for d in function.decorator_list):
-        return  # it may have any signature behind them
+    if any(ast.unparse(d) not in _PLAIN for d in function.decorator_list) and not (
+        old and follows(function, old, old)
+    ):
+        return  # behind its decorators it may have any signature, and has had another one
     if follows(function, old or new, new):
         return
     mine = f"def {function.name}{_shown(function)}"

@@ -8,6 +8,7 @@ put into `.rcgen/` beside the pristine output.
 
 from __future__ import annotations
 
+import re
 import stat
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -20,6 +21,10 @@ from robocomp_dsl.source import Source
 PRISTINE = f"{RECORD}pristine"
 CONFLICTS = f"{RECORD}conflicts"
 PATIENCE_S = 30.0
+_CONFLICT = re.compile(
+    r"^<{7} yours\r?\n(?P<yours>.*?)^\|{7} before\r?$.*?^={7}\r?\n(?P<new>.*?)^>{7} new\r?$",
+    re.MULTILINE | re.DOTALL,
+)
 
 
 def merged(
@@ -74,8 +79,19 @@ def _proposal(
     proposal = f"{CONFLICTS}/{new.path}"
     said = "you and rcgen changed the same lines, so it stays as it is"
     where = f"both sides {'are' if writes else 'would be'} in {proposal}; take what you need"
-    _report(path, mine, said, report, where)
+    source = Source(path, mine.decode("utf-8", "replace"))
+    yours, theirs = _first_conflict(data.decode("utf-8", "replace"))
+    at = max(source.text.find(yours), 0) if yours else 0
+    span = source.span(at, at + len(yours.partition("\n")[0].rstrip("\r")))
+    label = f"rcgen has `{theirs}` here" if theirs else ""
+    report.add(codes.NOT_MERGED, span, said, label=label, help=where)
     return OutputFile(proposal, data.decode("utf-8", "surrogateescape"))
+
+
+def _first_conflict(text: str) -> tuple[str, str]:
+    """The lines of the user in the first conflict, and the first new one; empty where none are."""
+    found = _CONFLICT.search(text)
+    return (found["yours"], found["new"].strip().partition("\n")[0].strip()) if found else ("", "")
 
 
 def _report_merged(path: Path, mine: bytes, data: bytes, report: Report, *, writes: bool) -> None:

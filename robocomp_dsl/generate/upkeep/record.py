@@ -39,10 +39,10 @@ def read(folder: Path, report: Report) -> dict[str, Signature]:
         return {}
 
 
-def written(
+def of_now(
     methods: Mapping[str, Method], known: Mapping[str, Signature], user: UserModule | None
-) -> OutputFile:
-    """The record for the next time."""
+) -> dict[str, Signature]:
+    """What is to be known the next time; `user` None: the user's file is written only now."""
     has = user.members if user else {}
     kept = {name: one for name, one in known.items() if name in has}
     for name, method in methods.items():
@@ -50,9 +50,14 @@ def written(
         old = known.get(name)
         if member is None or old is None or follows(member.function, old, method.signature):
             kept[name] = method.signature
+    return kept
+
+
+def file_of(known: Mapping[str, Signature]) -> OutputFile:
+    """The record as a file."""
     rows = {
         name: {"arguments": [list(a) for a in one.arguments], "returns": one.returns}
-        for name, one in sorted(kept.items())
+        for name, one in sorted(known.items())
     }
     return OutputFile(FILE, json.dumps(rows, indent=1, ensure_ascii=False) + "\n")
 

@@ -66,12 +66,13 @@ def report_added(
     """Say which stubs there are, at their new places."""
     source = Source(user.source.path, text)
     places = _places(source)
+    name = user.worker.name if user.worker else CLASS
     for one in missing:
         at = places[one.name]
         report.add(
             codes.MISSING_METHOD,
             source.span(at, at + len(one.name)),
-            f"`{CLASS}` had no method for {one.what}; this stub is added",
+            f"`{name}` had no method for {one.what}; this stub is added",
             label=f"is `{guess}` meant for it?" if (guess := near(user, one, methods)) else "",
             notes=[one.origin],
             help="put your code into it"
@@ -94,7 +95,8 @@ def _class(user: UserModule) -> _Class:
     wrapper = MetadataWrapper(cst.parse_module(user.source.text), unsafe_skip_copy=True)
     module = wrapper.module
     places = wrapper.resolve(PositionProvider)
-    worker = [n for n in module.body if isinstance(n, cst.ClassDef) and n.name.value == CLASS][-1]
+    name = user.worker.name if user.worker else CLASS
+    worker = [n for n in module.body if isinstance(n, cst.ClassDef) and n.name.value == name][-1]
     last = worker.body.body[-1]
     end = places[last].end
     offset = user.starts[end.line - 1] + end.column

@@ -31,16 +31,12 @@ _KEYWORDS = re.compile(r"(?:async[\s\\]+)?(?:def|class)[\s\\]+")
 
 
 class UserModule(Record):
-    """A module that Python can read.
-
-    `worker` is the class at the margin, where stubs can go; None where it is made in another way.
-    """
+    """A module that Python can read."""
 
     source: Source
     data: bytes
     encoding: str
     tree: ast.Module
-    worker: ast.ClassDef | None
     __slots__ = ("__dict__",)  # for what is looked up once
 
     @cached_property
@@ -70,6 +66,12 @@ class UserModule(Record):
     def hierarchy(self) -> Hierarchy:
         """The class and its bases, as far as they are in this folder."""
         return hierarchy(self)
+
+    @cached_property
+    def worker(self) -> ast.ClassDef | None:
+        """The user's class, whatever it is called, if it stands at the margin of this module."""
+        module, one = self.hierarchy.classes[0] if self.hierarchy.classes else (None, None)
+        return one if module is self and one in self.tree.body else None
 
     @cached_property
     def members(self) -> dict[str, Member | None]:
@@ -125,9 +127,7 @@ def read(path: Path, report: Report) -> UserModule | None:
 
 def parsed(source: Source, data: bytes = b"", encoding: str = "utf-8") -> UserModule:
     """The module of a text. Raises what Python's parser raises."""
-    tree = ast.parse(source.text)
-    classes = [c for c in tree.body if isinstance(c, ast.ClassDef) and c.name == CLASS]
-    return UserModule(source, data, encoding, tree, classes[-1] if classes else None)
+    return UserModule(source, data, encoding, ast.parse(source.text))
 
 
 def bound(tree: ast.Module) -> set[str]:
