@@ -15,6 +15,8 @@ debian=(
   "npm:npm"
   "vim:vim"
   "kate-syntax-highlighter:libkf5syntaxhighlighting-tools"
+  "kate:kate"
+  "dbus-run-session:dbus-daemon"
   "g++:g++"
   "chromium:chromium"
   "slice2py:zeroc-ice-compilers"

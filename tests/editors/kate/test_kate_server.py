@@ -1,0 +1,120 @@
+"""A real Kate with the configuration that we ship: it starts the server and gets the findings.
+
+Kate has no script that drives it, so what it and the server tell each other is kept on the way.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import pytest
+from real_editor import DEADLINE_S, EDITORS, Project, need
+from samples import MISTAKES, Mistake
+
+pytestmark = pytest.mark.editors
+
+RECORDING = """#!/bin/sh
+echo $$ >> '{pids}'
+tee '{asked}' | '{python}' -c 'from robocomp_dsl.cli.rcgen import main; main()' "$@" | tee '{told}'
+"""
+ALLOWED = """[lspclient]
+AllowedServerCommandLines={server} lsp
+[Kate Plugins]
+lspclientplugin=true
+kateprojectplugin=true
+"""
+_HEAD = re.compile(
+    rb"(?:[\w-]+: [^\r\n]*\r\n)*Content-Length: (\d+)\r\n(?:[\w-]+: [^\r\n]*\r\n)*\r\n"
+)
+
+
+def messages(file: Path) -> Iterator[dict[str, Any]]:
+    """The messages that have come through whole so far."""
+    data = file.read_bytes() if file.exists() else b""
+    at = 0
+    while head := _HEAD.match(data, at):
+        at = head.end() + int(head[1])
+        if at > len(data):
+            return
+        yield json.loads(data[head.end() : at])
+
+
+def configure(home: Path, server: Path) -> dict[str, str]:
+    """What a user of Kate does once, in the folder `home`; returns the environment."""
+    settings = home / ".config" / "kate" / "lspclient" / "settings.json"
+    settings.parent.mkdir(parents=True)
+    shutil.copy(EDITORS / "kate" / "lspclient.json", settings)
+    (home / ".config" / "katerc").write_text(ALLOWED.format(server=server))
+    colours = home / ".local" / "share" / "org.kde.syntax-highlighting" / "syntax"
+    shutil.copytree(EDITORS / "kate" / "syntax", colours)
+    (home / "run").mkdir(mode=0o700)
+    return {
+        **os.environ,
+        "PATH": "/usr/bin:/bin",  # a server found there would go before the project's
+        "HOME": str(home),
+        "XDG_CONFIG_HOME": str(home / ".config"),
+        "XDG_DATA_HOME": str(home / ".local" / "share"),
+        "XDG_CACHE_HOME": str(home / ".cache"),
+        "XDG_RUNTIME_DIR": str(home / "run"),
+        "QT_QPA_PLATFORM": "offscreen",
+    }
+
+
+@pytest.mark.parametrize(
+    "mistake", [one for one in MISTAKES if "xml" not in one.file], ids=lambda one: one.file
+)
+def test_kate_gets_the_findings(mistake: Mistake, tmp_path: Path) -> None:
+    kate, bus = need("kate"), need("dbus-run-session")
+    (tmp_path / "project").mkdir()
+    project = Project(tmp_path / "project")
+    project.path(".kateproject").write_text('{"name": "robot"}')
+    asked, told = tmp_path / "asked", tmp_path / "told"
+    server = project.path(".venv/bin/rcgen")
+    server.write_text(
+        RECORDING.format(pids=project.pids, asked=asked, told=told, python=sys.executable)
+    )
+    process = subprocess.Popen(
+        [bus, "--", kate, "--new", "--block", project.path(mistake.file)],
+        cwd=project.folder,
+        env=configure(tmp_path / "home", server),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        (finding,) = findings(told, process)
+    finally:
+        with suppress(ProcessLookupError):  # Kate itself would ask what to do with the session
+            os.killpg(process.pid, signal.SIGKILL)
+        process.wait(DEADLINE_S)
+    assert finding["range"]["start"] == {"line": mistake.line, "character": mistake.column}
+    assert mistake.message in finding["message"]
+    opened = next(one for one in messages(asked) if one.get("method") == "textDocument/didOpen")
+    assert opened["params"]["textDocument"]["languageId"] == mistake.file.partition(".")[2]
+    assert not [one for one in messages(told) if "error" in one]
+    project.assert_no_server_left()
+
+
+def findings(told: Path, process: subprocess.Popen[bytes]) -> list[dict[str, Any]]:
+    """What the server told Kate of the file, as soon as it did."""
+    end = time.monotonic() + DEADLINE_S
+    while True:
+        for one in messages(told):
+            if one.get("method") == "textDocument/publishDiagnostics":
+                found: list[dict[str, Any]] = one["params"]["diagnostics"]
+                return found
+        assert time.monotonic() < end, "Kate got no findings in time"
+        with suppress(subprocess.TimeoutExpired):
+            pytest.fail(f"Kate ended with {process.wait(0.1)}")
