@@ -17,29 +17,39 @@ class Ease:
     """The bounds of `limits` and `pid`, one after the other, as long as they do not change."""
 
     def __init__(self, limits: Limits, pid: PidBank) -> None:
+        n = len(limits.speed)
         self._limits, self._pid = limits, pid
         self._seen = (-1, -1)
-        self._low = self._high = np.zeros(0)
-        size = 5 * len(limits.speed)
-        self._every, self._kept, self._same = np.empty(size), np.empty(size), np.empty(size, bool)
+        self._ahead = np.full(n, AHEAD)
+        # five rows and the same with the other sign, so that one comparison does for both sides
+        self._every, self._most = np.zeros((2, 5, n)), np.zeros((2, 5, n))
+        self._within = np.empty((2, 5, n), bool)
+        self._plus, self._minus = self._every[0], self._every[1]
+        self._rows = tuple(self._plus)
+
+    def __reduce__(self) -> tuple[type[Ease], tuple[Limits, PidBank]]:
+        """A copy writes to rows of its own."""
+        return Ease, (self._limits, self._pid)
 
     def holds(self, position: Floats, velocity: Floats, torque: Floats) -> bool:
-        """For all joints; `torque` (n,) is what is wished."""
+        """For all joints; `torque` (n,) is what is wished. Never where something is no number."""
         limits, pid = self._limits, self._pid
         if self._seen != (limits.version, pid.version):
             self._look()
-        every, kept, same = self._every, self._kept, self._same
-        ahead = AHEAD * velocity
+        ahead, speed, wished, output, integral = self._rows
+        np.multiply(velocity, self._ahead, out=ahead)
         ahead += position
-        np.concatenate((ahead, velocity, torque, pid.output, pid.integral), out=every)
-        np.maximum(every, self._low, out=kept)
-        np.minimum(kept, self._high, out=kept)
-        np.equal(kept, every, out=same)
-        return b"\0" not in same.tobytes()  # the fastest way to ask whether all are true
+        speed[:] = velocity
+        wished[:] = torque
+        output[:] = pid.output
+        integral[:] = pid.integral
+        np.negative(self._plus, out=self._minus)
+        np.less_equal(self._every, self._most, out=self._within)
+        return b"\0" not in self._within.tobytes()  # the fastest way to ask whether all are true
 
     def _look(self) -> None:
         limits, pid = self._limits, self._pid
         low, high = limits.stops
-        most = np.concatenate((limits.speed, limits.torque, *pid.bounds))
-        self._low, self._high = np.concatenate((low, -most)), np.concatenate((high, most))
+        self._most[:, 1:] = (limits.speed, limits.torque, *pid.bounds)
+        self._most[:, 0] = high, -low
         self._seen = limits.version, pid.version

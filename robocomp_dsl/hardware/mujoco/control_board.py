@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
+from robocomp_dsl.hardware.control.joints import run
 from robocomp_dsl.hardware.control.motors import ROOM_TEMPERATURE
 from robocomp_dsl.hardware.control.settings import Settings
 from robocomp_dsl.hardware.errors import SceneError
@@ -81,6 +82,7 @@ class SimulatedBoard:
             self._find(model, *names) for names in zip(self._joints, self._motors, strict=True)
         ]
         self._where, self._speed, self._motor = (np.array(one) for one in zip(*found, strict=True))
+        self._runs = run(self._where), run(self._speed), run(self._motor)
         self._damping = model.dof_damping[self._speed].copy()
         self._armature = model.dof_armature[self._speed].copy()
         self._borne = bool(model.ngravcomp)
@@ -104,14 +106,15 @@ class SimulatedBoard:
         if self.board.law.deviations.feels:
             self._feel(dt)
         torque = self.board.step(q, dq, dt, weight)
-        self._ctrl[self._motor] = torque if self._plain else self._to_joint.T @ torque
+        self._ctrl[self._runs[2]] = torque if self._plain else self._to_joint.T @ torque
         self._unheated += dt
         if self._unheated >= HEAT_PERIOD:
             self._warm()
 
     def _measure(self) -> tuple[Floats, Floats]:
         """Angles as the encoders tell them, and speeds."""
-        q, dq = self._places[self._where], self._speeds[self._speed]
+        where, speed, _ = self._runs
+        q, dq = self._places[where].copy(), self._speeds[speed].copy()
         if not self._plain:
             q, dq = self._to_joint @ q, self._to_joint @ dq
         return (q if self._zero is None else q + self._zero), dq
@@ -127,9 +130,10 @@ class SimulatedBoard:
     def _weight(self) -> Floats:
         """Torques that hold the arm against gravity, its own swing and the drag of its joints."""
         wanted = self.board.references.velocity
-        bias = self._data.qfrc_bias[self._speed]
+        _, speed, _ = self._runs
+        bias = self._data.qfrc_bias[speed]
         if self._borne:  # what weighs nothing needs nobody to hold it
-            bias = bias - self._data.qfrc_gravcomp[self._speed]
+            bias = bias - self._data.qfrc_gravcomp[speed]
         if self._plain:
             held: Floats = bias + self._damping * wanted
             return held

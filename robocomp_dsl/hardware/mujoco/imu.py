@@ -18,11 +18,11 @@ from robocomp_dsl.hardware.imu import Inertial
 from robocomp_dsl.hardware.mujoco import axes
 from robocomp_dsl.hardware.mujoco.noise import NoiseLevel
 from robocomp_dsl.hardware.rotations import angles
-from robocomp_dsl.hardware.scene import Triple
 
 _TEMPERATURE = 25.0  # °C
 _PERIOD = 0.005  # s
 _STILL = (0.0, 0.0, 0.0)
+_EXCHANGED = axes.EXCHANGED.reshape(3, 3)
 _SENSORS = {
     "acceleration": mujoco.mjtSensor.mjSENS_ACCELEROMETER,
     "turning": mujoco.mjtSensor.mjSENS_GYRO,
@@ -60,7 +60,7 @@ class Imu:
         self._errors = (_STILL, _STILL)
         self._given = bool(site)
         self._site_name = site or name
-        self._reference = np.eye(3)
+        self._back = np.eye(3)  # what undoes the reference
 
     # -- as a part of the world ---------------------------------------------------------------
 
@@ -86,7 +86,8 @@ class Imu:
         """The same sensors in another model."""
         self._data = data
         self._site = int(model.site(self._site_name).id)
-        self._first = {what: int(model.sensor(f"{self.name}.{what}").adr[0]) for what in _SENSORS}
+        first = [int(model.sensor(f"{self.name}.{what}").adr[0]) for what in _SENSORS]
+        self._where = np.array([range(one, one + 3) for one in first]).ravel()
 
     def after_step(self, dt: float) -> None:
         """Draw other errors when they are due."""
@@ -99,7 +100,8 @@ class Imu:
 
     def measure(self) -> Inertial:
         """What the sensors say after the latest step."""
-        (ax, ay, az), (tx, ty, tz), (fx, fy, fz) = (self._read(what) for what in _SENSORS)
+        data = self._data
+        ax, ay, az, tx, ty, tz, fx, fy, fz = data.sensordata[self._where].tolist()
         length = math.hypot(fx, fy, fz) or 1.0
         if self._noise is not None:
             pushed, turned = self._errors
@@ -110,25 +112,19 @@ class Imu:
             ax, ay, az = ax + push * pushed[0], ay + push * pushed[1], az + push * pushed[2]
             tx, ty, tz = tx + turn * turned[0], ty + turn * turned[1], tz + turn * turned[2]
         return Inertial(
-            time=float(self._data.time),
+            time=float(data.time),
             # y and z are exchanged; an axis of rotation changes its sign in a mirror
             acceleration=(ax, az, ay),
             turning=(-tx, -tz, -ty),
             field=(fx / length, fz / length, fy / length),
-            orientation=angles(self._reference.T @ self._rotation()),
+            orientation=angles(self._back.dot(self._rotation())),
             temperature=_TEMPERATURE,
         )
 
     def reset(self) -> None:
         """The present orientation becomes the reference."""
-        self._reference = self._rotation()
+        self._back = self._rotation().T.copy()
 
     def _rotation(self) -> NDArray[np.float64]:
-        turned: NDArray[np.float64] = self._data.site_xmat[self._site][axes.EXCHANGED]
-        return turned.reshape(3, 3)
-
-    def _read(self, what: str) -> Triple:
-        """In MuJoCo's axes."""
-        first = self._first[what]
-        x, y, z = self._data.sensordata[first : first + 3].tolist()
-        return x, y, z
+        turned: NDArray[np.float64] = self._data.site_xmat[self._site][_EXCHANGED]
+        return turned

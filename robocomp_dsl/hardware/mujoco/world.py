@@ -17,10 +17,13 @@ import numpy as np
 from robocomp_dsl.hardware.errors import Diverged, SceneError
 from robocomp_dsl.hardware.scene import Model
 
-_BAD = (
-    mujoco.mjtWarning.mjWARN_BADQPOS,
-    mujoco.mjtWarning.mjWARN_BADQVEL,
-    mujoco.mjtWarning.mjWARN_BADQACC,
+_BAD = tuple(
+    (int(kind), kind.name)
+    for kind in (
+        mujoco.mjtWarning.mjWARN_BADQPOS,
+        mujoco.mjtWarning.mjWARN_BADQVEL,
+        mujoco.mjtWarning.mjWARN_BADQACC,
+    )
 )
 
 
@@ -152,6 +155,6 @@ class World:
 
     def _check(self) -> None:
         numbers = self.data.warning.number
-        for kind in _BAD:
+        for kind, name in _BAD:
             if numbers[kind]:
-                raise Diverged(f"the simulation diverged before {self.time:.3f} s ({kind.name})")
+                raise Diverged(f"the simulation diverged before {self.time:.3f} s ({name})")

@@ -74,7 +74,8 @@ class ControlBoardServant(BoardSettings):
 
     def getState(self) -> Any:
         """Everything that was measured last."""
-        it, here, listed = self._board.state(), self._joints, self._listed
+        it, listed = self._board.state(), self._listed
+        here = self._rows
         return self.types.BoardState(
             time=it.time,
             position=it.position[here],

@@ -15,7 +15,7 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import UnknownJoint
-from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints
+from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints, run
 from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.pid import Gains
 from robocomp_dsl.hardware.control.settings import Settings
@@ -33,6 +33,7 @@ class BoardSettings(Servant):
         super().__init__(*given)
         self._known: object = None
         self._here = np.empty(0, dtype=np.int64)
+        self._rows: slice | Ints = self._here
         self._numbers: dict[str, int] = {}
 
     @property
@@ -43,15 +44,20 @@ class BoardSettings(Servant):
     @property
     def _joints(self) -> Ints:
         """The joints of this port on the board, in order."""
-        device = self.board_device()
-        if device is not self._known:
-            mine = device.groups.get(self.ids[0], "")
-            names = device.board.spec.names
-            chosen = [i for i, name in enumerate(names) if device.groups.get(name, "") == mine]
-            self._here = np.array(chosen, dtype=np.int64)
-            self._numbers = {names[i]: i for i in chosen}
-            self._known = device
+        self._look(self.board_device())
         return self._here
+
+    def _look(self, device: Any) -> None:
+        """Which joints of `device` are those of the port: `_rows` is the same as an index."""
+        if device is self._known:
+            return
+        mine = device.groups.get(self.ids[0], "")
+        names = device.board.spec.names
+        chosen = [i for i, name in enumerate(names) if device.groups.get(name, "") == mine]
+        self._here = np.array(chosen, dtype=np.int64)
+        self._rows = run(self._here)
+        self._numbers = {names[i]: i for i in chosen}
+        self._known = device
 
     @property
     def _listed(self) -> list[int]:
