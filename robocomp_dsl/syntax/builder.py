@@ -173,7 +173,7 @@ def number(text: str) -> int | float:
 
 def only(kind: type[NodeT], children: Iterable[Any]) -> tuple[NodeT, ...]:
     """The children of one kind, in order."""
-    return tuple(child for child in children if isinstance(child, kind))
+    return tuple([child for child in children if isinstance(child, kind)])
 
 
 def _unescape(match: re.Match[str]) -> str:

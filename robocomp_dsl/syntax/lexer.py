@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Generator, Iterator
 
-from robocomp_dsl.record import Value
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.findings import Findings
 from robocomp_dsl.syntax.tables import END, Tables
@@ -17,18 +16,21 @@ from robocomp_dsl.syntax.tables import END, Tables
 _COMMENTS = frozenset(("DOC_BLOCK", "DOC_LINE", "BLOCK_COMMENT", "LINE_COMMENT"))
 _DOCS = frozenset(("DOC_BLOCK", "DOC_LINE"))
 _MISSPELT = frozenset(
-    ("OTHER_QUOTES", "OPEN_STRING", "OPEN_COMMENT", "MERGE_MARK", "HASH_LINES", "STRAY")
+    ("OTHER_QUOTES", "OPEN_STRING", "OPEN_COMMENT", "MERGE_MARK", "HASH_LINES", "SIGN", "STRAY")
 )
 _FRAME = re.compile(r"^[ \t]*\*(?!\*)[ \t]?|^[ \t]+|[ \t]+$", re.MULTILINE)
 
 
-class Token(Value):
+class Token:
     """A word of the language; `kind` is the name of its terminal. Offsets count characters."""
 
-    kind: str
-    text: str
-    start: int
-    end: int
+    __slots__ = ("end", "kind", "start", "text")
+
+    def __init__(self, kind: str, text: str, start: int, end: int) -> None:
+        self.kind = kind
+        self.text = text
+        self.start = start
+        self.end = end
 
 
 class Lexer:
@@ -56,7 +58,7 @@ class Lexer:
 
     def _stretch(self, at: int) -> Generator[Token, None, int]:
         """The tokens from `at` on, up to characters that are not read; returns where to go on."""
-        keyword, sign = self._tables.keywords.get, self._tables.signs.get
+        keyword, signs = self._tables.keywords.get, self._tables.signs
         any_case = self._tables.any_case
         doc: list[str] = []
         for match in self._tables.scanner.finditer(self._text, at, self._end):
@@ -65,13 +67,14 @@ class Lexer:
             start = end - len(text)
             if kind == "ID":
                 kind = keyword(text.lower() if any_case else text, kind)
-            elif kind == "SIGN":
-                kind = sign(text, "STRAY")
+            elif kind == "SIGN" and text in signs:
+                kind = signs[text]
             elif kind in _COMMENTS:
                 if kind in _DOCS:
                     doc.append(text)
                 continue
-            if kind in _MISSPELT or (kind == "_SEMI" and text != ";"):
+            elif kind in _MISSPELT or (kind == "_SEMI" and text != ";"):
+                kind = "STRAY" if kind == "SIGN" else kind
                 kind, text, end = self._misspelt(kind, start, end)
                 if not kind:
                     return end

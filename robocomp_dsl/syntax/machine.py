@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 from robocomp_dsl.source import Span
 from robocomp_dsl.syntax.builder import Builder
@@ -24,32 +24,27 @@ Entry: TypeAlias = tuple[int, Any, int, int]
 """State, value of the symbol that led to it, and the characters [start, end) of that symbol."""
 
 
-class Plan(NamedTuple):
-    """A rule made ready for its builder.
+_Pick: TypeAlias = tuple[int, Callable[[Token], Node] | None, bool]
+"""A child: the index of its symbol (-1: absent), what makes a node of a token, and whether it is a
+list whose items are the children."""
 
-    `passes`: the only child is the value. `picks` are, for each child, the index of its symbol (-1:
-    absent), what makes a node of a token, and whether it is a list whose items are the children.
-    """
+Plan: TypeAlias = tuple[str, int, bool, Callable[..., Any] | None, list[_Pick]]
+"""A rule made ready for its builder: its origin and length, whether the only child is the value,
+what makes the value of the children, and how these are picked."""
 
-    origin: str
-    length: int
-    passes: bool
-    call: Callable[..., Any] | None
-    picks: list[tuple[int, Callable[[Token], Node] | None, bool]]
 
-    @classmethod
-    def of(cls, rule: Rule, builder: Builder) -> Plan:
-        """The plan of `rule`."""
-        return cls(
-            rule.origin,
-            rule.length,
-            rule.unwraps and rule.length == 1,
-            getattr(builder, rule.method) if rule.method else None,
-            [
-                (pick.symbol, builder.leaf(pick.terminal) if pick.terminal else None, pick.spliced)
-                for pick in rule.picks
-            ],
-        )
+def plan(rule: Rule, builder: Builder) -> Plan:
+    """The plan of `rule`."""
+    return (
+        rule.origin,
+        rule.length,
+        rule.unwraps and rule.length == 1,
+        getattr(builder, rule.method) if rule.method else None,
+        [
+            (pick.symbol, builder.leaf(pick.terminal) if pick.terminal else None, pick.spliced)
+            for pick in rule.picks
+        ],
+    )
 
 
 class Machine:
@@ -70,37 +65,22 @@ class Machine:
         self.trail: deque[Token] = deque(maxlen=TRAIL)
         self.told_behind = -1
         self.untold = 0
-        self._plans = [Plan.of(rule, builder) for rule in tables.rules]
+        self._plans = [plan(rule, builder) for rule in tables.rules]
 
     def reduce(self, number: int, at: int) -> None:
         """Replace the symbols of rule `number` by the one that it makes; an empty one is `at`."""
-        plan, stack = self._plans[number], self.stack
-        if plan.passes:
+        origin, length, passes, call, picks = self._plans[number]
+        stack = self.stack
+        if passes:
             _, value, start, end = stack.pop()
-        elif plan.length:
-            symbols = stack[-plan.length :]
-            del stack[-plan.length :]
-            start, end = symbols[0][2], symbols[-1][3]
-            value = self._value(plan, symbols, start, end)
         else:
-            start = end = at
-            value = self._value(plan, [], at, at)
-        stack.append((self.tables.gotos[stack[-1][0]][plan.origin], value, start, end))
-
-    def _value(self, plan: Plan, symbols: list[Entry], start: int, end: int) -> Any:
-        children: list[Any] = []
-        for index, leaf, spliced in plan.picks:
-            if leaf:
-                children.append(leaf(symbols[index][1]))
-            elif not spliced:
-                children.append(symbols[index][1] if index >= 0 else None)
-            elif children:
-                children += symbols[index][1]
-            else:
-                # The list of a repetition grows in place, or long files would take ages.
-                children = symbols[index][1]
-        span = Span(self.findings.place, start, end)
-        return plan.call(span, *children) if plan.call else children
+            symbols = stack[-length:] if length else []
+            del stack[len(stack) - length :]
+            start, end = (symbols[0][2], symbols[-1][3]) if length else (at, at)
+            value = _children(picks, symbols)
+            if call:
+                value = call(Span(self.findings.place, start, end), *value)
+        stack.append((self.tables.gotos[stack[-1][0]][origin], value, start, end))
 
     def jump(self, before: Token, untold: int | None) -> None:
         """Go on behind `before`, to which the innermost list of items has been filled up.
@@ -118,3 +98,18 @@ class Machine:
         """Let the file end here, without a word on what is then missing."""
         self.findings.cut = True
         self.stream.cut(at)
+
+
+def _children(picks: list[_Pick], symbols: list[Entry]) -> list[Any]:
+    children: list[Any] = []
+    for index, leaf, spliced in picks:
+        if leaf:
+            children.append(leaf(symbols[index][1]))
+        elif not spliced:
+            children.append(symbols[index][1] if index >= 0 else None)
+        elif children:
+            children += symbols[index][1]
+        else:
+            # The list of a repetition grows in place, or long files would take ages.
+            children = symbols[index][1]
+    return children
