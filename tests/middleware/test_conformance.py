@@ -81,6 +81,7 @@ def test_any_other_exception_is_a_remote_error_and_the_server_lives_on(network: 
     assert probe.add(1, 1) == 2
 
 
+@pytest.mark.usefixtures("hasty")
 def test_a_query_to_nobody(network: Network) -> None:
     probe = network.node("client").probe()
     for _ in range(2):
@@ -88,11 +89,13 @@ def test_a_query_to_nobody(network: Network) -> None:
             probe.add(1, 2)
 
 
+@pytest.mark.usefixtures("hasty")
 def test_a_command_to_nobody(network: Network) -> None:
     with pytest.raises(NoServer):
         network.node("client").probe().note("hello")
 
 
+@pytest.mark.usefixtures("hasty")
 def test_a_wire_to_somebody_who_is_not_there(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     with pytest.raises(NoServer, match="other does not serve"):
@@ -296,11 +299,7 @@ def test_the_proxy_follows_a_server_that_comes_back(network: Network) -> None:
 
 
 @pytest.mark.parametrize("how", ["called", "waited for"])
-def test_who_was_there_and_has_gone_is_missed_at_once(
-    network: Network, how: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    module = {"zenoh": "zenoh.client"}.get(network.kind, network.kind)
-    monkeypatch.setattr(f"robocomp_dsl.runtime.middleware.{module}.GRACE_S", 3 * DEADLINE)
+def test_who_was_there_and_has_gone_is_missed_at_once(network: Network, how: str) -> None:
     server = network.node("server")
     server.serve(HANDLERS)
     probe = network.node("client").probe()
@@ -313,6 +312,7 @@ def test_who_was_there_and_has_gone_is_missed_at_once(
             asked.result(DEADLINE)
 
 
+@pytest.mark.usefixtures("hasty")
 def test_domains_do_not_see_each_other(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     other = Network(network.kind)

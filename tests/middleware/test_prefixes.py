@@ -22,6 +22,12 @@ def asked(network: Network, client: str, *peers: str) -> int:
     return network.node(client).probe(*peers).add(0, 0)
 
 
+def asked_when_all_are_known(network: Network, client: str, count: int) -> int:
+    probe = network.node(client).probe()
+    wait_for(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
+    return probe.add(0, 0)
+
+
 SERVERS = ("base", "left/base", "right/base", "left/hand/base")
 
 
@@ -49,17 +55,19 @@ def test_the_one_beside_is_found(network: Network, client: str, server: str) -> 
         ("arm", ("left/base",), "left/base"),
     ],
 )
+@pytest.mark.usefixtures("hasty")
 def test_else_one_around_it_and_then_one_inside(
     network: Network, client: str, there: tuple[str, ...], server: str
 ) -> None:
     serve(network, *there)
-    assert there[asked(network, client)] == server
+    assert there[asked_when_all_are_known(network, client, len(there))] == server
 
 
+@pytest.mark.usefixtures("hasty")
 def test_one_on_another_branch_is_not_found(network: Network) -> None:
     serve(network, "right/base", "leftish/base")
     with pytest.raises(NoServer, match=r"nobody serves Test::Probe, which left/arm requires"):
-        asked(network, "left/arm")
+        asked_when_all_are_known(network, "left/arm", 2)
 
 
 def test_one_on_another_branch_is_reached_by_its_name(network: Network) -> None:

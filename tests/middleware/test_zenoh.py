@@ -73,7 +73,7 @@ def test_malformed_requests_are_refused_and_counted(network: Network, payload: b
     raw = open_session(network.domain)
     try:
         querier = raw.session.declare_querier(key, timeout=DEADLINE)
-        wait_for(lambda: querier.matching_status)
+        wait_for(lambda: querier.matching_status.matching)
         reply = querier.get(payload=payload).recv()
         assert reply.err is not None
         assert reply.err.payload.to_bytes().startswith(b"RCM")
