@@ -314,7 +314,7 @@ def test_who_does_not_answer_is_left_out_until_it_does(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     Stuck.let_go.clear()
-    with caplog.at_level(logging.INFO), running([Base, Driver, Stuck], "zenoh", limit=0.5) as them:
+    with caplog.at_level(logging.INFO), running([Base, Driver, Stuck], "zenoh", limit=2.0) as them:
         base = them["base"].worker
         base.end = 1e9
         try:
