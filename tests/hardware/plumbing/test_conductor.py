@@ -14,7 +14,7 @@ from robocomp_dsl.hardware.plumbing.description import Phase
 from robocomp_dsl.hardware.plumbing.kinds import ActionFailed, Kind
 from robocomp_dsl.hardware.plumbing.read import plumbing_of
 
-LONG = 10.0
+LONG = 60.0
 """Nothing here takes so long, unless it is broken [s]."""
 
 
