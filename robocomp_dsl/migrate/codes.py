@@ -116,6 +116,13 @@ NOT_UTF8 = Code(
 files are in. The new files are UTF-8. Look at the letters with accents.""",
 )
 
+CAPITAL = Code(
+    "RC939",
+    Severity.WARNING,
+    "a truth value is not written as TOML has it",
+    """TOML has `true` and `false`, in small letters. The file is read as if it said so.""",
+)
+
 ICE_SETTING = Code(
     "RC941",
     Severity.NOTE,

@@ -25,7 +25,11 @@ MOST_ENTRIES = 10_000
 """More keys than this are no configuration of a component."""
 
 _NO_TEXT = re.compile(rb"[\x00-\x08\x0e-\x1f]|[\xfe\xff]{2}")
+_BEHIND = re.compile(r"""^(?:"(?:\\.|[^"\\])*"|'[^']*'|[^"'#])*""")
+"""A line up to the comment behind it."""
 _HEADER = re.compile(r"\s*\[\[?([^\]]*)\]\]?")
+_CAPITAL = re.compile(r"^([^\n\"'#]*=[ \t]*)(True|False)(?=[ \t\r]*(?:#.*)?$)", re.MULTILINE)
+"""What Python writes for the values that TOML has in small letters; RoboComp read both."""
 _LOCATED = re.compile(r"\(at line (\d+), column (\d+)\)")
 
 
@@ -112,7 +116,7 @@ def _text(source: Source, report: Report) -> Iterator[Entry]:
         line = source.line(number)
         code, comment = _cut(line)
         if not code:
-            comments = [*comments, comment] if comment else []
+            comments = [*comments, *filter(None, [_words(comment)])] if comment else []
             continue
         start = source.line_starts[number - 1] + len(line) - len(line.lstrip())
         span = source.span(start, start + len(line.strip()))
@@ -147,13 +151,17 @@ def _unquoted(value: str) -> str:
 
 
 def _toml(source: Source, report: Report) -> Iterator[Entry] | None:
+    text = source.text.replace("\r\n", "\n")
     try:
-        tree = tomllib.loads(source.text.replace("\r\n", "\n"))
+        tree = tomllib.loads(_CAPITAL.sub(lambda m: m[1] + m[2].lower(), text))
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
         said = _LOCATED.sub("", str(error)).strip() or "it is nested too deeply"
         where = _place_of(str(error), source)
         report.add(codes.UNREADABLE_FILE, where, f"`{source.path.name}` is no TOML: {said}")
         return None
+    for one in _CAPITAL.finditer(source.text):
+        said = f"`{one[2]}` is no TOML, and was read as `{one[2].lower()}`"
+        report.add(codes.CAPITAL, source.span(*one.span(2)), said)
     return _leaves(tree, (), _places(source), source)
 
 
@@ -184,25 +192,43 @@ def _leaves(
 
 
 def _places(source: Source) -> dict[tuple[str, ...], tuple[Span, str]]:
-    """Where each key stands, and the comment above it; what is written strangely is left out."""
+    """Where each key stands, and its comment; what is written strangely is left out.
+
+    That is the comment above it, else the one behind it, which may go on in indented lines.
+    """
     found: dict[tuple[str, ...], tuple[Span, str]] = {}
     table: tuple[str, ...] = ()
     comments: list[str] = []
+    behind: tuple[str, ...] | None = None
     for number in range(1, len(source.line_starts) + 1):
         line = source.line(number)
         bare = line.strip()
+        said = _words(bare) if bare.startswith("#") else ""
+        if bare.startswith("#") and behind and line[0] in " \t":
+            span, doc = found[behind]
+            found[behind] = (span, f"{doc}\n{said}" if said else doc)
+            continue
+        behind = None
         if header := _HEADER.fullmatch(line.partition("#")[0].rstrip()):
             table, comments = _dotted(header[1]), []
         elif bare.startswith("#"):
-            comments.append(bare.strip("# \t"))
+            comments += [said] if said else []
         elif "=" in bare:
             start = source.line_starts[number - 1] + len(line) - len(line.lstrip())
             path = (*table, *_dotted(bare.partition("=")[0]))
-            found.setdefault(path, (source.span(start, start + len(bare)), "\n".join(comments)))
+            doc = "\n".join(comments) or _words(_BEHIND.sub("", bare))
+            behind = path if doc and not comments and path not in found else None
+            found.setdefault(path, (source.span(start, start + len(bare)), doc))
             comments = []
         else:
             comments = []
     return found
+
+
+def _words(comment: str) -> str:
+    """A line of a comment without what frames it; nothing of a line that only frames."""
+    bare = comment.strip("# \t\u2500\u2550")
+    return bare if any(c.isalnum() for c in bare) else ""
 
 
 def _dotted(text: str) -> tuple[str, ...]:

@@ -39,7 +39,8 @@ def recorded(plan: Plan, report: Report, shown: Callable[[Path], str]) -> Output
     """`MIGRATION.md`."""
     findings = sorted(report.sorted(), key=lambda d: d.severity is Severity.NOTE)
     steps = [f"rcgen check {place or '.'}" for place, _ in plan.components]
-    steps += [f"(cd {p or '.'} && python3 main.py)" for p, m in plan.components if m.component]
+    started = [place for place, moved in plan.components if moved.component]
+    steps += [f"(cd {p} && python3 main.py)" if p else "python3 main.py" for p in started]
     if plan.deployment:
         steps += [f"rcdeploy {plan.deployment} plan", f"rcdeploy {plan.deployment}"]
     code = any(f.path.endswith("legacy.py") for f in plan.files)

@@ -55,6 +55,9 @@ class Listed:
     doc: str = ""
 
 
+MOST_LISTED = 5
+"""So many missing keys of a file are named."""
+
 Node: TypeAlias = Leaf | Branch | Listed
 Tree: TypeAlias = tuple[Node, ...]
 
@@ -93,6 +96,7 @@ def infer(configs: Sequence[tuple[Config, Sequence[Entry]]], report: Report) -> 
             at.entries[number] = one
     builder = _Builder([config for config, _ in configs], report)
     tree = tuple(builder.members(root, ()))
+    builder.tell_missing()
     return Parameters(tree, tuple(builder.values), bool(configs) and configs[0][0].typed)
 
 
@@ -103,6 +107,7 @@ class _Builder:
         self.configs = configs
         self.report = report
         self.values: list[Values] = [{} for _ in configs]
+        self.missing: list[list[Entry]] = [[] for _ in configs]
 
     def members(self, given: _Given, path: tuple[str, ...]) -> Iterator[Node]:
         taken: set[str] = set()
@@ -122,7 +127,7 @@ class _Builder:
             if members := tuple(self.members(given, path)):
                 yield Branch(path[-1], members)
             return
-        self.tell_missing(given)
+        self.look_for_missing(given)
         first = next(iter(given.entries.values()))
         is_list = _is_plain_list(first.value)
         fitting = {}
@@ -179,13 +184,25 @@ class _Builder:
             said = f"`{old:.60}` in `{entry.key:.80}` is called `{name:.60}` now"
             self.report.add(codes.RENAMED_KEY, entry.span, said)
 
-    def tell_missing(self, given: _Given) -> None:
+    def look_for_missing(self, given: _Given) -> None:
         entry = next(iter(given.entries.values()))
-        for number, config in enumerate(self.configs):
+        for number, missing in enumerate(self.missing):
             if number not in given.entries:
-                said = f"`{config.path.name}` does not give `{entry.key}`; it has the default there"
-                where = Note(entry.span, "the default comes from here")
-                self.report.add(codes.MISSING_KEY, config.source.whole, said, notes=(where,))
+                missing.append(entry)
+
+    def tell_missing(self) -> None:
+        """One finding for each file, whatever it lacks."""
+        for config, missing in zip(self.configs, self.missing, strict=True):
+            if missing:
+                names = [f"`{one.key}`" for one in missing]
+                listed = ", ".join(names[:MOST_LISTED])
+                more = f" and {len(names) - MOST_LISTED} more" if len(names) > MOST_LISTED else ""
+                have = "they have their defaults" if len(names) > 1 else "it has its default"
+                said = f"`{config.path.name}` does not give {listed}{more}; {have} there"
+                notes = [Note(one.span, f"`{one.key}` comes from here") for one in missing]
+                self.report.add(
+                    codes.MISSING_KEY, config.source.whole, said, notes=notes[:MOST_LISTED]
+                )
 
     def clash(self, entry: Entry, what: str, other: Entry, is_: str) -> None:
         said = f"`{entry.key}` is {what} here and {is_} elsewhere; it was left out"

@@ -48,7 +48,10 @@ def _key(port: str, interface: Interface, addresses: dict[str, Address]) -> str:
 def _server(
     one: Instance, interface: Interface, address: Address | None, instances: Sequence[Instance]
 ) -> Instance | None:
-    """Who serves `interface` there; without an address, or where nobody listens, the only one."""
+    """Who serves `interface` there; without an address, or where nobody listens, the only one.
+
+    One that is like itself and listens elsewhere is not meant by an address.
+    """
     serving = [other for other in instances if other is not one and other.serves(interface)]
     if address is not None:
         at = [other for other in serving if any(meets(address, a, other) for a in other.listens)]
@@ -56,6 +59,7 @@ def _server(
             return at[0]
         if any(meets(address, a, o) for o in instances for a in o.listens if not o.component):
             return None
+        serving = [other for other in serving if other.component is not one.component]
     return serving[0] if len(serving) == 1 and not serving[0].peer else None
 
 

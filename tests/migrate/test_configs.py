@@ -252,3 +252,63 @@ def test_any_text_configuration_loads_what_it_says(seed: int, tmp_path: Path) ->
                 kind = type(values[path])
                 text = given[node.old]
                 assert values[path] == ((text.lower() == "true") if kind is bool else kind(text))
+
+
+def test_what_a_file_lacks_is_one_finding() -> None:
+    keys = "\n".join(f"k{i} = {i}" for i in range(7))
+    _, _, report = inferred({"config": f"{keys}\nx = 1\n", "a": "x = 2\n", "b": f"{keys}\n"})
+    said = [d.message for d in report.sorted() if d.code.id == "RC936"]
+    assert said == [
+        "`a` does not give `k0`, `k1`, `k2`, `k3`, `k4` and 2 more; they have their defaults there",
+        "`b` does not give `x`; it has its default there",
+    ]
+
+
+PYTHONIC = """noSafe=True
+text = "x = True" # = False
+[a]
+b = False  # off
+c = 'True'
+"""
+
+
+def test_truth_as_python_writes_it() -> None:
+    report = Report()
+    config = read_config(Source(Path("config.toml"), PYTHONIC), report)
+    assert config is not None
+    values = {one.key: one.value for one in config.entries}
+    assert values == {"noSafe": True, "text": "x = True", "a.b": False, "a.c": "True"}
+    said = [(d.code.id, d.span.begin, d.span.text) for d in report.sorted()]
+    assert said == [("RC939", (1, 8), "True"), ("RC939", (4, 5), "False")]
+
+
+COMMENTED = """[a]
+# ══════════════
+# ── Early exit ──
+early = true  # not this
+far = 0.15  # in m
+steps = 5     # warm-up
+               # of some frames
+               # ─────
+next = 1
+
+# alone
+
+odd = "a # b"  # is 'it'
+even = 'c # d'
+list = [1, 2]  # some
+"""
+
+
+def test_comments_of_toml() -> None:
+    config = read_config(Source(Path("config.toml"), COMMENTED), Report())
+    assert config is not None
+    assert {one.key: one.doc for one in config.entries} == {
+        "a.early": "Early exit",
+        "a.far": "in m",
+        "a.steps": "warm-up\nof some frames",
+        "a.next": "",
+        "a.odd": "is 'it'",
+        "a.even": "",
+        "a.list": "some",
+    }

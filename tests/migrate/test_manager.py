@@ -143,3 +143,38 @@ def test_every_node_says_where_it_stood() -> None:
     assert nodes is not None
     (one,) = nodes
     assert (one.name, one.host, one.span.begin[0]) == ("a", "h", 2)
+
+
+CHAIN = """[[components]]
+name = "front"
+cwd = "~/x/filter"
+cmd = "bin/filter etc/config_front"
+
+[[components]]
+name = "back"
+cwd = "~/x/filter"
+cmd = "bin/filter etc/config_back"
+"""
+
+
+def test_two_of_a_kind_are_not_wired_in_a_circle(rcgen, tmp_path: Path) -> None:
+    (tmp_path / "sub.toml").write_text(CHAIN)
+    etc = tmp_path / "filter" / "etc"
+    etc.mkdir(parents=True)
+    (tmp_path / "filter" / "filter.cdsl").write_text(
+        'import "Laser.idsl";\nComponent filter\n{\n'
+        "    Communications { implements Laser; requires Laser; };\n    language Python;\n};\n"
+    )
+    # Both call what is not there; then one calls the other.
+    for called, wires in ((10008, {"front": "laser", "back": "laser"}), (11991, {"back": "laser"})):
+        for name, port in (("front", 11990), ("back", 11991)):
+            to = 10008 if name == "back" else called
+            (etc / f"config_{name}").write_text(
+                f"Laser.Endpoints=tcp -p {port}\nLaserProxy=laser:tcp -h localhost -p {to}\n"
+            )
+        out = tmp_path / f"out{called}"
+        rcgen("migrate", tmp_path / "sub.toml", tmp_path / "filter", "-o", out)
+        found = check_ddsl(out / "sub.ddsl", Workspace(), Report())
+        assert found is not None
+        made = {one.source.name: one.target.name for one in found.connections}
+        assert made == {"front": "back", **wires}
