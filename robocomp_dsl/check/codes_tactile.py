@@ -90,7 +90,8 @@ TAXELS_OFF_BODY = Code(
     Severity.ERROR,
     "taxels are not on their body",
     """\
-A taxel lies within 15 mm of the cone of its limb or patch; further away it would feel nothing.
+A taxel lies within 15 mm of the cone of its limb or patch; further away it would feel nothing. So
+it is with a receptive field that has no taxel of its limb in it.
 Mostly millimetres stand where metres were meant, or the frame is that of another limb.
 
 Wrong:
@@ -112,10 +113,11 @@ Right:
 TACTILE_TWICE = Code(
     "RC826",
     Severity.ERROR,
-    "a taxel id or a joint is used twice",
+    "something of a kind is there twice",
     """\
-Frames tell values by the id of a taxel, so that it is one of a kind on the whole robot; and two
-generic servos cannot command one joint.
+Frames tell values by the id of a taxel, so that it is one of a kind on the whole robot, as the
+name of a patch is; two generic servos cannot command one joint, two limbs cannot lie on one body,
+and the fields of a part have names of their own.
 
 Wrong:
 

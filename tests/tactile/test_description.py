@@ -114,14 +114,42 @@ def faults(text: str) -> list[str]:
         ("limb: lower, points", "limb: upper, points", "no limb `upper` (limbs: lower)"),
         ("count: 8", "count: 0", "at least one x and one module"),
         ("first_id: 100", "first_id: 1", "taxel id 1 of `dots` is also in `rings`"),
-        ("[0.05, 0], [", "[0.15, 0], [", "1 taxels of `dots` are off their body (taxel 0 is 50 mm"),
+        ("[0.05, 0], [", "[0.15, 0], [", "1 taxel of `dots` is off its body (taxel 0 is 50 mm"),
+        ("x: 0.05, theta", "x: 0.5, theta", "no taxel of `lower` is in the field `back` (the near"),
+        (
+            "theta: 0, radius",
+            "theta: 90, radius",
+            "more than a whole turn (is it meant in degrees?",
+        ),
+        ("theta: 0, radius", "theta: 3 mm, radius", "an angle is needed here, and `mm` is no unit"),
+        ("[0.02, 0.10]", "[20 deg, 0.10]", "a length is needed here, and `deg` is no unit of one"),
+        ("gamma: -1,", "gamma: -1 m,", "a number is needed here, and `m` is no unit of one (with"),
+        ("[-0.2, 0.3", "[-50, 0.3", "moves `Pitch` by -50, more than it can turn at all (from"),
+        ("[-0.2, 0.3", "[-50, 0.3", "is it meant in degrees? write `-50 deg`"),
+        ("sigma: 90 deg", "sigma: 90", "is it meant in degrees? write `90 deg`"),
+        ("stiffness: 0.8", "stiffness: -0.8", "the stiffness of `Pitch` must not be negative"),
+        ("damping: 0.1", "damping: -0.1", "the damping of `Pitch` must not be negative"),
+        ("count: 8", "count: 334", "at most 1000 modules, not 1002"),
+        (
+            "first_id: 100",
+            "first_id: -1",
+            "taxels cannot have ids from -1 (ids are 0 to 2147483647",
+        ),
+        ("first_id: 100", "first_id: 2147483400", "taxels cannot have ids from 2147483400"),
+        ("patch: dots", "patch: rings", "there are two patches of the name `rings`"),
+        (
+            "    skin:",
+            "      hand: {body: LForeArm, cone: {x: [0, 1], r: [1, 1]}}\n    skin:",
+            "the body `LForeArm` is below the skin of `hand` and of `lower`",
+        ),
         ("floor: 2", "floor: 300", "0 <= floor < saturation"),
         ("radius: 30 mm", "radius: 0", "radius of a field must be positive"),
         ("[-0.2, 0.3, 0]", "[-0.2, 0.3]", "3 entries are needed, there are 2"),
-        ("points: [[0.05, 0], [0.06, 1]]", "file: none.txt", "taxel positions cannot be read"),
+        ("[-0.2, 0.3, 0]", "[-0.2]", "3 entries are needed, there is 1"),
+        ("points: [[0.05, 0], [0.06, 1]]", "file: none.txt", "positions `none.txt` cannot be read"),
         ("sensitivity: {", "file: x, sensitivity: {", "exactly one of rings, points, file"),
         ("robot: two_link", "", "`robot` is missing here"),
-        ("position: [0, 98 mm", "position: [0, 98 miles", "a number is needed here (a unit may"),
+        ("position: [0, 98 mm", "position: [0, 98 miles", "a length is needed here (a unit may"),
         ("    limbs:", "    servos: []\n    limbs:", "`servos` is given twice"),
     ],
 )
@@ -135,6 +163,19 @@ def test_faults_are_found_with_their_place(old, new, expected):
 )
 def test_texts_that_are_no_description(text):
     assert faults(text)
+
+
+def test_two_fields_of_one_name_are_told():
+    again = GOOD + GOOD.splitlines()[-1] + "\n"
+    assert "there are two fields of the name `back`" in faults(again)[0]
+
+
+def test_units_may_be_written_behind_numbers_that_count_in_degrees():
+    written = GOOD.replace("limits: [0, 160], speed: 100,", "limits: [0, 2.5 rad], speed: 100 deg,")
+    roll = read_robot(written, Path("r.yaml")).part("left_arm").servos[1]
+    assert (roll.low, roll.high, roll.speed) == pytest.approx((0.0, np.rad2deg(2.5), 100.0))
+    held = read_robot(GOOD.replace("at: 30", "at: 30 deg"), Path("r.yaml")).part("left_arm").held
+    assert held[0].at == pytest.approx(np.deg2rad(30))
 
 
 def test_all_faults_are_told_at_once():
@@ -228,12 +269,30 @@ def test_the_listing_with_root_limits_and_destination_part():
     assert (part.servos[1].low, part.servos[1].high) == (-55, 55)
 
 
+def test_a_listing_may_quote_as_xml_does():
+    part, other = (read_listing(one, Path("l.xml")) for one in (PRINTED, PRINTED.replace('"', "'")))
+    assert other.servos == part.servos
+
+
+def test_a_servo_that_is_there_twice_is_told():
+    start, end = PRINTED.index("<generic_servo "), PRINTED.index("</generic_servo>")
+    again = PRINTED[start:end].replace('id="1"', 'id="0"') + "</generic_servo>"
+    with pytest.raises(DescriptionError) as caught:
+        read_listing(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
+    (found,) = caught.value.findings
+    assert (found.message, found.fault) == (
+        "the destination servo `2` is there twice",
+        Fault.TWICE,
+    )
+
+
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
         ("</generic_servo>", "", "l.xml:3:3: <generic_servo> is never closed"),
-        ('id="1"', 'id="2"', "l.xml:3:3: the id is not one of 0 to 1"),
-        ('id="1"', "", "not one of 0 to 1"),
+        ('id="1"', 'id="2"', "l.xml:3:3: the ids of the generic servos are 0 to 1"),
+        ('id="1"', "", "l.xml:3:3: <generic_servo> has no attribute `id`"),
+        ('pos="15.00"', "", "<servo> has no attribute `pos`"),
         (">1.00</transform_factor", ">0</transform_factor", "factor of 0 cannot be turned"),
         (">20.00<", ">fast<", "l.xml:9:5: `fast` in <speed> is not a number"),
         (">2</generic_servo_number", ">0</generic_servo_number", "must say how many"),

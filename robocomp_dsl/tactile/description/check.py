@@ -12,7 +12,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from robocomp_dsl.tactile.description.located import UNITS, Place, Reading
+from robocomp_dsl.tactile.description.located import UNITS, Place, Reading, meant_in_degrees
 from robocomp_dsl.tactile.description.model import Held, Limb, Part, Patch, Robot, Servo
 from robocomp_dsl.tactile.errors import Fault, Finding
 
@@ -44,6 +44,8 @@ def check(robot: Robot, reading: Reading) -> None:
         for patch in part.patches:
             _on_body(part, patch, complain)
     _ids_once(robot, complain)
+    _patches_once(robot, complain)
+    _bodies_once(robot, complain)
 
 
 def compare(robot: Robot, facts: Facts) -> None:
@@ -77,19 +79,25 @@ def _servo(servo: Servo, complain: Complain) -> None:
     if not servo.joint:
         if not servo.low <= servo.sigma <= servo.high:
             said = f"sigma {servo.sigma:g} of the missing joint leaves its limits"
-            complain(Fault.LIMITS, servo.place, said, f"they are {servo.low:g} to {servo.high:g}")
+            allowed = f"they are {servo.low:g} to {servo.high:g} {servo.unit}"
+            complain(Fault.LIMITS, servo.place, said, allowed)
         return
     if servo.speed <= 0.0:
         complain(Fault.FORM, servo.place, f"the speed of `{servo.joint}` must be positive", "")
+    for name, value in (("stiffness", servo.stiffness), ("damping", servo.damping)):
+        if value < 0.0:
+            said = f"the {name} of `{servo.joint}` must not be negative"
+            complain(Fault.FORM, servo.place, said, "")
     if not servo.low <= servo.start <= servo.high:
         said = f"the start pose {servo.start:g} of `{servo.joint}` leaves its limits"
         allowed = f"they are {servo.low:g} to {servo.high:g} {servo.unit}"
-        complain(Fault.LIMITS, servo.place, said, allowed)
+        degrees = "" if servo.unit == "deg" else meant_in_degrees(servo.start, servo.high)
+        complain(Fault.LIMITS, servo.place, said, allowed + degrees)
     ends = servo.gamma * np.array([servo.low, servo.high]) + servo.sigma
     if servo.unit in ("deg", "rad") and np.abs(ends).max() > WIDEST:
         said = f"sigma and gamma of `{servo.joint}` leave the limits of a turning joint"
-        reach = f"its generic range is {ends.min():.3f} to {ends.max():.3f}"
-        complain(Fault.LIMITS, servo.place, said, reach)
+        reach = f"its generic angles would be {ends.min():.4g} to {ends.max():.4g} rad"
+        complain(Fault.LIMITS, servo.place, said, reach + meant_in_degrees(servo.sigma, WIDEST))
 
 
 def _joints_once(part: Part, complain: Complain) -> None:
@@ -125,7 +133,8 @@ def _on_body(part: Part, patch: Patch, complain: Complain) -> None:
     off = np.flatnonzero(away > OFF_BODY)
     if len(off):
         worst = off[np.argmax(away[off])]
-        said = f"{len(off)} taxels of `{patch.name}` are off their body"
+        many, one = "taxels of `{}` are off their body", "taxel of `{}` is off its body"
+        said = f"{len(off)} {(many if len(off) > 1 else one).format(patch.name)}"
         far = f"taxel {patch.ids[worst]} is {1000 * away[worst]:.0f} mm from `{patch.limb}`"
         complain(Fault.OFF_BODY, patch.place, said, far)
 
@@ -137,9 +146,31 @@ def _ids_once(robot: Robot, complain: Complain) -> None:
             twice = [one for one in patch.ids if one in owner]
             if twice:
                 said = f"taxel id {twice[0]} of `{patch.name}` is also in `{owner[twice[0]]}`"
-                apart = f"{len(twice)} ids occur twice; choose `first_id` apart"
-                complain(Fault.TWICE, patch.place, said, apart)
+                count = "1 id occurs" if len(twice) == 1 else f"{len(twice)} ids occur"
+                way = f"{count} twice; choose `first_id` apart"
+                complain(Fault.TWICE, patch.place, said, way)
             owner.update(dict.fromkeys(patch.ids, patch.name))
+
+
+def _patches_once(robot: Robot, complain: Complain) -> None:
+    seen: set[str] = set()
+    for patch in (patch for part in robot.parts for patch in part.patches):
+        if patch.name in seen:
+            said = f"there are two patches of the name `{patch.name}`"
+            complain(Fault.TWICE, patch.place, said, "")
+        seen.add(patch.name)
+
+
+def _bodies_once(robot: Robot, complain: Complain) -> None:
+    """What touches a body is felt by one limb."""
+    owner: dict[str, str] = {}
+    for part in robot.parts:
+        for limb in part.limbs:
+            for body in (limb.body, *limb.covers):
+                if body in owner:
+                    said = f"the body `{body}` is below the skin of `{limb.name}`"
+                    complain(Fault.TWICE, limb.place, f"{said} and of `{owner[body]}`", "")
+                owner.setdefault(body, limb.name)
 
 
 def _exists(servo: Servo, joints: Mapping[str, tuple[float, float]], complain: Complain) -> None:

@@ -17,12 +17,14 @@ from pathlib import Path
 
 from robocomp_dsl.tactile.description.located import UNITS, Place
 from robocomp_dsl.tactile.description.model import Held, Part, Servo
-from robocomp_dsl.tactile.errors import DescriptionError, Finding
+from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
 
 _TOKEN = re.compile(
-    r"<!--.*?-->|<\?.*?\?>|<(/?)\s*([\w.-]+)((?:\s+[\w.-]+\s*=\s*\"[^\"]*\")*)\s*(/?)>", re.DOTALL
+    r"<!--.*?-->|<\?.*?\?>"
+    r"|<(/?)\s*([\w.-]+)((?:\s+[\w.-]+\s*=\s*(?:\"[^\"]*\"|'[^']*'))*)\s*(/?)>",
+    re.DOTALL,
 )
-_ATTRIBUTE = re.compile(r"([\w.-]+)\s*=\s*\"([^\"]*)\"")
+_ATTRIBUTE = re.compile(r"([\w.-]+)\s*=\s*([\"'])(.*?)\2", re.DOTALL)
 _ALIASES = {"initial_postions": "initial_positions"}
 _MOST_SERVOS = 1000
 _DEEPEST = 20
@@ -47,8 +49,9 @@ class _Listing:
     file: Path
     findings: list[Finding] = field(default_factory=list)
 
-    def complain(self, place: Place, message: str) -> None:
-        self.findings.append(Finding(str(self.file), place.line, place.column, message))
+    def complain(self, place: Place, message: str, fault: Fault = Fault.FORM) -> None:
+        found = Finding(str(self.file), place.line, place.column, message, fault=fault)
+        self.findings.append(found)
 
     def value(self, element: _Element | None, default: float) -> float:
         """The number an element holds."""
@@ -64,6 +67,13 @@ class _Listing:
         if math.isfinite(value):
             return value
         self.complain(element.place, f"`{text.strip()}` in <{element.tag}> is not a number")
+        return default
+
+    def attribute(self, element: _Element, key: str, default: float = 0.0) -> float:
+        """The attribute `key` as a number; `default` after a complaint."""
+        if key in element.attributes:
+            return self.number(element.attributes[key], element, default)
+        self.complain(element.place, f"<{element.tag}> has no attribute `{key}`")
         return default
 
 
@@ -88,17 +98,28 @@ def read_listing(text: str, file: Path, joints: tuple[str, ...] = ()) -> Part:
     starts = _starts(root, listing)
     servos = {}
     for element in _all(root, "generic_servo"):
-        index = int(listing.number(element.attributes.get("id", ""), element, -1))
+        index = int(listing.attribute(element, "id", -1))
         if not 0 <= index < size or index in servos:
-            listing.complain(element.place, f"the id is not one of 0 to {size - 1}, once each")
+            said = f"the ids of the generic servos are 0 to {size - 1}, once each"
+            listing.complain(element.place, said)
         else:
             servos[index] = _servo(element, listing, starts, joints)
+    _joints_once(servos.values(), listing)
     if listing.findings:
         raise DescriptionError(listing.findings)
     part = name.text.strip()
     held = tuple(_held(starts, servos.values(), joints, name.place))
     absent = _absent(name.place)
     return Part(part, tuple(servos.get(i, absent) for i in range(size)), held=held)
+
+
+def _joints_once(servos: Iterable[Servo], listing: _Listing) -> None:
+    seen: set[str] = set()
+    for servo in servos:
+        if servo.qualified in seen:
+            said = f"the destination servo `{servo.qualified}` is there twice"
+            listing.complain(servo.place, said, Fault.TWICE)
+        seen.add(servo.qualified)
 
 
 def _servo(
@@ -118,7 +139,7 @@ def _servo(
         listing.complain(element.place, "a transform factor of 0 cannot be turned round")
     limits, part = element.child("limits"), element.child("destination_part")
     low, high = (
-        (listing.number(limits.attributes.get(key, ""), limits) for key in ("min", "max"))
+        (listing.attribute(limits, key) for key in ("min", "max"))
         if limits
         else (-math.inf, math.inf)
     )
@@ -170,8 +191,8 @@ def _starts(root: _Element, listing: _Listing) -> dict[int, tuple[str, float]]:
             unit = one.attributes.get("type", "deg")
             if unit not in UNITS:
                 listing.complain(one.place, f"`{unit}` is no unit: use {', '.join(UNITS)}")
-            servo = int(listing.number(one.attributes.get("destination_servo_id", ""), one, -1))
-            starts[servo] = (unit, listing.number(one.attributes.get("pos", ""), one))
+            servo = int(listing.attribute(one, "destination_servo_id", -1))
+            starts[servo] = (unit, listing.attribute(one, "pos"))
     return starts
 
 
@@ -198,7 +219,8 @@ def _tree(text: str, listing: _Listing) -> _Element:
         if closing:
             _close(stack, tag, place, listing)
             continue
-        element = _Element(tag, dict(_ATTRIBUTE.findall(attributes)), place)
+        given = {key: value for key, _, value in _ATTRIBUTE.findall(attributes)}
+        element = _Element(tag, given, place)
         stack[-1].children.append(element)
         if not empty and len(stack) < _DEEPEST:
             stack.append(element)

@@ -2,7 +2,8 @@
 
 In: a text. Out: `Entry` trees that hand out tables, lists, numbers and words. What is wrong is
 collected in `Reading.findings` and a harmless value is returned, so that reading goes on and all
-faults are told at once. A number may carry a unit: `90 deg`, `62.5 mm`; rad and m are meant else.
+faults are told at once. A length or an angle may carry a unit: `90 deg`, `62.5 mm`; rad and m are
+meant else.
 """
 
 from __future__ import annotations
@@ -15,10 +16,18 @@ from pathlib import Path
 
 import yaml
 
-from robocomp_dsl.tactile.errors import DescriptionError, Finding
+from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
 
 UNITS = {"deg": math.pi / 180.0, "rad": 1.0, "mm": 0.001, "m": 1.0}
+UNITS_OF = {"a number": (), "an angle": ("deg", "rad"), "a length": ("mm", "m")}
+NUMBER, ANGLE, LENGTH = UNITS_OF
 _QUANTITY = re.compile(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(deg|rad|mm|m)?")
+
+
+def meant_in_degrees(value: float, largest: float) -> str:
+    """The end of a sentence where `value` [rad] is too much, and would not be in degrees."""
+    fits = abs(value) > 2 * math.pi and abs(value) * UNITS["deg"] <= largest
+    return f"; is it meant in degrees? write `{value:g} deg`" if fits else ""
 
 
 @dataclass(slots=True)
@@ -72,10 +81,10 @@ class Entry:
         """Line and column of its first character."""
         return Place(self.node.start_mark.line + 1, self.node.start_mark.column + 1)
 
-    def complain(self, message: str, help: str = "") -> None:
+    def complain(self, message: str, help: str = "", fault: Fault = Fault.FORM) -> None:
         """Note a fault of this value."""
         file, place = str(self.reading.file), self.place
-        self.reading.findings.append(Finding(file, place.line, place.column, message, help))
+        self.reading.findings.append(Finding(file, place.line, place.column, message, help, fault))
 
     def table(self) -> Table:
         """The value as a table; an empty one after a complaint."""
@@ -99,7 +108,9 @@ class Entry:
             self.complain("a list is needed here")
             return []
         if count is not None and len(self.node.value) != count:
-            self.complain(f"{count} entries are needed, there are {len(self.node.value)}")
+            there = len(self.node.value)
+            are = "is" if there == 1 else "are"
+            self.complain(f"{count} entries are needed, there {are} {there}")
             return []
         return [Entry(self.reading, node) for node in self.node.value]
 
@@ -110,30 +121,42 @@ class Entry:
         self.complain("a word is needed here")
         return ""
 
-    def number(self) -> float:
-        """The value in SI units; 0 after a complaint."""
+    def number(self, what: str, counted: str = "") -> float:
+        """The value, `what` of `UNITS_OF`; 0 after a complaint.
+
+        In SI units, or as something that is `counted` in this unit has it; then so is a number that
+        carries none.
+        """
         match = None
         if isinstance(self.node, yaml.ScalarNode):
             match = _QUANTITY.fullmatch(self.node.value.strip())
         try:
-            value = float(match[1]) * UNITS[match[2] or "m"] if match else math.nan
+            value = float(match[1]) if match else math.nan
         except ValueError:
             value = math.nan
-        if math.isfinite(value):
+        unit, units = match[2] if match else None, UNITS_OF[what]
+        allowed = f"a unit may follow: {', '.join(units)}" if units else "without a unit"
+        if not math.isfinite(value):
+            self.complain(f"{what} is needed here", allowed)
+            return 0.0
+        if unit is None:
             return value
-        self.complain("a number is needed here", "a unit may follow: deg, rad, mm, m")
-        return 0.0
+        if unit not in units:
+            self.complain(f"{what} is needed here, and `{unit}` is no unit of one", allowed)
+        return value * UNITS[unit] / UNITS[counted or "m"]
 
     def integer(self) -> int:
         """The value as a whole number; 0 after a complaint."""
-        value = self.number()
+        value = self.number(NUMBER)
         if value != int(value):
             self.complain("a whole number is needed here")
         return int(value)
 
-    def numbers(self, count: int) -> tuple[float, ...]:
-        """A list of `count` numbers; zeros after a complaint."""
-        return tuple(item.number() for item in self.items(count)) or (0.0,) * count
+    def numbers(self, what: tuple[str, ...], counted: str = "") -> tuple[float, ...]:
+        """A list of as many numbers as `what` has entries; zeros after a complaint."""
+        items = self.items(len(what))
+        found = (item.number(one, counted) for item, one in zip(items, what, strict=False))
+        return tuple(found) or (0.0,) * len(what)
 
 
 @dataclass(slots=True)
@@ -156,20 +179,22 @@ class Table:
             self.entry.complain(f"`{key}` is missing here")
         return found
 
-    def number(self, key: str, default: float | None = None) -> float:
+    def number(self, key: str, what: str, default: float | None = None, counted: str = "") -> float:
         """The number at `key`; without a default it must be there."""
         found = self.need(key) if default is None else self.get(key)
-        return found.number() if found else default or 0.0
+        return found.number(what, counted) if found else default or 0.0
 
     def text(self, key: str, default: str | None = None) -> str:
         """The word at `key`; without a default it must be there."""
         found = self.need(key) if default is None else self.get(key)
         return found.text() if found else default or ""
 
-    def numbers(self, key: str, count: int, default: tuple[float, ...] = ()) -> tuple[float, ...]:
-        """The list of `count` numbers at `key`; without a default it must be there."""
+    def numbers(
+        self, key: str, what: tuple[str, ...], default: tuple[float, ...] = (), counted: str = ""
+    ) -> tuple[float, ...]:
+        """The list of numbers at `key`; without a default it must be there."""
         found = self.get(key) if default else self.need(key)
-        return found.numbers(count) if found else default or (0.0,) * count
+        return found.numbers(what, counted) if found else default or (0.0,) * len(what)
 
     def finish(self) -> None:
         """Complain about keys that mean nothing here, naming the nearest that does."""

@@ -24,7 +24,16 @@ import numpy as np
 from robocomp_dsl.tactile.arm.chain import Chain, Row
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.check import check
-from robocomp_dsl.tactile.description.located import UNITS, Entry, Reading, Table
+from robocomp_dsl.tactile.description.located import (
+    ANGLE,
+    LENGTH,
+    NUMBER,
+    UNITS,
+    UNITS_OF,
+    Entry,
+    Reading,
+    Table,
+)
 from robocomp_dsl.tactile.description.model import Held, Limb, Part, Robot, Servo
 from robocomp_dsl.tactile.description.skin import read_fields, read_patches
 from robocomp_dsl.tactile.skin.cone import Cone
@@ -62,7 +71,7 @@ def _part(name: str, entry: Entry) -> Part:
     rows = limb_table.table().rows if limb_table else {}
     limbs = {key: _limb(key, one) for key, one in rows.items()}
     patches = read_patches(table.get("skin"), limbs)
-    fields = read_fields(table.get("fields"), limbs, len(servos))
+    fields = read_fields(table.get("fields"), limbs, patches, servos)
     kept = table.get("held")
     held = tuple(_held(one) for one in kept.items()) if kept else ()
     table.finish()
@@ -72,21 +81,22 @@ def _part(name: str, entry: Entry) -> Part:
 
 def _servo(entry: Entry) -> Servo:
     table = entry.table()
-    joint = table.text("joint", "")
-    low, high = table.numbers("limits", 2, () if joint else (-np.inf, np.inf))
-    unit = _unit(table, entry)
+    joint, unit = table.text("joint", ""), _unit(table, entry)
+    what = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
+    endless = () if joint else (-np.inf, np.inf)
+    low, high = table.numbers("limits", (what, what), endless, counted=unit)
     gamma = _gamma(table, entry, joint)
     servo = Servo(
         joint=joint,
         part=table.text("part", ""),
         gamma=gamma,
-        sigma=table.number("sigma"),
+        sigma=table.number("sigma", what),
         low=min(low, high),
         high=max(low, high),
-        speed=table.number("speed", None if joint else 0.0),
-        stiffness=table.number("stiffness", 0.0),
-        damping=table.number("damping", 0.0),
-        start=table.number("start", 0.0),
+        speed=table.number("speed", what, None if joint else 0.0, unit),
+        stiffness=table.number("stiffness", NUMBER, 0.0),
+        damping=table.number("damping", NUMBER, 0.0),
+        start=table.number("start", what, 0.0, unit),
         unit=unit,
         place=entry.place,
     )
@@ -98,8 +108,10 @@ def _servo(entry: Entry) -> Servo:
 
 def _held(entry: Entry) -> Held:
     table = entry.table()
-    unit = UNITS[_unit(table, entry)]
-    held = Held(table.text("joint"), table.text("part", ""), table.number("at") * unit, entry.place)
+    unit = _unit(table, entry)
+    what = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
+    at = table.number("at", what, counted=unit) * UNITS[unit]
+    held = Held(table.text("joint"), table.text("part", ""), at, entry.place)
     table.finish()
     return held
 
@@ -116,7 +128,7 @@ def _unit(table: Table, entry: Entry) -> str:
 def _gamma(table: Table, entry: Entry, joint: str) -> float:
     """The factor of a servo; 1 after a complaint, so that it is complained about once."""
     faults = len(entry.reading.findings)
-    gamma = table.number("gamma", None if joint else 1.0)
+    gamma = table.number("gamma", NUMBER, None if joint else 1.0)
     if gamma == 0.0 and len(entry.reading.findings) == faults:
         entry.complain("gamma must not be 0: a command could not be carried to the device")
     return gamma or 1.0
@@ -134,7 +146,7 @@ def _limb(name: str, entry: Entry) -> Limb:
 
 def _cone(entry: Entry) -> Cone:
     table = entry.table()
-    (x0, x1), (r0, r1) = table.numbers("x", 2), table.numbers("r", 2)
+    (x0, x1), (r0, r1) = (table.numbers(key, (LENGTH,) * 2) for key in ("x", "r"))
     table.finish()
     try:
         return Cone(x0, x1, r0, r1)
@@ -158,13 +170,13 @@ def _chain(entry: Entry, size: int) -> Chain:
 
 def _row(entry: Entry, size: int) -> Row:
     table = entry.table()
-    servo, fixed = table.get("servo"), table.number("fixed", 0.0)
+    servo, fixed = table.get("servo"), table.number("fixed", ANGLE, 0.0)
     joint = servo.integer() if servo else None
     if servo and not 0 <= (joint or 0) < size:
         servo.complain(f"there is no servo {joint}: the part has 0 to {size - 1}")
         joint = None
-    a, d, alpha = (table.number(key, 0.0) for key in ("a", "d", "alpha"))
-    offset = table.number("offset", 0.0)
+    a, d = (table.number(key, LENGTH, 0.0) for key in ("a", "d"))
+    alpha, offset = (table.number(key, ANGLE, 0.0) for key in ("alpha", "offset"))
     table.finish()
     return Row(a, d, alpha, offset + (fixed if joint is None else 0.0), joint)
 
@@ -182,8 +194,8 @@ def _pose_at(table: Table, key: str) -> Floats:
 def _pose(table: Table) -> Floats:
     """4 x 4 from `position` and `rpy` (turns about the fixed x, y, z, in this order)."""
     pose = np.eye(4)
-    pose[:3, 3] = table.numbers("position", 3, _NO_TURN)
-    roll, pitch, yaw = table.numbers("rpy", 3, _NO_TURN)
+    pose[:3, 3] = table.numbers("position", (LENGTH,) * 3, _NO_TURN)
+    roll, pitch, yaw = table.numbers("rpy", (ANGLE,) * 3, _NO_TURN)
     pose[:3, :3] = rotation(roll, pitch, yaw)
     return pose
 

@@ -9,9 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from robocomp_dsl.tactile.description.located import Entry, Table
-from robocomp_dsl.tactile.description.model import Limb, Patch
-from robocomp_dsl.tactile.errors import DescriptionError
+from robocomp_dsl.tactile.description.located import (
+    ANGLE,
+    LENGTH,
+    NUMBER,
+    Entry,
+    Table,
+    meant_in_degrees,
+)
+from robocomp_dsl.tactile.description.model import Limb, Patch, Servo
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 from robocomp_dsl.tactile.reflex.law import Field
 from robocomp_dsl.tactile.skin.cone import cartesian
 from robocomp_dsl.tactile.skin.layout import Layout, rings, singles
@@ -19,6 +26,10 @@ from robocomp_dsl.tactile.skin.normalise import Sensitivity
 from robocomp_dsl.tactile.skin.positions import read_positions
 
 _FORMS = ("rings", "points", "file")
+MOST_MODULES = 1000
+"""More in one patch is a slip of the keyboard."""
+MOST_IDS = 2**31
+"""An id is an `int` of Skin.idsl."""
 
 
 def read_patches(entry: Entry | None, limbs: dict[str, Limb]) -> tuple[Patch, ...]:
@@ -41,23 +52,31 @@ def _patch(entry: Entry, limbs: dict[str, Limb]) -> Patch | None:
     layout = _layout(*given[0], limb)
     if layout is None:
         return None
-    ids = tuple(int(i) for i in layout.offset + (first.integer() if first else 0))
+    start = first.integer() if first else 0
+    if not 0 <= start < MOST_IDS - layout.offset.max(initial=0):
+        entry.complain(f"taxels cannot have ids from {start}", f"ids are 0 to {MOST_IDS - 1}")
+        return None
+    ids = tuple(int(i) for i in layout.offset + start)
     return Patch(name, limb.name, ids, layout.points, layout.normals, sensitivity, entry.place)
 
 
 def _layout(form: str, entry: Entry, limb: Limb) -> Layout | None:
     if form == "points":
-        places = np.array([one.numbers(2) for one in entry.items()]).reshape(-1, 2)
+        places = np.array([one.numbers((LENGTH, ANGLE)) for one in entry.items()]).reshape(-1, 2)
         return singles(limb.cone, places) if len(places) else None
     if form == "file":
         return _from_file(entry, limb)
     table = entry.table()
     listed, count = table.need("x"), table.need("count")
     table.finish()
-    x = tuple(one.number() for one in listed.items()) if listed else ()
+    x = tuple(one.number(LENGTH) for one in listed.items()) if listed else ()
     around = count.integer() if count else 0
     if not x or around < 1:
         entry.complain("rings need at least one x and one module")
+        return None
+    if len(x) * around > MOST_MODULES:
+        said = f"a patch has at most {MOST_MODULES} modules, not {len(x) * around}"
+        entry.complain(said, "`count` is the number of modules in one ring")
         return None
     return rings(limb.cone, x, around)
 
@@ -72,7 +91,7 @@ def _from_file(entry: Entry, limb: Limb) -> Layout | None:
         return None
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or error
-        entry.complain(f"the taxel positions cannot be read: {why}")
+        entry.complain(f"the taxel positions `{entry.text()}` cannot be read: {why}")
         return None
     used = np.flatnonzero(read.used)
     points = limb.to_limb(read.positions[used])
@@ -84,8 +103,8 @@ def _sensitivity(table: Table) -> Sensitivity:
     if found is None:
         return Sensitivity()
     inner = found.table()
-    gain, floor = inner.number("gain", 1.0), inner.number("floor", 0.0)
-    saturation = inner.number("saturation", float("inf"))
+    gain, floor = inner.number("gain", NUMBER, 1.0), inner.number("floor", NUMBER, 0.0)
+    saturation = inner.number("saturation", NUMBER, float("inf"))
     inner.finish()
     try:
         return Sensitivity(gain, floor, saturation)
@@ -94,25 +113,65 @@ def _sensitivity(table: Table) -> Sensitivity:
         return Sensitivity()
 
 
-def read_fields(entry: Entry | None, limbs: dict[str, Limb], size: int) -> tuple[Field, ...]:
-    """The receptive fields of a part with `size` servos."""
-    made = [_field(one, limbs, size) for one in entry.items()] if entry else []
-    return tuple(one for one in made if one)
+def read_fields(
+    entry: Entry | None,
+    limbs: dict[str, Limb],
+    patches: tuple[Patch, ...],
+    servos: tuple[Servo, ...],
+) -> tuple[Field, ...]:
+    """The receptive fields of a part with these servos, on limbs with these patches."""
+    made: dict[str, Field] = {}
+    for one in entry.items() if entry else []:
+        field = _field(one, limbs, len(servos))
+        if field and field.name in made:
+            said = f"there are two fields of the name `{field.name}`"
+            one.complain(said, fault=Fault.TWICE)
+        elif field:
+            made[field.name] = field
+            _reached(field, patches, one)
+            _possible(field, servos, one)
+    return tuple(made.values())
 
 
 def _field(entry: Entry, limbs: dict[str, Limb], size: int) -> Field | None:
     table = entry.table()
-    name, limb = table.text("name"), _limb(table, limbs)
-    x, theta, radius = table.number("x"), table.number("theta"), table.number("radius")
-    rho, motion = table.get("rho"), table.numbers("motion", size)
+    name, limb, rho = table.text("name"), _limb(table, limbs), table.get("rho")
+    x, radius = (table.number(key, LENGTH) for key in ("x", "radius"))
+    theta = table.number("theta", ANGLE)
+    if abs(theta) > 2 * np.pi:
+        said = f"theta {theta:g} rad of the field `{name}` is more than a whole turn"
+        entry.complain(said, meant_in_degrees(theta, 2 * np.pi).removeprefix("; "))
+    motion = table.numbers("motion", (ANGLE,) * size)
     table.finish()
     if radius <= 0.0:
         entry.complain("the radius of a field must be positive")
         return None
     if limb is None:
         return None
-    out = rho.number() if rho else float(limb.cone.radius(x))
+    out = rho.number(LENGTH) if rho else float(limb.cone.radius(x))
     return Field(name, limb.name, cartesian(x, theta, out), radius, np.array(motion))
+
+
+def _reached(field: Field, patches: tuple[Patch, ...], entry: Entry) -> None:
+    """Where the limb has skin, some of it must be in the field."""
+    points = [patch.points for patch in patches if patch.limb == field.limb]
+    if not points:
+        return
+    away = float(np.linalg.norm(np.concatenate(points) - field.centre, axis=1).min(initial=np.inf))
+    if away >= field.radius:
+        said = f"no taxel of `{field.limb}` is in the field `{field.name}`"
+        nearest = f"the nearest is {1000 * away:.0f} mm from its centre"
+        entry.complain(said, nearest, Fault.OFF_BODY)
+
+
+def _possible(field: Field, servos: tuple[Servo, ...], entry: Entry) -> None:
+    """No joint can be told to turn by more than all that it can."""
+    for way, servo in zip(field.motion, servos, strict=True):
+        whole = abs(servo.gamma) * (servo.high - servo.low)
+        if servo.joint and abs(way) > whole:
+            said = f"`{field.name}` moves `{servo.joint}` by {way:g}, more than it can turn at all"
+            way_out = f"from limit to limit it is {whole:.3g}" + meant_in_degrees(way, whole)
+            entry.complain(said, way_out, Fault.LIMITS)
 
 
 def _limb(table: Table, limbs: dict[str, Limb]) -> Limb | None:
