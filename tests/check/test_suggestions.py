@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -19,9 +20,9 @@ def test_only_the_first_unknown_names_are_compared(
     compared: list[str] = []
     real = difflib.get_close_matches
 
-    def counted(word: str, *rest: object) -> list[str]:
+    def counted(word: str, *rest: Any) -> list[str]:
         compared.append(word)
-        return real(word, *rest)  # type: ignore[arg-type]
+        return real(word, *rest)
 
     monkeypatch.setattr(difflib, "get_close_matches", counted)
     unknown = "".join(f"Nonsense{n} f{n}; Flaot g{n};" for n in range(400))
