@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -99,9 +100,18 @@ def test_a_picture_is_news_once(world: Served, monkeypatch: pytest.MonkeyPatch) 
     assert later.alivetime == image.alivetime + 80
 
 
-def test_nobody_waits_for_a_picture_where_time_is_the_machines_own(world: Served) -> None:
-    port = world.ports["CameraRGBDSimple"]
+def test_nobody_waits_for_a_picture_where_time_is_the_machines_own(
+    world: Served, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    port, plain, shutter = world.ports["CameraRGBDSimple"], Camera.picture, threading.Event()
+
+    def held(camera: Camera) -> Any:
+        assert shutter.wait(60)
+        return plain(camera)
+
+    monkeypatch.setattr(Camera, "picture", held)
     assert port.news() == []  # it is being taken
+    shutter.set()
     end, made = time.monotonic() + 60, list[Any]()
     while not made:
         assert time.monotonic() < end
