@@ -12,7 +12,7 @@ import sys
 import time
 import uuid
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib import util
 from itertools import pairwise
@@ -69,28 +69,6 @@ def interfaces(folder: Path) -> Any:
     sys.modules[spec.name] = made
     spec.loader.exec_module(made)
     return made
-
-
-@contextmanager
-def urgent() -> Iterator[bool]:
-    """Before all others on this machine, with all that is started meanwhile, if that is allowed."""
-    policy, usual = os.sched_getscheduler(0), os.sched_getparam(0)
-    try:
-        _schedule(os.SCHED_FIFO, os.sched_param(10))
-    except PermissionError:
-        yield False
-        return
-    try:
-        yield True
-    finally:
-        _schedule(policy, usual)
-
-
-def _schedule(policy: int, how: os.sched_param) -> None:
-    """All threads of this process."""
-    for thread in Path("/proc/self/task").iterdir():
-        with suppress(ProcessLookupError):
-            os.sched_setscheduler(int(thread.name), policy, how)
 
 
 @contextmanager

@@ -59,6 +59,7 @@ class Law:
         self.all_driven = bool(self.driven.all())
         duty = self._by_duty.any()
         self._back_emf = self._by_duty[:, None] * self._motors.back_emf if duty else None
+        self._direct = np.zeros(len(modes))
         self.apply()
 
     def regulate(self) -> None:
@@ -78,10 +79,11 @@ class Law:
         self._bank.feed(self._by_torque * self.torque)
         if self.currents.active:
             self.currents.feed(self.current)
-        stalled = self._motors.stall_current(self._by_duty * self.duty)
-        self._direct = self._motors.torque_of_current(stalled)
+        if self._back_emf is not None:
+            stalled = self._motors.stall_current(self._by_duty * self.duty)
+            self._direct = self._motors.torque_of_current(stalled)
         self._commanded = bool(np.count_nonzero(self._direct))
-        open_ = self._commanded or self._back_emf is not None
+        open_ = self._back_emf is not None
         self._alone = not (open_ or self._comply or self.currents.active)
 
     def step(

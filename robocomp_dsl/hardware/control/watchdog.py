@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints
+from robocomp_dsl.hardware.control.joints import BoardSpec, Ints
 from robocomp_dsl.hardware.control.modes import Mode
 
 PUSHED = (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
@@ -29,6 +29,7 @@ class Watchdog:
         self._together = np.zeros((n, n), bool)
         for joint in range(n):
             self._together[joint, spec.coupled(joint)] = True
+        self._apart = int(self._together.sum()) == n
 
     def set_timeout(self, seconds: float) -> None:
         """Be as patient from now on; 0: for ever. Raises `BadValue`."""
@@ -39,7 +40,8 @@ class Watchdog:
 
     def feed(self, joints: Ints, time: float) -> None:
         """References for `joints` came at `time`."""
-        self._since[self._together[joints].any(axis=0)] = time
+        fed = joints if self._apart else self._together[joints].any(axis=0)
+        self._since[fed] = time
         self._look()
 
     def follow(self, joints: Ints, modes: list[Mode], time: float) -> None:
@@ -49,8 +51,10 @@ class Watchdog:
 
     def silent(self, time: float) -> Ints:
         """The joints that have waited too long at `time`."""
-        return np.flatnonzero(self._ends <= time)
+        return np.flatnonzero(self._since + self.timeout <= time)
 
     def _look(self) -> None:
-        self._ends: Floats = self._since + self.timeout
-        self.due = float(self._ends.min(initial=np.inf))
+        if self.timeout < np.inf:
+            self.due = float((self._since + self.timeout).min(initial=np.inf))
+        else:
+            self.due = np.inf
