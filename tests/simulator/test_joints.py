@@ -213,3 +213,17 @@ def test_a_joint_that_nobody_pushes_any_more_holds_its_place(arm: Served) -> Non
     assert board.getLastFault("elbow").what == "no reference came for 0.2 s: it holds its place"
     arm.simulation.reset()  # what was set lives on
     assert board.getVariable("reference_timeout").tolist() == [0.2]
+
+
+FAR = ("setEncoder", "setMotorEncoder")
+
+
+@pytest.mark.parametrize("operation", FAR)
+def test_a_number_that_nothing_reaches_is_refused(arm: Served, operation: str) -> None:
+    """From such no regulator works out a torque."""
+    board = arm.ports["ControlBoard"]
+    with pytest.raises(arm.types.Refused, match="nothing here reaches"):
+        getattr(board, operation)("elbow", 1e308)
+    arm.simulation.advance(0.1)
+    assert np.abs(board.getState().position - [0, 0, 0.05]).max() < 1e-6
+    assert not any(one.number for one in arm.simulation.world.data.warning)

@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 
+_LARGEST = 1e12
+"""Of any number that a board takes, whatever its unit: what is worked out of such is finite."""
+
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
@@ -163,8 +166,10 @@ def numbers(name: str, values: object, size: int) -> Floats:
         array = np.full(size, float(array))
     if array.shape != (size,):
         raise BadValue(f"`{name}` has {array.size} values, {size} are needed")
-    if not np.isfinite(array).all():
-        raise BadValue(f"`{name}` holds NaN or infinity")
+    if not (np.abs(array) <= _LARGEST).all():  # so it is where one is no number
+        if not np.isfinite(array).all():
+            raise BadValue(f"`{name}` holds NaN or infinity")
+        raise BadValue(f"`{name}` is beyond {_LARGEST:g}, which nothing here reaches")
     return array
 
 
