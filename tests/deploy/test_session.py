@@ -81,7 +81,7 @@ def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
 ) -> None:
     body = 'signal.signal(2, lambda *_: print("hit")); ' + STEADY
     one = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
-    one.until("all 1 components are ready")
+    one.until("the component is ready")
     os.killpg(one.process.pid, signal.SIGINT)  # as a terminal does it
     assert one.end() == 0
     assert "a: hit" not in one.lines

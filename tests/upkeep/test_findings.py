@@ -227,6 +227,40 @@ def test_unknown_events(talker: Talker, use: str) -> None:
         assert found[0].span.text.startswith('"')
 
 
+HOOKS = {
+    "will_set_rate": "",
+    "did_set_motors_gain": "",
+    "will_set": "",
+    "did_set_rat": "there is no parameter `rat`",
+    "will_set_motors_gian": "there is no parameter `motors_gian`",
+    "will_set_size": "`size` is not live, it never changes",
+    "on_enter_a1": "",
+    "on_enter_a": "there is no state `a`",
+    "on_exit_start": "there is no state `start`",
+    "state_machine_is_fine": "",
+    "state_waitng": "there is no state `waitng`",
+    "helper": "",
+}
+
+
+@pytest.mark.parametrize("hook", HOOKS)
+def test_methods_that_nobody_calls(talker: Talker, hook: str) -> None:
+    machine = "m { states a1; initial_state waiting; transitions { waiting => a1 on start; }; };\n"
+    with_machine(talker, machine)
+    parameters = "rate float 1 live; size int 1; motors[0:3] { gain float 1 live; };"
+    (talker.folder / "talker.pdsl").write_text(f"ComponentParams talker {{ {parameters} }};\n")
+    talker.worker.unlink()
+    talker.generate()
+    put(talker, f"def {hook}(self, *more): ...", "def Talk_say(self, w): ...")
+    found = talker.generate()
+    assert [d.message for d in found] == (
+        [f"nobody calls `{hook}`: {HOOKS[hook]}"] if HOOKS[hook] else []
+    )
+    if found:
+        assert found[0].code.id == ("RC616" if "_set_" in hook else "RC624")
+        assert found[0].span.text == hook
+
+
 def test_events_of_a_machine_that_is_gone(talker: Talker) -> None:
     put(talker, 'def compute(self): self.machine.go("start")', "def Talk_say(self, w): ...")
     assert [d.message for d in talker.generate()] == ["there is no state machine"]

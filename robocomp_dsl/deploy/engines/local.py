@@ -138,7 +138,8 @@ class Local:
         if not all(one.is_served for one in self._cares.values()):
             return
         took = time.monotonic() - began
-        self.say(f"all {len(self._cares)} components are ready after {took:.2f} s")
+        many = f"all {len(self._cares)} components are"
+        self.say(f"{many if len(self._cares) > 1 else 'the component is'} ready after {took:.2f} s")
         if self.options.duration_s is not None:
             await asyncio.sleep(self.options.duration_s)
             self.stop(f"{self.options.duration_s:g} s have passed")

@@ -19,6 +19,7 @@ from robocomp_dsl.generate.component_names import names_of
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.upkeep import (
     events_used,
+    hooks_used,
     judge,
     members_used,
     merge,
@@ -62,7 +63,10 @@ def keep_up(
         kept = "" if writes else "a stub would be added"
         made = list(_with_stubs(user, missing, methods, kept, report)) or made
         members_used.judge(user, component, called, report)
-        events_used.judge(user, machine_of(component), report)
+        machine = machine_of(component)
+        given = component.parameters.parameters if component.parameters else ()
+        events_used.judge(user, machine, report)
+        hooks_used.judge(user, given, machine, known.keys() | methods.keys(), report)
     # What Python cannot read now is judged by the old record when it is mended.
     unread = any(one.code is codes.UNREADABLE_WORKER for one in report)
     recorded = record.file_of(known if unread else record.of_now(methods, known, user))

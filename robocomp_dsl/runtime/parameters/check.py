@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from robocomp_dsl.runtime.parameters import overrides
 from robocomp_dsl.runtime.parameters import scalar as scalars
 from robocomp_dsl.runtime.parameters.findings import Finding, Place, did_you_mean
 from robocomp_dsl.runtime.parameters.scalar import Unfit
@@ -109,7 +110,10 @@ class _Checker:
     def list_of(self, node: Node, entry: Group, path: str) -> list[Any]:
         if not isinstance(node, Items):
             said = f"`{path}` must be a list, not {CALLED[type(node)]}"
-            self.add(node.place, said, help=f"begin each of the {entry.name} with `- `")
+            way_out = f"begin each of the {entry.name} with `- `"
+            if node.place.text.name == overrides.NAME:
+                way_out = f"set a member of one of them, as in `--set {path}[0].…`"
+            self.add(node.place, said, help=way_out)
             return []
         count = len(node.items)
         if count < (entry.low or 0) or (entry.high is not None and count > entry.high):

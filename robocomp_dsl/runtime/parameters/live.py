@@ -111,6 +111,7 @@ def _no_such(path: str, known: list[str]) -> str:
     array = path.partition("[")[0]
     entries = {name.partition("]")[0] for name in known if name.startswith(f"{array}[")}
     if entries and not any(path.startswith(f"{one}]") for one in entries):
-        return f"{said}; `{array}` has {len(entries)} entries"
+        many = "one entry" if len(entries) == 1 else f"{len(entries)} entries"
+        return f"{said}; `{array}` has {many}"
     guess = did_you_mean(path, known)
     return f"{said}; {guess}" if guess else said
