@@ -8,6 +8,7 @@ jerk, and joint angles of the solution draw the rest of the arm along.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from enum import Enum
 
 import numpy as np
@@ -17,14 +18,14 @@ from robocomp_dsl.hardware.cartesian import (
     Goal,
     Solution,
     goal_of,
-    rotation_vector,
     solve,
     step,
 )
+from robocomp_dsl.hardware.cartesian_line import Line
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import WrongMode
-from robocomp_dsl.hardware.control.joints import Floats
+from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.minimum_jerk import PEAK
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.errors import CommandRefused, finite
@@ -44,7 +45,14 @@ PULL = 0.1
 
 
 class Unreachable(CommandRefused):
-    """No posture of the arm brings the hand to the goal."""
+    """No posture of the arm brings the hand to the goal; the `nearest` that was found."""
+
+    def __init__(self, nearest: Solution) -> None:
+        super().__init__(
+            f"the hand cannot get there: the nearest that it gets is {nearest.distance:.1f} mm "
+            f"and {math.degrees(nearest.angle):.1f}° away"
+        )
+        self.nearest = nearest
 
 
 class CartesianState(Enum):
@@ -59,17 +67,23 @@ class CartesianState(Enum):
 class CartesianController:
     """Drives the joints of `chain`, which `board` knows as `joints`, in mode position-direct.
 
-    One thread at a time, the one of the board.
+    `seconds` is the usual time of a motion; a posture reaches a goal to `distance` [mm] and `angle`
+    [rad]; `tracking`: a hand that has arrived is kept there, even when joints beside the chain move
+    it. `joints` and `free` (n,) are those of the whole chain, and which of them may move. One
+    thread at a time, the one of the board.
     """
 
     def __init__(
         self, board: Board, chain: Chain, joints: tuple[str, ...], *, distance: float = 1.0
     ) -> None:
         self.chain, self.state = chain, CartesianState.IDLE
-        self.distance, self.angle = distance, 0.01
-        self._board, self._commands = board, Commands(board)
+        self.distance, self.angle, self.seconds, self.tracking = distance, 0.01, 2.0, False
+        self.joints, self.free = joints, np.ones(len(joints), bool)
+        self.desired: Solution | None = None
+        self._board, self._commands, self._whole = board, Commands(board), chain
         self._joints = board.select.indices(joints)
-        self._line: _Line | None = None
+        self._line: Line | None = None
+        self._goal = Goal(np.zeros(3))
         self._q = np.zeros(len(joints))
         self._since = 0.0
         board.leaders.append(self.step)
@@ -79,46 +93,83 @@ class CartesianController:
         self._hold()
         return self.chain.pose(self._board.position[self._joints])
 
+    @property
+    def posture(self) -> Floats:
+        """Where the references of all joints of the chain are, (n,) [rad]."""
+        return self._board.references.position[self._board.select.indices(self.joints)]
+
+    def follow(self, chain: Chain) -> None:
+        """The same joints, in another model of the same robot."""
+        self._whole = chain
+        self._choose()
+
+    def use(self, free: Bools) -> None:
+        """Let only these joints of the chain move, (n,). Raises `CommandRefused`."""
+        if len(free) != len(self.joints) or not np.any(free):
+            raise CommandRefused(f"{len(self.joints)} joints need as many flags, one of them set")
+        if self.state is CartesianState.MOVING:
+            raise CommandRefused("the hand is on its way: stop it first")
+        self.free, self.state = np.array(free, bool), CartesianState.IDLE
+        self._choose()
+
+    def _choose(self) -> None:
+        """The chain of the joints that may move; the others are held."""
+        whole, at = self._whole, np.flatnonzero(self.free)
+        fixed = {self.joints[i]: whole.joints[i] for i in np.flatnonzero(~self.free).tolist()}
+        self.chain = replace(
+            whole,
+            joints=tuple(whole.joints[i] for i in at.tolist()),
+            low=whole.low[at],
+            high=whole.high[at],
+            rest=whole.rest[at],
+            held=whole.held | fixed,
+        )
+        self._joints = self._board.select.indices(self.joints)[at]
+
     def ask(self, goal: object) -> Solution:
         """The joint angles of a goal, and what they leave to be desired; nothing moves."""
         return solve(self.chain, goal_of(goal), self._here())
 
-    def go_to(self, goal: object, seconds: float = 2.0) -> Solution:
+    def reach(self, goal: object) -> Solution:
+        """The same, near enough to the goal. Raises `Unreachable`, `CommandRefused`."""
+        found = self.ask(goal)
+        if not found.within(self.distance, self.angle):
+            raise Unreachable(found)
+        return found
+
+    def go_to(self, goal: object, seconds: float | None = None) -> Solution:
         """Take the hand to a pose, (4, 4), or a place, (3,) [mm], in about `seconds`.
 
         Raises `Unreachable` with what is nearest, `CommandRefused`, or what the mode change raises.
         """
+        seconds = self.seconds if seconds is None else seconds
         finite(seconds=seconds)
         if seconds <= 0.0:
             raise CommandRefused(f"a motion takes more than {seconds:g} s")
-        wanted = goal_of(goal)
-        found = solve(self.chain, wanted, self._here())
-        if not found.within(self.distance, self.angle):
-            raise Unreachable(
-                f"the hand cannot get there: the nearest that it gets is {found.distance:.1f} mm "
-                f"and {math.degrees(found.angle):.1f}° away"
-            )
-        here = self._here()
+        found, wanted, here = self.reach(goal), goal_of(goal), self._here()
         self._commands.set_mode(self._joints, Mode.POSITION_DIRECT)
-        self._q = here
-        self._line = _Line(self.chain.pose(here), here, wanted, found.q, seconds)
-        self.state = CartesianState.MOVING
+        self._q, self._since = here, 0.0
+        self._line = Line(self.chain.pose(here), here, wanted, found.q, seconds)
+        self.state, self.desired, self._goal = CartesianState.MOVING, found, wanted
         return found
 
     def stop(self) -> None:
         """Stay where the hand is."""
         if self.state is CartesianState.MOVING:
             self._commands.stop(self._joints)
+        if self.state is not CartesianState.INTERRUPTED:
             self.state = CartesianState.IDLE
 
     def step(self, dt: float) -> None:
         """Called by the board at every step."""
         self._since += dt
-        if self.state is not CartesianState.MOVING or self._since < 1.0 / RATE - 1e-9:
+        kept = self.tracking and self.state is CartesianState.REACHED
+        if not (kept or self.state is CartesianState.MOVING) or self._since < 1.0 / RATE - 1e-9:
             return
         passed, self._since = self._since, 0.0
         assert self._line is not None  # noqa: S101  there is one as long as it moves
-        self._q, done = self._next(self._line, passed)
+        self._hold()
+        self._q, done = self._kept(passed) if kept else self._next(self._line, passed)
         try:
             self._commands.set_position(self._joints, self._q)
         except WrongMode:
@@ -127,7 +178,7 @@ class CartesianController:
         if done:
             self.state = CartesianState.REACHED
 
-    def _next(self, line: _Line, dt: float) -> tuple[Floats, bool]:
+    def _next(self, line: Line, dt: float) -> tuple[Floats, bool]:
         """Where the joints shall be after `dt` seconds, and whether that is the end."""
         speed = self._board.limits.speed[self._joints] / PEAK
         if line.time >= line.seconds:  # what the line has left over is made good joint by joint
@@ -145,6 +196,13 @@ class CartesianController:
         line.time += max(share, SLOWEST) * (ahead - line.time)
         return self._q + share * way, False
 
+    def _kept(self, dt: float) -> tuple[Floats, bool]:
+        """Where the joints shall be so that the hand stays at its goal."""
+        error = self._goal.error(self.chain.pose(self._q))
+        way = step(self.chain, self._q, error, 0.0 * self._q, DAMPING)
+        most = self._board.limits.speed[self._joints] / PEAK * dt
+        return self._q + np.clip(way, -most, most), True
+
     def _here(self) -> Floats:
         """Where the references of the joints are, within the limits of the chain."""
         self._hold()
@@ -156,36 +214,3 @@ class CartesianController:
         for name in self.chain.held:
             if name in self._board.spec.names:
                 self.chain.hold(name, float(self._board.position[self._board.select.index(name)]))
-
-
-class _Line:
-    """From one pose and posture to another, at rest on both ends; `time` is how far it has come."""
-
-    def __init__(
-        self, pose: Matrix, start: Floats, goal: Goal, end: Floats, seconds: float
-    ) -> None:
-        self._from, self._goal = pose, goal
-        self._way = goal.place - pose[:3, 3]
-        self._turn = None if goal.turn is None else rotation_vector(goal.turn @ pose[:3, :3].T)
-        self.start, self.end, self.seconds, self.time = start, end, seconds, 0.0
-
-    def at(self, time: float) -> tuple[Goal, Floats]:
-        """The goal and the posture at `time`; minimum jerk from rest to rest."""
-        t = time / self.seconds
-        share = t**3 * (10.0 - 15.0 * t + 6.0 * t * t)
-        posture = self.start + share * (self.end - self.start)
-        place = self._from[:3, 3] + share * self._way
-        if self._turn is None:
-            return Goal(place), posture
-        return Goal(place, _turn(share * self._turn) @ self._from[:3, :3]), posture
-
-
-def _turn(vector: Floats) -> Matrix:
-    """The rotation about `vector` by its length (Rodrigues' formula), shape (3, 3)."""
-    angle = float(np.linalg.norm(vector))
-    if angle < 1e-12:
-        return np.eye(3)
-    x, y, z = vector / angle
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    made: Matrix = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * (cross @ cross)
-    return made

@@ -45,6 +45,16 @@ try:
     topic = Endpoint(i.ControlBoardStateProxy.INTERFACE, "client", "x", source)
     middleware.subscribe(topic, {"boardState": heard.append}, Execution())
     until(lambda: heard and abs(heard[-1].position[at] - goal) < 0.02)
+    hand = proxy(i.CARTESIANCONTROLLER, "cartesian_" + sys.argv[4])
+    place = hand.getPose().place
+    solved = hand.askForPosition(i.HandPlace(place.x, place.y, place.z + 0.03))
+    hand.goToPose(solved.pose, 0.5)
+    until(hand.checkMotionDone)
+    until(lambda: abs(hand.getPose().place.z - place.z - 0.03) < 4e-3)
+    assert hand.getState().motion is i.MotionState.Reached
+    far = refused(i.Unreachable, hand.goToPosition, i.HandPlace(9.0, 0.0, 0.0), 0.5)
+    assert 7.0 < far.distance < 10.0
+    arm.setControlMode([], i.ControlMode.Position)
     world = proxy(i.SIMULATION, "Simulation")
     world.reset()
     until(lambda: abs(arm.getState().position[at] - rest[at]) < 1e-3)

@@ -7,6 +7,7 @@ from robocomp_dsl.runtime import CalledPort, Component, ComponentSpec, ServedPor
 from robocomp_dsl.runtime import types as rt
 
 from generated.interfaces import (
+    CARTESIANCONTROLLER,
     CONTROLBOARD,
     IMU,
     INNERMODELMANAGER,
@@ -23,13 +24,19 @@ from generated.interfaces import (
     DataImu,
     Flags,
     Frame,
+    FreeJoints,
     Geometry,
     Gyroscope,
+    HandPlace,
+    HandPose,
+    HandSolution,
+    HandState,
     Impedance,
     IMUPubProxy,
     InteractionMode,
     JointFault,
     JointMotorPubProxy,
+    JointNames,
     Joints,
     Loop,
     Magnetic,
@@ -405,6 +412,54 @@ class GenericWorker(Component):
                     "getMagneticFields": "imu_getMagneticFields",
                     "getOrientation": "imu_getOrientation",
                     "resetImu": "imu_resetImu",
+                },
+            ),
+            ServedPort(
+                "cartesian_left_arm",
+                CARTESIANCONTROLLER,
+                {
+                    "getJoints": "cartesian_left_arm_getJoints",
+                    "getPose": "cartesian_left_arm_getPose",
+                    "getState": "cartesian_left_arm_getState",
+                    "goToPose": "cartesian_left_arm_goToPose",
+                    "goToPosition": "cartesian_left_arm_goToPosition",
+                    "getDesired": "cartesian_left_arm_getDesired",
+                    "checkMotionDone": "cartesian_left_arm_checkMotionDone",
+                    "stopControl": "cartesian_left_arm_stopControl",
+                    "askForPose": "cartesian_left_arm_askForPose",
+                    "askForPosition": "cartesian_left_arm_askForPosition",
+                    "setTrajTime": "cartesian_left_arm_setTrajTime",
+                    "getTrajTime": "cartesian_left_arm_getTrajTime",
+                    "setInTargetTol": "cartesian_left_arm_setInTargetTol",
+                    "getInTargetTol": "cartesian_left_arm_getInTargetTol",
+                    "setTrackingMode": "cartesian_left_arm_setTrackingMode",
+                    "getTrackingMode": "cartesian_left_arm_getTrackingMode",
+                    "setDOF": "cartesian_left_arm_setDOF",
+                    "getDOF": "cartesian_left_arm_getDOF",
+                },
+            ),
+            ServedPort(
+                "cartesian_right_arm",
+                CARTESIANCONTROLLER,
+                {
+                    "getJoints": "cartesian_right_arm_getJoints",
+                    "getPose": "cartesian_right_arm_getPose",
+                    "getState": "cartesian_right_arm_getState",
+                    "goToPose": "cartesian_right_arm_goToPose",
+                    "goToPosition": "cartesian_right_arm_goToPosition",
+                    "getDesired": "cartesian_right_arm_getDesired",
+                    "checkMotionDone": "cartesian_right_arm_checkMotionDone",
+                    "stopControl": "cartesian_right_arm_stopControl",
+                    "askForPose": "cartesian_right_arm_askForPose",
+                    "askForPosition": "cartesian_right_arm_askForPosition",
+                    "setTrajTime": "cartesian_right_arm_setTrajTime",
+                    "getTrajTime": "cartesian_right_arm_getTrajTime",
+                    "setInTargetTol": "cartesian_right_arm_setInTargetTol",
+                    "getInTargetTol": "cartesian_right_arm_getInTargetTol",
+                    "setTrackingMode": "cartesian_right_arm_setTrackingMode",
+                    "getTrackingMode": "cartesian_right_arm_getTrackingMode",
+                    "setDOF": "cartesian_right_arm_setDOF",
+                    "getDOF": "cartesian_right_arm_getDOF",
                 },
             ),
             ServedPort(
@@ -2929,6 +2984,230 @@ class GenericWorker(Component):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         raise rt.NotImplementedOperation("imu_resetImu")
+
+    def cartesian_left_arm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getJoints")
+
+    def cartesian_left_arm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getPose")
+
+    def cartesian_left_arm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getState")
+
+    def cartesian_left_arm_goToPose(
+        self,
+        pose: HandPose,
+        seconds: float,
+    ) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_goToPose")
+
+    def cartesian_left_arm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_goToPosition")
+
+    def cartesian_left_arm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_getDesired")
+
+    def cartesian_left_arm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_checkMotionDone")
+
+    def cartesian_left_arm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_stopControl")
+
+    def cartesian_left_arm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_askForPose")
+
+    def cartesian_left_arm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_askForPosition")
+
+    def cartesian_left_arm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_setTrajTime")
+
+    def cartesian_left_arm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getTrajTime")
+
+    def cartesian_left_arm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_setInTargetTol")
+
+    def cartesian_left_arm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_getInTargetTol")
+
+    def cartesian_left_arm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_setTrackingMode")
+
+    def cartesian_left_arm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getTrackingMode")
+
+    def cartesian_left_arm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_left_arm_setDOF")
+
+    def cartesian_left_arm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        raise rt.NotImplementedOperation("cartesian_left_arm_getDOF")
+
+    def cartesian_right_arm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getJoints")
+
+    def cartesian_right_arm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getPose")
+
+    def cartesian_right_arm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getState")
+
+    def cartesian_right_arm_goToPose(
+        self,
+        pose: HandPose,
+        seconds: float,
+    ) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_goToPose")
+
+    def cartesian_right_arm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_goToPosition")
+
+    def cartesian_right_arm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_getDesired")
+
+    def cartesian_right_arm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_checkMotionDone")
+
+    def cartesian_right_arm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_stopControl")
+
+    def cartesian_right_arm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_askForPose")
+
+    def cartesian_right_arm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_askForPosition")
+
+    def cartesian_right_arm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_setTrajTime")
+
+    def cartesian_right_arm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getTrajTime")
+
+    def cartesian_right_arm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_setInTargetTol")
+
+    def cartesian_right_arm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_getInTargetTol")
+
+    def cartesian_right_arm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_setTrackingMode")
+
+    def cartesian_right_arm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getTrackingMode")
+
+    def cartesian_right_arm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_right_arm_setDOF")
+
+    def cartesian_right_arm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        raise rt.NotImplementedOperation("cartesian_right_arm_getDOF")
 
     def Skin_getGeometry(self) -> Geometry:
         """Where the taxels are."""

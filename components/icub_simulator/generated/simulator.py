@@ -22,11 +22,17 @@ from generated.interfaces import (
     DataImu,
     Flags,
     Frame,
+    FreeJoints,
     Geometry,
     Gyroscope,
+    HandPlace,
+    HandPose,
+    HandSolution,
+    HandState,
     Impedance,
     InteractionMode,
     JointFault,
+    JointNames,
     Joints,
     Loop,
     Magnetic,
@@ -2940,6 +2946,282 @@ class Simulator(GenericWorker):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         self.ports["imu"].resetImu()
+
+    def cartesian_left_arm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        ask = self.ports["cartesian_left_arm"].getJoints
+        answer: JointNames = ask()
+        return answer
+
+    def cartesian_left_arm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        ask = self.ports["cartesian_left_arm"].getPose
+        answer: HandPose = ask()
+        return answer
+
+    def cartesian_left_arm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        ask = self.ports["cartesian_left_arm"].getState
+        answer: HandState = ask()
+        return answer
+
+    def cartesian_left_arm_goToPose(
+        self,
+        pose: HandPose,
+        seconds: float,
+    ) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_left_arm"].goToPose
+        answer: HandSolution = ask(pose, seconds)
+        return answer
+
+    def cartesian_left_arm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_left_arm"].goToPosition
+        answer: HandSolution = ask(place, seconds)
+        return answer
+
+    def cartesian_left_arm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        ask = self.ports["cartesian_left_arm"].getDesired
+        answer: HandSolution = ask()
+        return answer
+
+    def cartesian_left_arm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        ask = self.ports["cartesian_left_arm"].checkMotionDone
+        answer: bool = ask()
+        return answer
+
+    def cartesian_left_arm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        self.ports["cartesian_left_arm"].stopControl()
+
+    def cartesian_left_arm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_left_arm"].askForPose
+        answer: HandSolution = ask(pose)
+        return answer
+
+    def cartesian_left_arm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_left_arm"].askForPosition
+        answer: HandSolution = ask(place)
+        return answer
+
+    def cartesian_left_arm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_left_arm"].setTrajTime(seconds)
+
+    def cartesian_left_arm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        ask = self.ports["cartesian_left_arm"].getTrajTime
+        answer: float = ask()
+        return answer
+
+    def cartesian_left_arm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_left_arm"].setInTargetTol(distance, angle)
+
+    def cartesian_left_arm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        ask = self.ports["cartesian_left_arm"].getInTargetTol
+        answer: tuple[float, float] = ask()
+        return answer
+
+    def cartesian_left_arm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        self.ports["cartesian_left_arm"].setTrackingMode(on)
+
+    def cartesian_left_arm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        ask = self.ports["cartesian_left_arm"].getTrackingMode
+        answer: bool = ask()
+        return answer
+
+    def cartesian_left_arm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_left_arm"].setDOF(free)
+
+    def cartesian_left_arm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        ask = self.ports["cartesian_left_arm"].getDOF
+        answer: FreeJoints = ask()
+        return answer
+
+    def cartesian_right_arm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        ask = self.ports["cartesian_right_arm"].getJoints
+        answer: JointNames = ask()
+        return answer
+
+    def cartesian_right_arm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        ask = self.ports["cartesian_right_arm"].getPose
+        answer: HandPose = ask()
+        return answer
+
+    def cartesian_right_arm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        ask = self.ports["cartesian_right_arm"].getState
+        answer: HandState = ask()
+        return answer
+
+    def cartesian_right_arm_goToPose(
+        self,
+        pose: HandPose,
+        seconds: float,
+    ) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_right_arm"].goToPose
+        answer: HandSolution = ask(pose, seconds)
+        return answer
+
+    def cartesian_right_arm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_right_arm"].goToPosition
+        answer: HandSolution = ask(place, seconds)
+        return answer
+
+    def cartesian_right_arm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        ask = self.ports["cartesian_right_arm"].getDesired
+        answer: HandSolution = ask()
+        return answer
+
+    def cartesian_right_arm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        ask = self.ports["cartesian_right_arm"].checkMotionDone
+        answer: bool = ask()
+        return answer
+
+    def cartesian_right_arm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        self.ports["cartesian_right_arm"].stopControl()
+
+    def cartesian_right_arm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_right_arm"].askForPose
+        answer: HandSolution = ask(pose)
+        return answer
+
+    def cartesian_right_arm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_right_arm"].askForPosition
+        answer: HandSolution = ask(place)
+        return answer
+
+    def cartesian_right_arm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_right_arm"].setTrajTime(seconds)
+
+    def cartesian_right_arm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        ask = self.ports["cartesian_right_arm"].getTrajTime
+        answer: float = ask()
+        return answer
+
+    def cartesian_right_arm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_right_arm"].setInTargetTol(distance, angle)
+
+    def cartesian_right_arm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        ask = self.ports["cartesian_right_arm"].getInTargetTol
+        answer: tuple[float, float] = ask()
+        return answer
+
+    def cartesian_right_arm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        self.ports["cartesian_right_arm"].setTrackingMode(on)
+
+    def cartesian_right_arm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        ask = self.ports["cartesian_right_arm"].getTrackingMode
+        answer: bool = ask()
+        return answer
+
+    def cartesian_right_arm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_right_arm"].setDOF(free)
+
+    def cartesian_right_arm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        ask = self.ports["cartesian_right_arm"].getDOF
+        answer: FreeJoints = ask()
+        return answer
 
     def Skin_getGeometry(self) -> Geometry:
         """Where the taxels are."""

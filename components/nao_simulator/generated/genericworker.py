@@ -8,6 +8,7 @@ from robocomp_dsl.runtime import types as rt
 
 from generated.interfaces import (
     CAMERASIMPLE,
+    CARTESIANCONTROLLER,
     CONTROLBOARD,
     IMU,
     INNERMODELMANAGER,
@@ -24,13 +25,19 @@ from generated.interfaces import (
     DataImu,
     Flags,
     Frame,
+    FreeJoints,
     Geometry,
     Gyroscope,
+    HandPlace,
+    HandPose,
+    HandSolution,
+    HandState,
     Impedance,
     IMUPubProxy,
     InteractionMode,
     JointFault,
     JointMotorPubProxy,
+    JointNames,
     Joints,
     Loop,
     Magnetic,
@@ -463,6 +470,54 @@ class GenericWorker(Component):
                     "getMagneticFields": "imu_getMagneticFields",
                     "getOrientation": "imu_getOrientation",
                     "resetImu": "imu_resetImu",
+                },
+            ),
+            ServedPort(
+                "cartesian_LArm",
+                CARTESIANCONTROLLER,
+                {
+                    "getJoints": "cartesian_LArm_getJoints",
+                    "getPose": "cartesian_LArm_getPose",
+                    "getState": "cartesian_LArm_getState",
+                    "goToPose": "cartesian_LArm_goToPose",
+                    "goToPosition": "cartesian_LArm_goToPosition",
+                    "getDesired": "cartesian_LArm_getDesired",
+                    "checkMotionDone": "cartesian_LArm_checkMotionDone",
+                    "stopControl": "cartesian_LArm_stopControl",
+                    "askForPose": "cartesian_LArm_askForPose",
+                    "askForPosition": "cartesian_LArm_askForPosition",
+                    "setTrajTime": "cartesian_LArm_setTrajTime",
+                    "getTrajTime": "cartesian_LArm_getTrajTime",
+                    "setInTargetTol": "cartesian_LArm_setInTargetTol",
+                    "getInTargetTol": "cartesian_LArm_getInTargetTol",
+                    "setTrackingMode": "cartesian_LArm_setTrackingMode",
+                    "getTrackingMode": "cartesian_LArm_getTrackingMode",
+                    "setDOF": "cartesian_LArm_setDOF",
+                    "getDOF": "cartesian_LArm_getDOF",
+                },
+            ),
+            ServedPort(
+                "cartesian_RArm",
+                CARTESIANCONTROLLER,
+                {
+                    "getJoints": "cartesian_RArm_getJoints",
+                    "getPose": "cartesian_RArm_getPose",
+                    "getState": "cartesian_RArm_getState",
+                    "goToPose": "cartesian_RArm_goToPose",
+                    "goToPosition": "cartesian_RArm_goToPosition",
+                    "getDesired": "cartesian_RArm_getDesired",
+                    "checkMotionDone": "cartesian_RArm_checkMotionDone",
+                    "stopControl": "cartesian_RArm_stopControl",
+                    "askForPose": "cartesian_RArm_askForPose",
+                    "askForPosition": "cartesian_RArm_askForPosition",
+                    "setTrajTime": "cartesian_RArm_setTrajTime",
+                    "getTrajTime": "cartesian_RArm_getTrajTime",
+                    "setInTargetTol": "cartesian_RArm_setInTargetTol",
+                    "getInTargetTol": "cartesian_RArm_getInTargetTol",
+                    "setTrackingMode": "cartesian_RArm_setTrackingMode",
+                    "getTrackingMode": "cartesian_RArm_getTrackingMode",
+                    "setDOF": "cartesian_RArm_setDOF",
+                    "getDOF": "cartesian_RArm_getDOF",
                 },
             ),
             ServedPort(
@@ -3376,6 +3431,222 @@ class GenericWorker(Component):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         raise rt.NotImplementedOperation("imu_resetImu")
+
+    def cartesian_LArm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getJoints")
+
+    def cartesian_LArm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getPose")
+
+    def cartesian_LArm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getState")
+
+    def cartesian_LArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_goToPose")
+
+    def cartesian_LArm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_goToPosition")
+
+    def cartesian_LArm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_getDesired")
+
+    def cartesian_LArm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        raise rt.NotImplementedOperation("cartesian_LArm_checkMotionDone")
+
+    def cartesian_LArm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        raise rt.NotImplementedOperation("cartesian_LArm_stopControl")
+
+    def cartesian_LArm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_askForPose")
+
+    def cartesian_LArm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_askForPosition")
+
+    def cartesian_LArm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_setTrajTime")
+
+    def cartesian_LArm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getTrajTime")
+
+    def cartesian_LArm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_setInTargetTol")
+
+    def cartesian_LArm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_getInTargetTol")
+
+    def cartesian_LArm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        raise rt.NotImplementedOperation("cartesian_LArm_setTrackingMode")
+
+    def cartesian_LArm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getTrackingMode")
+
+    def cartesian_LArm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_LArm_setDOF")
+
+    def cartesian_LArm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        raise rt.NotImplementedOperation("cartesian_LArm_getDOF")
+
+    def cartesian_RArm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getJoints")
+
+    def cartesian_RArm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getPose")
+
+    def cartesian_RArm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getState")
+
+    def cartesian_RArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_goToPose")
+
+    def cartesian_RArm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_goToPosition")
+
+    def cartesian_RArm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_getDesired")
+
+    def cartesian_RArm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        raise rt.NotImplementedOperation("cartesian_RArm_checkMotionDone")
+
+    def cartesian_RArm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        raise rt.NotImplementedOperation("cartesian_RArm_stopControl")
+
+    def cartesian_RArm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_askForPose")
+
+    def cartesian_RArm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_askForPosition")
+
+    def cartesian_RArm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_setTrajTime")
+
+    def cartesian_RArm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getTrajTime")
+
+    def cartesian_RArm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_setInTargetTol")
+
+    def cartesian_RArm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_getInTargetTol")
+
+    def cartesian_RArm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        raise rt.NotImplementedOperation("cartesian_RArm_setTrackingMode")
+
+    def cartesian_RArm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getTrackingMode")
+
+    def cartesian_RArm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        raise rt.NotImplementedOperation("cartesian_RArm_setDOF")
+
+    def cartesian_RArm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        raise rt.NotImplementedOperation("cartesian_RArm_getDOF")
 
     def Skin_getGeometry(self) -> Geometry:
         """Where the taxels are."""

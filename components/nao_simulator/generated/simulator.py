@@ -22,11 +22,17 @@ from generated.interfaces import (
     DataImu,
     Flags,
     Frame,
+    FreeJoints,
     Geometry,
     Gyroscope,
+    HandPlace,
+    HandPose,
+    HandSolution,
+    HandState,
     Impedance,
     InteractionMode,
     JointFault,
+    JointNames,
     Joints,
     Loop,
     Magnetic,
@@ -3383,6 +3389,274 @@ class Simulator(GenericWorker):
     def imu_resetImu(self) -> None:
         """The present orientation becomes the reference."""
         self.ports["imu"].resetImu()
+
+    def cartesian_LArm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        ask = self.ports["cartesian_LArm"].getJoints
+        answer: JointNames = ask()
+        return answer
+
+    def cartesian_LArm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        ask = self.ports["cartesian_LArm"].getPose
+        answer: HandPose = ask()
+        return answer
+
+    def cartesian_LArm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        ask = self.ports["cartesian_LArm"].getState
+        answer: HandState = ask()
+        return answer
+
+    def cartesian_LArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_LArm"].goToPose
+        answer: HandSolution = ask(pose, seconds)
+        return answer
+
+    def cartesian_LArm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_LArm"].goToPosition
+        answer: HandSolution = ask(place, seconds)
+        return answer
+
+    def cartesian_LArm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        ask = self.ports["cartesian_LArm"].getDesired
+        answer: HandSolution = ask()
+        return answer
+
+    def cartesian_LArm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        ask = self.ports["cartesian_LArm"].checkMotionDone
+        answer: bool = ask()
+        return answer
+
+    def cartesian_LArm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        self.ports["cartesian_LArm"].stopControl()
+
+    def cartesian_LArm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_LArm"].askForPose
+        answer: HandSolution = ask(pose)
+        return answer
+
+    def cartesian_LArm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_LArm"].askForPosition
+        answer: HandSolution = ask(place)
+        return answer
+
+    def cartesian_LArm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_LArm"].setTrajTime(seconds)
+
+    def cartesian_LArm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        ask = self.ports["cartesian_LArm"].getTrajTime
+        answer: float = ask()
+        return answer
+
+    def cartesian_LArm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_LArm"].setInTargetTol(distance, angle)
+
+    def cartesian_LArm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        ask = self.ports["cartesian_LArm"].getInTargetTol
+        answer: tuple[float, float] = ask()
+        return answer
+
+    def cartesian_LArm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        self.ports["cartesian_LArm"].setTrackingMode(on)
+
+    def cartesian_LArm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        ask = self.ports["cartesian_LArm"].getTrackingMode
+        answer: bool = ask()
+        return answer
+
+    def cartesian_LArm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_LArm"].setDOF(free)
+
+    def cartesian_LArm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        ask = self.ports["cartesian_LArm"].getDOF
+        answer: FreeJoints = ask()
+        return answer
+
+    def cartesian_RArm_getJoints(self) -> JointNames:
+        """The joints of the chain, from the base to the tip."""
+        ask = self.ports["cartesian_RArm"].getJoints
+        answer: JointNames = ask()
+        return answer
+
+    def cartesian_RArm_getPose(self) -> HandPose:
+        """Where the hand is, from what the encoders tell."""
+        ask = self.ports["cartesian_RArm"].getPose
+        answer: HandPose = ask()
+        return answer
+
+    def cartesian_RArm_getState(self) -> HandState:
+        """The same, and what the controller does."""
+        ask = self.ports["cartesian_RArm"].getState
+        answer: HandState = ask()
+        return answer
+
+    def cartesian_RArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
+        """Take the hand to a pose on a straight line, in so many seconds, or in the usual time if that is 0.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_RArm"].goToPose
+        answer: HandSolution = ask(pose, seconds)
+        return answer
+
+    def cartesian_RArm_goToPosition(
+        self,
+        place: HandPlace,
+        seconds: float,
+    ) -> HandSolution:
+        """The same for its place alone; its turn is free.
+
+        Units: seconds in s.
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_RArm"].goToPosition
+        answer: HandSolution = ask(place, seconds)
+        return answer
+
+    def cartesian_RArm_getDesired(self) -> HandSolution:
+        """What was solved for the last goal.
+
+        May raise CartesianRefused.
+        """
+        ask = self.ports["cartesian_RArm"].getDesired
+        answer: HandSolution = ask()
+        return answer
+
+    def cartesian_RArm_checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        ask = self.ports["cartesian_RArm"].checkMotionDone
+        answer: bool = ask()
+        return answer
+
+    def cartesian_RArm_stopControl(self) -> None:
+        """Stay where the hand is."""
+        self.ports["cartesian_RArm"].stopControl()
+
+    def cartesian_RArm_askForPose(self, pose: HandPose) -> HandSolution:
+        """Solve for a pose; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_RArm"].askForPose
+        answer: HandSolution = ask(pose)
+        return answer
+
+    def cartesian_RArm_askForPosition(self, place: HandPlace) -> HandSolution:
+        """Solve for a place; nothing moves.
+
+        May raise Unreachable, CartesianRefused.
+        """
+        ask = self.ports["cartesian_RArm"].askForPosition
+        answer: HandSolution = ask(place)
+        return answer
+
+    def cartesian_RArm_setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes.
+
+        Units: seconds in s.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_RArm"].setTrajTime(seconds)
+
+    def cartesian_RArm_getTrajTime(self) -> float:
+        """RoboCompCartesianController::CartesianController: getTrajTime."""
+        ask = self.ports["cartesian_RArm"].getTrajTime
+        answer: float = ask()
+        return answer
+
+    def cartesian_RArm_setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near to a goal a posture must bring the hand.
+
+        Units: distance in m, angle in rad.
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_RArm"].setInTargetTol(distance, angle)
+
+    def cartesian_RArm_getInTargetTol(self) -> tuple[float, float]:
+        """RoboCompCartesianController::CartesianController: getInTargetTol.
+
+        Units: distance in m, angle in rad.
+        Returns distance, angle.
+        """
+        ask = self.ports["cartesian_RArm"].getInTargetTol
+        answer: tuple[float, float] = ask()
+        return answer
+
+    def cartesian_RArm_setTrackingMode(self, on: bool) -> None:
+        """Whether the hand is kept at its goal when it has arrived, even when other joints move it."""
+        self.ports["cartesian_RArm"].setTrackingMode(on)
+
+    def cartesian_RArm_getTrackingMode(self) -> bool:
+        """RoboCompCartesianController::CartesianController: getTrackingMode."""
+        ask = self.ports["cartesian_RArm"].getTrackingMode
+        answer: bool = ask()
+        return answer
+
+    def cartesian_RArm_setDOF(self, free: FreeJoints) -> None:
+        """Which joints may move, in the order of getJoints; the others stay as they are. Not while the hand moves.
+
+        May raise CartesianRefused.
+        """
+        self.ports["cartesian_RArm"].setDOF(free)
+
+    def cartesian_RArm_getDOF(self) -> FreeJoints:
+        """RoboCompCartesianController::CartesianController: getDOF."""
+        ask = self.ports["cartesian_RArm"].getDOF
+        answer: FreeJoints = ask()
+        return answer
 
     def Skin_getGeometry(self) -> Geometry:
         """Where the taxels are."""

@@ -54,6 +54,7 @@ OFFERS = (
     Offer("model_rgbd", "CameraSimple"),
     Offer("model_rgbd", "CameraRGBDSimple", shared=True),
     Offer("model_imu", "IMU"),
+    Offer("cartesian", "CartesianController"),
     Offer("model_touch", "TouchSensor", shared=True),
     Offer("model_range", "Ultrasound", shared=True),
     Offer("display", "Display"),

@@ -86,6 +86,14 @@ def matrix(position: NDArray[Any], rotation: NDArray[Any]) -> Array:
     return made
 
 
+def body(pose: Array) -> Array:
+    """A body of RoboComp, shape (4, 4) in mm, as MuJoCo has it, in m; `matrix` is the way back."""
+    made = np.eye(4)
+    made[:3, :3] = pose[:3, :3][[0, 2, 1]][:, [0, 2, 1]]
+    made[:3, 3] = pose[[0, 2, 1], 3] * MM
+    return made
+
+
 def floor(given: Array) -> Array:
     """Points of MuJoCo, shape (n, 3) in m, as (x, z) in mm, shape (n, 2)."""
     return given[:, :2] / MM

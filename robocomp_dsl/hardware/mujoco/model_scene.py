@@ -15,6 +15,7 @@ from typing import Any
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror, mirror
 from robocomp_dsl.hardware.mujoco.model_file import compiled
+from robocomp_dsl.hardware.mujoco.model_hands import hands_of
 from robocomp_dsl.hardware.mujoco.model_joints import couplings_of, joints_of
 from robocomp_dsl.hardware.mujoco.model_motors import others, through_tendons
 from robocomp_dsl.hardware.mujoco.model_sensors import sensors_of
@@ -44,6 +45,7 @@ def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> Described:
     devices = joints_of(model, seen, started)
     couplings = couplings_of(model, devices, started.findings)
     devices += sensors_of(model, seen, {one["id"] for one in devices} | set(_names(seen)))
+    devices += hands_of(model, seen, devices, started.findings)
     scene: Data = {
         "model": _model(model, file, started) | ({"couplings": couplings} if couplings else {}),
         "frames": list(_frames(seen)),

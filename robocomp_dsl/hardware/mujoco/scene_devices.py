@@ -12,12 +12,14 @@ from types import MappingProxyType
 from typing import Any
 
 from robocomp_dsl.hardware.camera import CameraSettings
+from robocomp_dsl.hardware.errors import SceneError
 from robocomp_dsl.hardware.geodesy import Place
 from robocomp_dsl.hardware.laser import LaserSettings
 from robocomp_dsl.hardware.mobile_base import BaseLimits
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.battery import Battery
 from robocomp_dsl.hardware.mujoco.camera import Camera
+from robocomp_dsl.hardware.mujoco.cartesian_hand import CartesianHand
 from robocomp_dsl.hardware.mujoco.gps import Gps
 from robocomp_dsl.hardware.mujoco.imu import Imu, ImuNoise
 from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
@@ -39,6 +41,7 @@ class Site:
 
     frames: Mapping[str, Frame]
     noise: NoiseLevel
+    board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
         """The nearest frame from `frame` upwards that moves by itself; else `frame`."""
@@ -167,6 +170,14 @@ def _display(site: Site, device: Device) -> Screen:  # noqa: ARG001
     return Screen(name=device.id)
 
 
+def _cartesian(site: Site, device: Device) -> CartesianHand:
+    given, board = device.settings, site.board
+    if board is None:
+        raise SceneError(f"`{device.id}` stands on no control board")
+    joints = tuple(str(given["joints"]).split("\n"))
+    return CartesianHand(board, joints, str(given["tip"]), str(given["base"]))
+
+
 SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "laser": _laser,
     "differentialrobot": _base,
@@ -184,6 +195,7 @@ SINGLE: Mapping[str, Callable[[Site, Device], Any]] = {
     "model_imu": _model_imu,
     "model_touch": _model_touch,
     "model_range": _model_range,
+    "cartesian": _cartesian,
 }
 """Kinds of devices that are simulated one by one."""
 
@@ -195,16 +207,19 @@ def parts_of(
 
     A part in `kept` is used again, the board only where it has the same joints.
     """
-    site = Site({one.id: one for one in scene.frames}, noise)
-    made = {
-        one.id: kept.get(one.id) or SINGLE[one.kind](site, one)
-        for one in scene.devices
-        if one.kind in SINGLE
-    }
-    joints = driven(scene)
+    joints, board = driven(scene), None
     if joints:
         former = kept.get(joints[0].name)
         same = former is not None and former.names == tuple(one.name for one in joints)
         board = former if same else JointBoard(joints, scene.model)
-        made |= dict.fromkeys((one.name for one in joints), board)
-    return made
+    site = Site({one.id: one for one in scene.frames}, noise, board)
+    stays = {id_: one for id_, one in kept.items() if getattr(one, "stands_on", board) is board}
+    made = {
+        one.id: stays.get(one.id) or SINGLE[one.kind](site, one)
+        for one in scene.devices
+        if one.kind in SINGLE
+    }
+    hands = {id_: one for id_, one in made.items() if isinstance(one, CartesianHand)}
+    for id_ in hands:  # the board comes before what stands on it
+        del made[id_]
+    return made | dict.fromkeys((one.name for one in joints), board) | hands

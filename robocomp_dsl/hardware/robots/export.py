@@ -42,7 +42,9 @@ _NOTE = "<!-- Written by `python -m robocomp_dsl.hardware.robots.export`; do not
 class World:
     """A robot in its world: where the fingers wait [m], cameras at points, a body with an IMU.
 
-    `cameras` has name, point of the robot and vertical angle [degrees].
+    `cameras` has name, point of the robot and vertical angle [degrees]; `hands` a board, and
+    for a Cartesian controller: the point that it leads, the body that poses are told in, and joints
+    that are left as they are.
     """
 
     file: str
@@ -51,6 +53,7 @@ class World:
     imu: str
     imu_at: Vector = (0.0, 0.0, 0.0)
     cameras: tuple[tuple[str, str, float], ...] = ()
+    hands: tuple[tuple[str, str], ...] = ()
 
 
 WORLDS = (
@@ -61,12 +64,14 @@ WORLDS = (
         imu="torso",
         imu_at=(-0.008, 0.006, 0.029),
         cameras=(("camera_top", "CameraTop", 47.6), ("camera_bottom", "CameraBottom", 47.6)),
+        hands=(("LArm", "l_hand torso LHand"), ("RArm", "r_hand torso RHand")),
     ),
     World(
         "icub_simulator/icub.xml",
         "icub_v2",
         parked=((0.7, 0.0, 0.9), (0.7, -0.4, 0.9)),
         imu="head",
+        hands=(("left_arm", "l_hand root_link"), ("right_arm", "r_hand root_link")),
     ),
 )
 
@@ -82,6 +87,8 @@ def text(world: World) -> str:
     for finger, parked in zip(FINGERS, world.parked, strict=True):
         _add_finger(spec, finger, parked)
     _add_sensors(spec, robot, world)
+    for board, told in world.hands:
+        spec.add_text(name=f"cartesian_{board}", data=told)
     key = spec.add_key(name="start")
     key.qpos = _start(spec.compile(), robot)
     spec.compile()

@@ -15,6 +15,7 @@ from robocomp_dsl.hardware.servants.base import (
 )
 from robocomp_dsl.hardware.servants.battery import BatteryServant
 from robocomp_dsl.hardware.servants.camera import CameraServant, RgbdServant
+from robocomp_dsl.hardware.servants.cartesian_controller import CartesianControllerServant
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.display import DisplayServant
 from robocomp_dsl.hardware.servants.full_pose import FullPoseServant
@@ -43,6 +44,7 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompJointMotor::JointMotor": JointMotorServant,
     "RoboCompJointMotorSimple::JointMotorSimple": JointMotorSimpleServant,
     "RoboCompControlBoard::ControlBoard": ControlBoardServant,
+    "RoboCompCartesianController::CartesianController": CartesianControllerServant,
     "RoboCompIMU::IMU": ImuServant,
     "RoboCompTouchSensor::TouchSensor": TouchSensorServant,
     "RoboCompSkin::Skin": SkinServant,

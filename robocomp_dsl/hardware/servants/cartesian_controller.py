@@ -1,0 +1,178 @@
+"""`CartesianController` over a hand: places in m, turns as axis and angle."""
+
+# ruff: noqa: N802  called as in the interface
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.cartesian import Solution, rotation_vector
+from robocomp_dsl.hardware.cartesian_controller import (
+    CartesianController,
+    CartesianState,
+    Unreachable,
+)
+from robocomp_dsl.hardware.cartesian_line import turn_about
+from robocomp_dsl.hardware.errors import CommandRefused, HardwareError, finite
+from robocomp_dsl.hardware.rotations import Matrix
+from robocomp_dsl.hardware.servants.servant import Servant
+
+_STATES = tuple(CartesianState)  # in the order of the interface
+_MM = 1e-3
+
+
+class CartesianControllerServant(Servant):
+    """One hand."""
+
+    FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
+        (Unreachable, "Unreachable"),
+        (HardwareError, "CartesianRefused"),
+    )
+
+    @property
+    def _led(self) -> CartesianController:
+        found: CartesianController = self.device().controller
+        return found
+
+    def getJoints(self) -> list[str]:
+        """The joints of the chain."""
+        return list(self._led.joints)
+
+    def getPose(self) -> Any:
+        """Where the hand is."""
+        return self._told(self.device().pose())
+
+    def getState(self) -> Any:
+        """Where the hand is, and what the controller does."""
+        return self.types.HandState(
+            time=self.device().stands_on.board.time,
+            pose=self.getPose(),
+            motion=self.types.MotionState(_STATES.index(self._led.state)),
+        )
+
+    # -- motion -------------------------------------------------------------------------------
+
+    def goToPose(self, pose: Any, seconds: float) -> Any:
+        """Take the hand to a pose."""
+        return self._solution(self._led.go_to(self._goal(_matrix(pose)), seconds or None))
+
+    def goToPosition(self, place: Any, seconds: float) -> Any:
+        """Take the hand to a place."""
+        return self._solution(self._led.go_to(self._goal(_point(place)), seconds or None))
+
+    def getDesired(self) -> Any:
+        """What was solved for the last goal."""
+        found = self._led.desired
+        if found is None or len(found.q) != np.count_nonzero(self._led.free):
+            raise CommandRefused("no goal has been given since these joints are free to move")
+        return self._solution(found)
+
+    def checkMotionDone(self) -> bool:
+        """Whether the hand is on no way any more."""
+        return self._led.state is not CartesianState.MOVING
+
+    def stopControl(self) -> None:
+        """Stay where the hand is."""
+        self._led.stop()
+
+    def askForPose(self, pose: Any) -> Any:
+        """Solve for a pose."""
+        return self._solution(self._led.reach(self._goal(_matrix(pose))))
+
+    def askForPosition(self, place: Any) -> Any:
+        """Solve for a place."""
+        return self._solution(self._led.reach(self._goal(_point(place))))
+
+    # -- settings -----------------------------------------------------------------------------
+
+    def setTrajTime(self, seconds: float) -> None:
+        """The time that a motion usually takes."""
+        self._led.seconds = _positive(seconds=seconds)
+
+    def getTrajTime(self) -> float:
+        """The time that a motion usually takes."""
+        return self._led.seconds
+
+    def setInTargetTol(self, distance: float, angle: float) -> None:
+        """How near a posture must bring the hand."""
+        far, turned = _positive(distance=distance) / _MM, _positive(angle=angle)
+        self._led.distance, self._led.angle = far, turned
+
+    def getInTargetTol(self) -> tuple[float, float]:
+        """How near a posture must bring the hand."""
+        return self._led.distance * _MM, self._led.angle
+
+    def setTrackingMode(self, on: bool) -> None:
+        """Keep the hand at its goal."""
+        self._led.tracking = on
+
+    def getTrackingMode(self) -> bool:
+        """Whether the hand is kept at its goal."""
+        return self._led.tracking
+
+    def setDOF(self, free: Sequence[bool]) -> None:
+        """Which joints may move."""
+        self._led.use(np.array(free, bool))
+
+    def getDOF(self) -> NDArray[np.bool_]:
+        """Which joints may move."""
+        return self._led.free
+
+    # -- both ways ----------------------------------------------------------------------------
+
+    def failure(self, declared: type[Any], error: HardwareError) -> Exception:
+        """What is nearest goes along."""
+        if not isinstance(error, Unreachable):
+            return super().failure(declared, error)
+        made: Exception = declared(
+            what=str(error), distance=error.nearest.distance * _MM, angle=error.nearest.angle
+        )
+        return made
+
+    def _goal(self, given: Matrix) -> Matrix:
+        found: Matrix = self.device().goal(given)
+        return found
+
+    def _solution(self, found: Solution) -> Any:
+        pose, joints = self.device().solved(found)
+        return self.types.HandSolution(pose=self._told(pose), joints=joints)
+
+    def _told(self, pose: Matrix) -> Any:
+        vector = rotation_vector(pose[:3, :3])
+        angle = float(np.linalg.norm(vector))
+        axis = vector / angle if angle else np.array([0.0, 0.0, 1.0])
+        x, y, z = pose[:3, 3].tolist()
+        turn = dict(zip(("axisX", "axisY", "axisZ"), axis.tolist(), strict=True))
+        return self.types.HandPose(place=self.types.HandPlace(x=x, y=y, z=z), angle=angle, **turn)
+
+
+def _point(place: Any) -> Matrix:
+    return np.array([place.x, place.y, place.z])
+
+
+def _matrix(pose: Any) -> Matrix:
+    """A pose as (4, 4). Raises `CommandRefused` for an axis that has no length."""
+    axis = np.array([pose.axisX, pose.axisY, pose.axisZ])
+    length = float(np.linalg.norm(axis))
+    if not (math.isfinite(length) and math.isfinite(pose.angle)):
+        raise CommandRefused("the turn of the goal holds NaN or infinity")
+    if length < 1e-9 and pose.angle:
+        raise CommandRefused("a turn by an angle needs an axis that has a length")
+    made = np.eye(4)
+    if pose.angle:
+        made[:3, :3] = turn_about(axis * (pose.angle / length))
+    made[:3, 3] = _point(pose.place)
+    return made
+
+
+def _positive(**given: float) -> float:
+    finite(**given)
+    ((name, value),) = given.items()
+    if value <= 0.0:
+        raise CommandRefused(f"`{name}` is {value:g}, it must be above 0")
+    return value
