@@ -222,7 +222,7 @@ FAR = ("setEncoder", "setMotorEncoder")
 def test_a_number_that_nothing_reaches_is_refused(arm: Served, operation: str) -> None:
     """From such no regulator works out a torque."""
     board = arm.ports["ControlBoard"]
-    with pytest.raises(arm.types.Refused, match="nothing here reaches"):
+    with pytest.raises(arm.types.RoboCompControlBoard_Refused, match="nothing here reaches"):
         getattr(board, operation)("elbow", 1e308)
     arm.simulation.advance(0.1)
     assert np.abs(board.getState().position - [0, 0, 0.05]).max() < 1e-6
