@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rcgen_run import Rcgen
 from view_run import view
 
 from robocomp_dsl.hardware.view import screenless
@@ -38,9 +39,11 @@ SUBJECTS = ["nao_h21", "nao_h25", "icub_v2", *(MODELS / n for n in ("arm.urdf", 
 @pytest.mark.parametrize(
     "subject", [*SUBJECTS, MODELS / "room.xml"], ids=lambda one: Path(one).stem
 )
-def test_a_picture_shows_the_model_in_its_middle(tmp_path: Path, subject: object) -> None:
+def test_a_picture_shows_the_model_in_its_middle(
+    rcgen: Rcgen, tmp_path: Path, subject: object
+) -> None:
     path = tmp_path / "picture.png"
-    result = view(str(subject), "--screenshot", str(path), "--size", "320x240")
+    result = rcgen("view", str(subject), "--screenshot", str(path), "--size", "320x240")
     assert result.code == 0, result.err
     assert "320 x 240 pixels" in result.out
     made = pixels(path).astype(int)
@@ -53,11 +56,11 @@ def test_a_picture_shows_the_model_in_its_middle(tmp_path: Path, subject: object
 
 
 @pytest.mark.parametrize("more", ["--frames", "--names", "--azimuth=200", "--zoom=2"])
-def test_what_is_asked_for_is_in_the_picture(tmp_path: Path, more: str) -> None:
+def test_what_is_asked_for_is_in_the_picture(rcgen: Rcgen, tmp_path: Path, more: str) -> None:
     pictures = []
     for name, options in (("a", ()), ("b", (more,))):
         path = tmp_path / f"{name}.png"
-        said = view("nao_h25", "--screenshot", str(path), "--size", "160x120", *options)
+        said = rcgen("view", "nao_h25", "--screenshot", str(path), "--size", "160x120", *options)
         assert said.code == 0
         pictures.append(pixels(path))
     assert (pictures[0] != pictures[1]).any(axis=2).mean() > 0.003
@@ -73,22 +76,26 @@ def test_what_is_asked_for_is_in_the_picture(tmp_path: Path, more: str) -> None:
         ("", "RC"),
     ],
 )
-def test_what_cannot_be_shown_is_told_with_its_place(tmp_path: Path, text: str, said: str) -> None:
+def test_what_cannot_be_shown_is_told_with_its_place(
+    rcgen: Rcgen, tmp_path: Path, text: str, said: str
+) -> None:
     path = tmp_path / "model.xml"
     path.write_text(text)
-    result = view(str(path), "--screenshot", str(tmp_path / "no.png"))
+    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "no.png"))
     assert result.code == 1
     assert said in result.err
     assert "Traceback" not in result.err
     assert not (tmp_path / "no.png").exists()
 
 
-def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(tmp_path: Path) -> None:
+def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(
+    rcgen: Rcgen, tmp_path: Path
+) -> None:
     path = tmp_path / "world.xml"
     path.write_text(
         '<innerModel><plane id="a" texture="#ff0000"/><plane id="a" px="9"/><nix/></innerModel>'
     )
-    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
     assert "the id `a` is given twice" in result.err
     assert pixels(tmp_path / "w.png").shape == (48, 64, 3)
@@ -105,6 +112,7 @@ def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(tmp_path: Path)
     ],
 )
 def test_wrong_orders(
+    rcgen: Rcgen,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     arguments: tuple[str, ...],
@@ -112,7 +120,7 @@ def test_wrong_orders(
     said: str,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    result = view(*arguments)
+    result = rcgen("view", *arguments)
     assert (result.code, said in result.err) == (code, True), result.err
     assert list(tmp_path.iterdir()) == []
 
@@ -173,29 +181,32 @@ def test_every_one_of_many_sites_is_drawn() -> None:
     assert ((made[:, :, 0] > 150) & (made[:, :, 2] < 80)).any()
 
 
-def test_bodies_that_start_in_each_other_are_told_where_they_stand(tmp_path: Path) -> None:
+def test_bodies_that_start_in_each_other_are_told_where_they_stand(
+    rcgen: Rcgen, tmp_path: Path
+) -> None:
     cup = (
         '<transform id="{0}" ty="{1}" engine="bullet" mass="1"><plane id="{0}_p" size="100,100,100"'
     )
     cup += ' collide="1"/></transform>\n'
     path = tmp_path / "world.xml"
     path.write_text("<innerModel>\n" + cup.format("a", 0) + cup.format("b", 80) + "</innerModel>")
-    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
     assert "RC653]: `a` and `b` are 20 mm in each other" in result.err
     assert "world.xml:2:1" in result.err
 
 
-def test_a_mesh_that_is_missing_is_a_box_and_told_where(tmp_path: Path) -> None:
+def test_a_mesh_that_is_missing_is_a_box_and_told_where(rcgen: Rcgen, tmp_path: Path) -> None:
     path = tmp_path / "world.xml"
     path.write_text('<innerModel>\n  <mesh id="m" file="gone.3ds" scale="100"/></innerModel>')
-    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
     assert "RC652]: the mesh `m`" in result.err
     assert "world.xml:2:3" in result.err
 
 
 def test_an_empty_world_is_shown(tmp_path: Path) -> None:
+    """As a program: what libraries print would be heard, too."""
     path = tmp_path / "world.xml"
     path.write_text("<innerModel/>")
     result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
@@ -209,12 +220,14 @@ def test_what_is_missing_for_the_browser_is_told(monkeypatch: pytest.MonkeyPatch
         importlib.import_module("robocomp_dsl.hardware.view.browser")
 
 
-def test_links_that_start_in_each_other_are_told_where_they_stand(tmp_path: Path) -> None:
+def test_links_that_start_in_each_other_are_told_where_they_stand(
+    rcgen: Rcgen, tmp_path: Path
+) -> None:
     ball = "<body name='{}'><freejoint/><geom size='.1'/></body>\n"
     path = tmp_path / "balls.xml"
     balls = ball.format("a") + ball.format("b")
     path.write_text(f"<mujoco><worldbody>\n{balls}</worldbody></mujoco>")
-    result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
+    result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
     assert "`a` and `b` are 200 mm in each other" in result.err
     assert "balls.xml:2:1" in result.err
