@@ -70,7 +70,12 @@ class IdslBuilder(Operations):
     def outside_module(self, span: Span, item: Any) -> Any:
         """A declaration beside the module."""
         if item is not None:
-            self.say(codes.MISPLACED, self._head(span), "a declaration belongs into a module")
+            self.say(
+                codes.MISPLACED,
+                self._head(span),
+                "a declaration belongs into a module",
+                help="write `module RoboCompName { … };` around it",
+            )
         return item
 
     def outside_interface(self, span: Span, _operation: ast.Operation) -> None:

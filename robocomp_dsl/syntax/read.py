@@ -22,6 +22,9 @@ _HEADS = {
     "componentparams": ("pdsl", "a parameter description"),
     "deployment": ("ddsl", "a deployment description"),
 }
+_PAGE = re.compile(
+    r"\s*(<!DOCTYPE html\b[^>\n]*>?|<html\b[^>\n]*>?|\d{3}: Not Found)", re.IGNORECASE
+)
 _HEAD = rf"^[ \t]*({'|'.join(_HEADS)})\s+\w+\s*\{{"
 
 
@@ -29,7 +32,16 @@ def read(language: str, builder: type[Builder], source: Source, report: Report) 
     """The file node that `builder` makes of `source`."""
     file, made, own = _parse(language, builder, source)
     other = None if made.has_block else _other_language(language, source)
-    if other:
+    page = None if made.has_block else _PAGE.match(source.text)
+    if page:
+        report.add(
+            codes.WRONG_LANGUAGE,
+            source.span(*page.span(1)),
+            "this is a page of a web server",
+            label=f"but the file is called `{source.path.name}`",
+            help="download the file itself (`Raw`), not the page that shows it",
+        )
+    elif other:
         what, start, end = other
         report.add(
             codes.WRONG_LANGUAGE,

@@ -44,7 +44,7 @@ def _correct_or_drop(machine: Machine) -> None:
         _pass_over_stray(machine, situation, item, base)
         return
     made = choose(situation, item, base + 1)
-    _tell(machine, situation, made or hopeless(situation))
+    _tell(machine, situation, made or hopeless(situation, item))
     if made:
         _apply(machine, made)
     else:

@@ -5,6 +5,8 @@ In: the situation of a parser that is stuck. Out: values that `recovery` applies
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from robocomp_dsl.diagnostics import Code, Note
 from robocomp_dsl.record import Value
 from robocomp_dsl.syntax import codes
@@ -49,9 +51,13 @@ class Repair(Value):
         )
 
 
-def hopeless(situation: Situation) -> Repair:
-    """No correction but the finding alone, for a statement that is given up."""
+def hopeless(situation: Situation, item: Sequence[Token]) -> Repair:
+    """No correction but the finding alone: the statement that began with `item` is given up."""
     start, end = situation.place()
+    if module := situation.nested_module(item):
+        said = "a module is not inside of another"
+        way_out = "give it a file of its own, and import that; nothing of it is read here"
+        return Repair(codes.MISPLACED, module.start, module.end, said, help=way_out)
     if situation.ahead[0].kind != END or not situation.opened:
         # Only in one place of a deployment nothing but a dot can follow.
         ports = situation.tables.language == "ddsl" and situation.accepted() == ["DOT"]

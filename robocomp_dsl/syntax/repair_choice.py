@@ -25,6 +25,8 @@ def choose(situation: Situation, item: list[Token], keep: int) -> Repair | None:
 
     `item` are the tokens since the start of the statement, which began with `keep` states.
     """
+    if situation.nested_module(item):
+        return None
     best, best_progress = None, -1
     for made in _proposals(situation, item, keep):
         progress = _progress(situation, made)

@@ -20,7 +20,7 @@ from robocomp_dsl.syntax.tables import END
 _FOREIGN = {
     "in": "a parameter goes in unless it is marked `out`",
     "inout": "what goes in and out is a parameter and an `out` parameter",
-    "const": "every value is a copy",
+    "const": "values are copies, and there are no constants",
     "unsigned": "all numbers have a sign; `long` has 64 bits",
     "signed": "all numbers have a sign",
     "static": "",
@@ -212,6 +212,8 @@ def bad_name(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     if not run or run.end() <= token.start:
         return
     word = run.group()
+    if WORD.fullmatch(word.strip("&*")):
+        return  # as C++ writes references and pointers: a sign too many, and no name
     right = _plain(word)
     right = f"_{right}" if right[0].isdigit() else right
     yield Repair(

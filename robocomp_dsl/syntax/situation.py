@@ -75,6 +75,24 @@ class Situation(Value):
         """Whether all that is wrong is a sign that has no meaning."""
         return self.ahead[0].kind == "STRAY" and self.reach(skip=1) >= 2
 
+    def nested_module(self, item: Sequence[Token]) -> Token | None:
+        """The `module` that begins inside of another one, and not where that should have ended.
+
+        As the word is a name there, it may be the first of the tokens of the statement, `item`.
+        """
+        first = item[0] if item else self.ahead[0]
+        if self.tables.language != "idsl" or first.text != "module" or not self.opened:
+            return None
+        deeper = self._indent(first.start) > self._indent(self.opened[0].start)
+        return first if deeper else None
+
+    def _indent(self, offset: int) -> int:
+        """The blanks in front of the line at `offset`; a tab counts as one."""
+        text = self.source.text
+        start = max(text.rfind("\n", 0, offset), text.rfind("\r", 0, offset)) + 1
+        line = text[start:offset]
+        return len(line) - len(line.lstrip())
+
     def place(self) -> tuple[int, int]:
         """The characters to point at: the token that does not fit, or the end of what was read."""
         token = self.ahead[0]
