@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from robocomp_dsl.hardware.robots.catalog import description
 from robocomp_dsl.tactile.arm.chain import Chain, Row, generic_chain, link
+from robocomp_dsl.tactile.arm.generic_arm import GenericArm
 from robocomp_dsl.tactile.arm.inverse import Solver, Tolerance, rotation_vector
 from robocomp_dsl.tactile.errors import Unreachable
 
@@ -126,3 +128,26 @@ def test_rotation_vectors(axis, angle):
         angle > 3.1
         and rotation_vector(rotation_about(axis, angle)) == pytest.approx(-expected, abs=1e-6)
     )
+
+
+@pytest.mark.parametrize("side", ["left_arm", "right_arm"])
+@pytest.mark.parametrize("robot", ["nao_h21", "nao_h25", "icub_v2"])
+def test_what_an_arm_reaches_with_joints_at_their_limits_is_found(robot, side):
+    """Half of the joints stand at one of their limits: the others have to make up for them."""
+    arm = GenericArm(description(robot).part(side))
+    solver, random = Solver(arm.chain, arm.low, arm.high), np.random.default_rng(3)
+    missed = 0
+    for _ in range(50):
+        share, at_limit = random.uniform(size=5), random.uniform(size=5) < 0.5
+        angles = arm.low + np.where(at_limit, share.round(), share) * (arm.high - arm.low)
+        wanted = arm.chain.pose(angles)
+        for rotation in (None, wanted[:3, :3]):
+            try:
+                found = solver.solve(wanted[:3, 3], arm.part.start, rotation)
+            except Unreachable:
+                missed += 1
+                continue
+            assert (found >= arm.low).all()
+            assert (found <= arm.high).all()
+            assert arm.chain.pose(found)[:3, 3] == pytest.approx(wanted[:3, 3], abs=1e-4)
+    assert missed <= 1

@@ -16,7 +16,7 @@ from robocomp_dsl.tactile.arm.chain import Chain
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.errors import Unreachable
 
-_STARTS = 8
+_STARTS = 16
 
 STANDSTILL = 1e-4
 """A step that brings the pose nearer by less than this share is the last from its start."""
@@ -74,8 +74,7 @@ class Solver:
         damping, error, jacobian = 1e-2, *self._task(angles, position, rotation, weight)
         cost = float(error @ error)
         for _ in range(self.tolerance.iterations):
-            step = _damped_step(jacobian, error, damping, self._free(angles, jacobian.T @ error))
-            trial = np.clip(angles + step, self.low, self.high)
+            trial = self._step(angles, jacobian, error, damping)
             found, turned = self._task(trial, position, rotation, weight)
             gained = cost - float(found @ found)
             if gained > 0.0:
@@ -88,6 +87,20 @@ class Solver:
             if 0.0 < gained < STANDSTILL * cost:
                 break
         return angles
+
+    def _step(self, angles: Floats, jacobian: Floats, error: Floats, damping: float) -> Floats:
+        """Where a step leads; joints that it brings to a limit stay there, the others make up."""
+        free = self._free(angles, jacobian.T @ error)
+        trial, left = angles, error
+        while free.any():
+            trial = np.where(free, angles + _damped_step(jacobian, left, damping, free), trial)
+            within = np.clip(trial, self.low, self.high)
+            beyond = free & (within != trial)
+            trial, free = within, free & ~beyond
+            if not beyond.any():
+                break
+            left = error - jacobian @ np.where(free, 0.0, trial - angles)
+        return trial
 
     def _free(self, angles: Floats, pull: Floats) -> Bools:
         """Joints that are not held at a limit by the way they are pulled."""
