@@ -48,6 +48,8 @@ def command(context: str, file: str | None, *, force: bool) -> None:
 def _copies(folders: searching.Folders, context: str, file: str | None) -> list[Copy]:
     """What is to be copied: of each name the installed file that wins among the installed ones."""
     installed = folders.installed()
+    if context not in context_names(installed) and context in context_names(folders.roots):
+        searching.fail(f"nothing of the context `{context}` is installed; what it has is yours")
     searching.known_context(context, installed)
     inside = [one for one in context_names(installed) if f"{one}/".startswith(f"{context}/")]
     found = {}

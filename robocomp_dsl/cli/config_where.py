@@ -9,7 +9,15 @@ import click
 
 from robocomp_dsl.cli import config_search as searching
 from robocomp_dsl.cli.program import FINDINGS
-from robocomp_dsl.runtime.config import Tried, WrongName, checked_context, places, search
+from robocomp_dsl.diagnostics import did_you_mean
+from robocomp_dsl.runtime.config import (
+    Tried,
+    WrongName,
+    checked_context,
+    files_beside,
+    places,
+    search,
+)
 
 
 @click.command()
@@ -32,7 +40,9 @@ def command(name: str, context: str, form: str) -> None:
     else:
         print("\n".join(_line(one, winner) for one in tried))
         if winner is None:
-            print(f"error: there is no `{name}` in any of them", file=sys.stderr)
+            guess = did_you_mean(name, files_beside(tried))
+            said = f"error: there is no `{name}` in any of them"
+            print(f"{said}; {guess}" if guess else said, file=sys.stderr)
     sys.exit(0 if winner else FINDINGS)
 
 

@@ -120,6 +120,9 @@ def test_where_is_nothing(rcgen: Rcgen, top: Path) -> None:
     run = rcgen("config", "where", "arm.yaml")
     assert run.code == 1
     assert run.err == "error: there is no `arm.yaml` in any of them\n"
+    put(top, "share1/amr.yaml")
+    run = rcgen("config", "where", "arm.yaml")
+    assert run.err == "error: there is no `arm.yaml` in any of them; did you mean `amr.yaml`?\n"
 
 
 def test_import_a_context(rcgen: Rcgen, top: Path) -> None:
@@ -228,6 +231,13 @@ def test_a_context_that_is_not_there(rcgen: Rcgen, top: Path, command: str) -> N
     run = rcgen("config", command, "laboratry")
     assert run.code == 1
     assert run.err == ("error: there is no context `laboratry` here; did you mean `laboratory`?\n")
+
+
+def test_a_context_that_is_all_yours_is_not_imported(rcgen: Rcgen, top: Path) -> None:
+    put(top, "work/contexts/lab/arm.yaml")
+    run = rcgen("config", "import", "lab")
+    assert run.code == 1
+    assert run.err == "error: nothing of the context `lab` is installed; what it has is yours\n"
 
 
 @pytest.mark.parametrize("command", ["import", "diff"])

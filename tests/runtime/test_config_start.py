@@ -94,7 +94,7 @@ def test_a_context_without_a_file_for_it(machine: Machine) -> None:
     machine.put("work/etc/config.yaml", "rate: 2\n")
     code, out, err = run(machine, "--context", "lab")
     assert (code, out) == (0, "rate 2.0 as arm\n")
-    assert "context lab has none for this component; etc/config.yaml" in err
+    assert "context lab has no configuration of this component; etc/config.yaml is used" in err
     code, _, err = run(machine, "--context", "labb")
     assert "warning: no folder has the context `labb`; did you mean `lab`?" in err
 

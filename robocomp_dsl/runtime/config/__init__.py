@@ -4,7 +4,7 @@ In: a file name or a context, the environment. Out: the file that wins, and ever
 search is that of YARP's ResourceFinder, in the folders of the XDG base directory specification.
 """
 
-from robocomp_dsl.runtime.config.choose import Asked, Chosen, choose
+from robocomp_dsl.runtime.config.choose import Asked, Chosen, choose, files_beside
 from robocomp_dsl.runtime.config.contexts import context_names, files_of
 from robocomp_dsl.runtime.config.drop_ins import dropped
 from robocomp_dsl.runtime.config.find import (
@@ -32,6 +32,7 @@ __all__ = [
     "choose",
     "context_names",
     "dropped",
+    "files_beside",
     "files_of",
     "places",
     "search",

@@ -109,7 +109,7 @@ def _writable(folder: Path) -> bool:
 
 def _nowhere(file: str, tried: list[Tried]) -> Finding:
     listed = "\n".join(f"  {one.path} ({one.place}): {one.obstacle}" for one in tried)
-    near = did_you_mean(file, _files_beside(tried))
+    near = did_you_mean(file, files_beside(tried))
     return Finding(
         _at("--from", file),
         f"there is no configuration `{file}`",
@@ -118,7 +118,8 @@ def _nowhere(file: str, tried: list[Tried]) -> Finding:
     )
 
 
-def _files_beside(tried: list[Tried]) -> list[str]:
+def files_beside(tried: list[Tried]) -> list[str]:
+    """The configurations that there are in the places that were searched."""
     names: list[str] = []
     for one in tried:
         try:

@@ -34,7 +34,8 @@ def found(asked: Asked, otherwise: Path, *, verbose: bool) -> tuple[Path | None,
         log.info("configuration %s (%s)", chosen.path, chosen.place)
         return chosen.path, chosen.keeps
     path = otherwise if otherwise.is_file() else None
-    log.info("context %s has none for this component; %s", asked.context, path or "no file is used")
+    instead = f"{path} is used" if path else "no file is used"
+    log.info("context %s has no configuration of this component; %s", asked.context, instead)
     return path, chosen.keeps
 
 
