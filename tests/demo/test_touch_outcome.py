@@ -77,7 +77,7 @@ def test_the_table(body) -> None:
         "robot  place            force  field            withdrawn  to motion  cleared",
         "                            N                          mm         ms       ms",
         "NAO    lower arm outer    2.0  lower arm outer         58         60      140",
-        "NAO    lower arm under    2.0  lower arm under         92         60      140",
+        "NAO    lower arm under    2.0  lower arm under         91         60      140",
     ]
     lost = outcome.outcomes(recording(force=0.0), body)
     assert list(outcome.table(lost))[2].split() == [

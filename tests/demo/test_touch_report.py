@@ -15,11 +15,11 @@ def test_the_facts_of_all_touches_in_a_line() -> None:
     body = demo().body.Body(NAO.world, recording().skin, NAO.part)
     rows = demo().outcome.outcomes(recording(), body)
     assert report.facts(rows) == (
-        "2 of 2 touches: the arm withdrew by 58 to 92 mm"
+        "2 of 2 touches: the arm withdrew by 58 to 91 mm"
         " · first motion 60 ms after the contact · free after 140 ms"
     )
     some = demo().outcome.outcomes(recording(answers=recording().answers[2:]), body)
-    assert report.facts(some).startswith("1 of 2 touches: the arm withdrew by 92 mm · ")
+    assert report.facts(some).startswith("1 of 2 touches: the arm withdrew by 91 mm · ")
     none = demo().outcome.outcomes(recording(force=0.0), body)
     assert report.facts(none) == "0 of 2 touches: the arm withdrew"
 
