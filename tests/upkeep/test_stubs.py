@@ -151,3 +151,25 @@ def test_the_place_of_a_stub_is_told(talker: Talker, case: str) -> None:
     row, column = found.span.begin
     assert lines[row - 1][column - 1 :].startswith("Talk_say(self, w: Word) -> int:")
     assert lines[row - 2] == "", "the blank line before a stub"
+
+
+@pytest.mark.parametrize(
+    ("operation", "stub"),
+    [
+        ("Word two();", "def Talk_two(self) -> generated_interfaces.Word:\n"),
+        ("Word say(out int n);", "def Talk_say(self) -> tuple[generated_interfaces.Word, int]:\n"),
+        (
+            "Word say(Word Word);",
+            "def Talk_say(self, Word: generated_interfaces.Word) -> generated_interfaces.Word:\n",
+        ),
+    ],
+)
+def test_all_types_of_a_stub_have_their_local_names(
+    talker: Talker, operation: str, stub: str
+) -> None:
+    text = f"{HEAD}class Word: pass\nclass SpecificWorker(GenericWorker):\n    pass\n"
+    talker.worker.write_text(text)
+    talker.describe(operation)
+    talker.generate()
+    assert stub in talker.worker.read_text()
+    talker.imports()

@@ -144,7 +144,7 @@ def _renamed(definition: str, local: dict[str, str]) -> str:
     if not changed:
         return definition
     names = "|".join(map(re.escape, changed))
-    annotation = re.compile(rf"(?<=[\[ ])(?:{names})\b(?!:)")
+    annotation = re.compile(rf"(?<=[\[ ])(?:{names})\b(?!: )")
     return annotation.sub(lambda m: changed[m.group()], definition)
 
 
