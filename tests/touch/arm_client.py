@@ -75,6 +75,12 @@ class RunningArm:
         self._client.close()
         return well
 
+    def sets_off(self, command: Callable[..., Any], *given: Any) -> None:
+        """Give the command, and see that it moves; it may be at rest again before anybody looks."""
+        seen = len(self.states)
+        command(*given)
+        until(lambda: any(one.moving for one in self.states[seen:]))
+
     def rest(self) -> Any:
         """The state once nothing moves any more."""
         until(lambda: not self.getState().moving)

@@ -116,8 +116,7 @@ def test_speeds_last_until_the_next_command(robot: str) -> None:
 @BOTH
 def test_speeds_end_after_hold_when_their_caller_is_silent(robot: str) -> None:
     with arm_on(robot, "hold=0.2") as (arm, _):
-        arm.drive(np.array([0, 0, 0, 0.5, 0]))
-        until(lambda: arm.getState().moving)
+        arm.sets_off(arm.drive, np.array([0, 0, 0, 0.5, 0]))
         there = arm.rest().position
         assert there[3] < arm.getLimits().high[3] - 0.1
 

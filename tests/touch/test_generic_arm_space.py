@@ -113,8 +113,7 @@ def test_a_glide_ends_after_hold_when_its_caller_is_silent() -> None:
         arm.move(GOAL, np.zeros(0))
         arm.rest()
         first = position(arm.getHand())
-        arm.glide(0.0, 0.0, 0.05)
-        until(lambda: arm.getState().moving)
+        arm.sets_off(arm.glide, 0.0, 0.0, 0.05)
         arm.rest()
         assert position(arm.getHand())[2] > first[2] + 0.001
         assert arm.runner.worker.control._glide is None

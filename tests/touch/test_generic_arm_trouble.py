@@ -72,8 +72,7 @@ def test_while_nobody_tells_the_time_the_arm_is_stopped_and_all_goes_on_behind()
     ticking = Ticking()
     try:
         with arm_on("nao_h25", clock=ticking.clock) as (arm, served):
-            arm.drive(np.array([0, 0, 0, 0.2, 0]))
-            until(lambda: arm.getState().moving)
+            arm.sets_off(arm.drive, np.array([0, 0, 0, 0.2, 0]))
             served.calls.clear()
             ticking.hold_up(held=True)
             until(lambda: arm.runner.lifecycle.state is State.EMERGENCY)
@@ -96,8 +95,7 @@ def test_while_nobody_tells_the_time_the_arm_is_stopped_and_all_goes_on_behind()
 @BOTH
 def test_a_board_that_goes_away_is_an_emergency_until_it_is_there_again(robot: str) -> None:
     with arm_on(robot) as (arm, served):
-        arm.drive(np.array([0, 0, 0, 0.2, 0]))
-        until(lambda: arm.getState().moving)
+        arm.sets_off(arm.drive, np.array([0, 0, 0, 0.2, 0]))
         served.away()
         life = arm.runner.lifecycle
         until(lambda: life.state is State.EMERGENCY)
