@@ -1,6 +1,7 @@
 import math
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -57,3 +58,23 @@ def test_a_world_that_mujoco_refuses_is_told() -> None:
     spec.worldbody.add_body(name="ghost").add_freejoint()  # it has no mass
     with pytest.raises(SceneError, match="MuJoCo cannot build the world"):
         World(spec)
+
+
+SWING = """<mujoco><option timestep="0.001"/>
+<worldbody><body><joint name="j" axis="0 1 0"/><geom size=".1" pos=".3 0 0"/>
+<site name="s" pos=".3 0 0"/></body></worldbody><sensor>{}</sensor></mujoco>"""
+QUICK = '<jointpos joint="j"/><accelerometer site="s"/><gyro site="s"/>'
+LATE = QUICK + '<jointpos joint="j" nsample="8" delay="0.005"/>'
+
+
+@pytest.mark.parametrize("sensors", [QUICK, LATE], ids=["quick", "late"])
+def test_sensors_tell_of_the_last_step_however_many_there_were(sensors: str) -> None:
+    """In the steps between nobody looks at them; a late one remembers these all the same."""
+    told = []
+    for times in (1, 20):
+        world = World(mujoco.MjSpec.from_string(SWING.format(sensors)))
+        for _ in range(times):
+            world.advance(0.02 / times)
+        told.append((world.time, *world.data.sensordata))
+    assert told[0] == told[1]
+    assert np.count_nonzero(told[0]) > 4

@@ -17,6 +17,7 @@ import numpy as np
 from robocomp_dsl.hardware.errors import Diverged, SceneError
 from robocomp_dsl.hardware.scene import Model
 
+_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 _BAD = tuple(
     (int(kind), kind.name)
     for kind in (
@@ -118,12 +119,19 @@ class World:
         before = [part.before_step for part in self._parts if hasattr(part, "before_step")]
         after = [part.after_step for part in self._parts if hasattr(part, "after_step")]
         model, data = self.model, self.data
-        for _ in range(count):
-            for drive in before:
-                drive(dt)
-            mujoco.mj_step(model, data)
-            for read in after:
-                read(dt)
+        flags = model.opt.disableflags
+        model.opt.disableflags = flags | _SENSORS  # they are read when all steps are over
+        try:
+            for left in range(count, 0, -1):
+                for drive in before:
+                    drive(dt)
+                if left == 1:
+                    model.opt.disableflags = flags
+                mujoco.mj_step(model, data)
+                for read in after:
+                    read(dt)
+        finally:
+            model.opt.disableflags = flags
 
     def _begin(self, start: Model) -> None:
         """Joints and motors as the first key frame of a model file has them."""
