@@ -115,6 +115,8 @@ class Model:
     mass has at least `boundmass` kg. `couplings` of boards whose n joints share motors have n · n
     numbers: motor angles are `gear` times this matrix, row by row, times joint angles. `pulled` are
     the joints that motors of tendons move, by the names of these.
+    `transmissions`: where a board commands other joints than the model has, angles of the model's
+    are this matrix times those of the board.
     """
 
     file: Path
@@ -122,6 +124,7 @@ class Model:
     start: Mapping[str, Sequence[float]] = field(default_factory=dict)
     held: Mapping[str, float] = field(default_factory=dict)
     couplings: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    transmissions: Mapping[str, Sequence[float]] = field(default_factory=dict)
     pulled: Mapping[str, str] = field(default_factory=dict)
 
 

@@ -197,3 +197,35 @@ def test_motors_of_tendons_keep_their_command(tmp_path: Path) -> None:
     it = Simulation(Scene.of_data(made.scene | file, tmp_path), Options(step=0.001))
     it.advance(0.01)
     assert it.world.data.actuator("pull").ctrl[0] == 0.7
+
+
+TRANSMISSIONS = [  # names of joints, the matrix, what is said
+    ("bend swing", "1 1 1 -1", ""),
+    ("bend swing", "1 1 1 1", "a transmission that cannot be turned round"),
+    ("bend swing", "1 1 1", "needs a `transmission_\u2026` of 2 x 2 numbers"),
+    ("bend bend", "1 1 1 -1", "must name the 2 joints of the board"),
+    ("bend grip", "1 1 1 -1", "must name the 2 joints of the board"),
+]
+
+
+@pytest.mark.parametrize(("names", "matrix", "said"), TRANSMISSIONS)
+def test_boards_may_command_other_joints_than_the_model_has(
+    tmp_path: Path, names: str, matrix: str, said: str
+) -> None:
+    custom = (
+        f'<text name="joints_arm" data="{names}"/>'
+        f'<numeric name="transmission_arm" data="{matrix}"/>'
+        '<numeric name="range_bend" data="-0.5 0.25"/>'
+    )
+    made = described(tmp_path, ARM.replace("</custom>", f"{custom}</custom>"))
+    told = [one.said for one in made.findings if "joints_arm" in one.said]
+    devices = {one["id"]: one["settings"] for one in made.scene["devices"]}
+    if said:
+        assert said in told[0]
+        assert "elbow" in devices
+        return
+    assert told == []
+    assert made.scene["model"]["transmissions"] == {"arm": [1.0, 1.0, 1.0, -1.0]}
+    assert devices["bend"]["joint"] == "elbow"
+    assert (devices["bend"]["low"], devices["bend"]["high"]) == (-0.5, 0.25)
+    assert "low" not in devices["swing"]

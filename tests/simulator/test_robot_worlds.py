@@ -12,6 +12,7 @@ import pytest
 from worlds import rcgen
 
 from robocomp_dsl.hardware.control.joints import BoardSpec
+from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.mujoco.simulation import Options, Simulation
 from robocomp_dsl.hardware.robots.boards import board_names, robot_board
 from robocomp_dsl.hardware.robots.build import add_robot, new_world
@@ -96,18 +97,16 @@ def limits(spec: BoardSpec) -> dict[str, tuple[float, ...]]:
 
 @worlds
 def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: World) -> None:
-    """The eyes are joints of their own here: version and vergence are the real board's."""
     robot, board = ROBOTS[world.robot](), simulation(world).devices["finger_x"]
     here = limits(board.board.spec)
     for name in board_names(robot):
         wanted = robot_board(robot, name)
         group = [joint for joint in board.names if board.groups[joint] == name]
-        assert group == list(wanted.joints)
+        assert group == list(wanted.spec.names)
         for joint, told in limits(wanted.spec).items():
-            assert here.get(joint, told) == pytest.approx(told, rel=1e-5), joint
+            assert here[joint] == pytest.approx(told, rel=1e-5), joint
         at = board.board.select.indices(group)
-        shared = wanted.spec.coupling @ np.linalg.inv(wanted.transmission)
-        assert board.board.spec.coupling[np.ix_(at, at)] == pytest.approx(shared)
+        assert board.board.spec.coupling[np.ix_(at, at)] == pytest.approx(wanted.spec.coupling)
     assert set(board.groups.values()) == {*board_names(robot), *FINGERS}
 
 
@@ -168,3 +167,29 @@ def test_a_finger_pushes_with_no_more_than_its_force(world: World, finger: str) 
         mujoco.mj_contactForce(it.world.model, data, i, pressed)
         total += pressed[0]
     assert total == pytest.approx(FORCE, rel=0.05)
+
+
+def test_the_eyes_of_the_icub_turn_by_version_and_vergence() -> None:
+    """Encoders at the joints count these; those of the motors each its own eye."""
+    it = simulation(next(one for one in WORLDS if one.robot == "icub_v2"))
+    it.reset()
+    eyes, pans = ["eyes_version", "eyes_vergence"], ["l_eye_pan", "r_eye_pan"]
+    board = move(it, eyes, [0.2, 0.3], 3.0)
+    at = board.select.indices(eyes)
+    left, right = (it.branch.joint(one) for one in pans)
+    assert (left, right) == pytest.approx((0.35, 0.05), abs=5e-3)
+    state = board.state()
+    assert state.position[at] == pytest.approx([0.2, 0.3], abs=5e-3)
+    turns = state.motor_counts[at] / board.motors.counts[at] * 2 * np.pi / board.motors.gear[at]
+    assert turns == pytest.approx([left, right], abs=1e-3)
+    assert [one.name for one in board.spec.motors[at[0] : at[1] + 1]] == pans
+    move(it, ["eyes_vergence"], [0.0], 3.0)
+    assert [it.branch.joint(one) for one in pans] == pytest.approx([0.2, 0.2], abs=5e-3)
+    move(it, ["eyes_tilt"], [0.2], 3.0)
+    assert it.branch.joint("eyes_tilt") == pytest.approx(0.2, abs=5e-3)
+    # both pushed with all there is: no motor gets more than its joint may have
+    board.set_modes(at, [Mode.TORQUE] * 2)
+    board.push(board.law.torque, at, board.limits.torque[at])
+    it.advance(0.001)
+    motors = [it.world.data.actuator(one).ctrl[0] for one in pans]
+    assert motors == pytest.approx([1.0, 0.0], abs=1e-6)

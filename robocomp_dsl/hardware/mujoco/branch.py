@@ -67,7 +67,8 @@ class Branch:
     def joint(self, frame: str) -> float:
         """The value of a joint in rad or mm. Raises `FrameError`."""
         model = self.world.model
-        given = {one.id for one in self.scene.devices if one.kind.endswith("joint")}
+        joints = [one for one in self.scene.devices if one.kind.endswith("joint")]
+        given = {one.settings.get("joint", one.id) for one in joints}
         known = given | {one.id for one in self.scene.frames if one.motion}
         if frame not in known:
             raise FrameError(f"there is no joint `{frame}`")

@@ -10,13 +10,14 @@ which names a board, the body or site that its joints move, and the body that po
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import mujoco
 
 from robocomp_dsl.hardware.findings import Finding
 from robocomp_dsl.hardware.mujoco.mirror import Mirror
+from robocomp_dsl.hardware.mujoco.model_texts import texts_of
 from robocomp_dsl.hardware.scene import JOINTS
 
 PREFIX = "cartesian_"
@@ -29,7 +30,9 @@ def hands_of(
 ) -> list[Data]:
     """A device for every hand; what cannot be one is a finding."""
     made: list[Data] = []
-    for name, told in _texts(model):
+    for name, told in texts_of(model).items():
+        if not name.startswith(PREFIX):
+            continue
         try:
             made.append(_hand(model, seen, devices, name, told))
         except _NoHand as why:
@@ -39,16 +42,6 @@ def hands_of(
 
 class _NoHand(Exception):
     """Why a text is no hand."""
-
-
-def _texts(model: Any) -> Iterator[tuple[str, list[str]]]:
-    """The texts that mean hands, in words."""
-    for i in range(model.ntext):
-        name = str(mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_TEXT, i))
-        if name.startswith(PREFIX):
-            first, size = int(model.text_adr[i]), int(model.text_size[i])
-            told = bytes(model.text_data[first : first + size])
-            yield name, told.rstrip(b"\0").decode("utf-8", "replace").split()
 
 
 def _hand(
@@ -72,6 +65,8 @@ def _hand(
     carrying = {at: i for i, at in enumerate(seen.tree.path(frame))}
     moving = [d for d in joints if d["frame"] in carrying and d["id"] not in left]
     moving.sort(key=lambda device: -carrying[device["frame"]])  # from the base to the tip
+    if any("joint" in d["settings"] for d in moving):
+        raise _NoHand(f"is moved by joints that the board commands by others: `{tip}`")
     if any(d["kind"] == "prismaticjoint" for d in moving):
         raise _NoHand(f"is moved by a joint that slides: `{tip}` cannot be led")
     if not moving or any("low" not in d["settings"] for d in moving):

@@ -20,6 +20,7 @@ from robocomp_dsl.hardware.mujoco.model_joints import couplings_of, joints_of
 from robocomp_dsl.hardware.mujoco.model_motors import others, through_tendons
 from robocomp_dsl.hardware.mujoco.model_sensors import sensors_of
 from robocomp_dsl.hardware.mujoco.model_start import Started, begin
+from robocomp_dsl.hardware.mujoco.model_transmissions import transmissions_of
 from robocomp_dsl.hardware.scene import ROOT
 
 Data = dict[str, Any]
@@ -44,10 +45,13 @@ def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> Described:
     seen = mirror(model)
     devices = joints_of(model, seen, started)
     couplings = couplings_of(model, devices, started.findings)
+    transmissions = transmissions_of(model, devices, started.findings)
     devices += sensors_of(model, seen, {one["id"] for one in devices} | set(_names(seen)))
     devices += hands_of(model, seen, devices, started.findings)
     scene: Data = {
-        "model": _model(model, file, started) | ({"couplings": couplings} if couplings else {}),
+        "model": _model(model, file, started)
+        | ({"couplings": couplings} if couplings else {})
+        | ({"transmissions": transmissions} if transmissions else {}),
         "frames": list(_frames(seen)),
         "boxes": [],
         "meshes": [],

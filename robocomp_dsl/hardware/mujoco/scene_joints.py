@@ -22,7 +22,7 @@ from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.control.parking import Parking
 from robocomp_dsl.hardware.mujoco.axes import MM
 from robocomp_dsl.hardware.mujoco.control_board import Floats, SimulatedBoard
-from robocomp_dsl.hardware.robots.boards import GEAR, SUPPLY, RobotBoard
+from robocomp_dsl.hardware.robots.boards import GEAR, SUPPLY, RobotBoard, shared_limits
 from robocomp_dsl.hardware.scene import JOINTS, Device, Frame, Model, Motion, Scene
 
 FORCE = {"hinge": 50.0, "slide": 500.0}
@@ -39,7 +39,8 @@ _INERTIA = 0.005
 class Driven:
     """A joint and its motor in rad, N·m, m, N; the motor has the inertia `armature`.
 
-    Joints of one `group` are served together.
+    Joints of one `group` are served together. `joint` is the joint of the model that has the motor,
+    if a board commands it by another one: `force`, `home` and `armature` are its own.
     """
 
     name: str
@@ -52,6 +53,12 @@ class Driven:
     armature: float
     gear: float = 1.0
     group: str = ""
+    joint: str = ""
+
+    @property
+    def own(self) -> str:
+        """The joint of the model."""
+        return self.joint or self.name
 
 
 def driven(scene: Scene) -> list[Driven]:
@@ -63,20 +70,24 @@ def driven(scene: Scene) -> list[Driven]:
 class JointBoard(SimulatedBoard):
     """The board of `joints`; `homes` (n,) is where each rests [rad, m], `groups` by their names.
 
-    Joints of a group share motors as in `model.couplings`; only what a model weighs is held.
+    Joints of a group share motors as in `model.couplings`, and move those of the model as in
+    `model.transmissions`; only what a model weighs is held.
     """
 
     def __init__(self, joints: Sequence[Driven], model: Model | None = None) -> None:
         motors = tuple(map(_motor, joints))
-        coupling = _coupling(joints, model.couplings if model else {})
-        spec = BoardSpec(tuple(map(_joint, joints)), motors, coupling)
-        names = tuple(one.name for one in joints)
-        robot_board = RobotBoard(spec, names, np.eye(len(joints)))
+        coupling = _blocks(joints, model.couplings if model else {})
+        transmission = _blocks(joints, model.transmissions if model else {})
+        torques = shared_limits(transmission, np.array([one.force for one in joints]))
+        specs = tuple(map(_joint, joints, torques.tolist()))
+        robot_board = RobotBoard(
+            BoardSpec(specs, motors, coupling), tuple(one.own for one in joints), transmission
+        )
         super().__init__(robot_board, hold_weight=model is not None)
         self._driven = tuple(joints)
         self._pulled = dict(model.pulled) if model else {}
         self.groups = {one.name: one.group for one in joints}
-        self.homes = np.array([one.home for one in joints])
+        self.homes = self._to_joint @ np.array([one.home for one in joints])
         homes = np.clip(self.homes, self.board.limits.low, self.board.limits.high)
         self.parking = Parking(self.board, homes)
         self.calibrator = Calibrator(
@@ -99,8 +110,8 @@ class JointBoard(SimulatedBoard):
         taken = {motor.name for motor in spec.actuators}
         motors = []
         for one in self._driven:
-            spec.joint(one.name).armature = one.armature
-            motors.append(_motor_of(spec, one.name, given.get(one.name, []), taken))
+            spec.joint(one.own).armature = one.armature
+            motors.append(_motor_of(spec, one.own, given.get(one.own, []), taken))
         self._motors = tuple(motors)
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
@@ -137,10 +148,10 @@ def _motor_of(spec: Any, joint: str, given: list[Any], taken: set[str]) -> str:
     return name
 
 
-def _coupling(joints: Sequence[Driven], couplings: Mapping[str, Sequence[float]]) -> Floats:
+def _blocks(joints: Sequence[Driven], given: Mapping[str, Sequence[float]]) -> Floats:
     """The matrix of all joints, (n, n); joints of different groups share nothing."""
     made = np.eye(len(joints))
-    for group, numbers in couplings.items():
+    for group, numbers in given.items():
         here = [i for i, one in enumerate(joints) if one.group == group]
         made[np.ix_(here, here)] = np.reshape(numbers, (len(here), len(here)))
     return made
@@ -152,7 +163,8 @@ def _is_given(device: Device) -> bool:
 
 def _of_device(device: Device) -> Driven:
     """A joint of a model file: all is said in its settings, in MuJoCo's units."""
-    given = {name: float(value) for name, value in device.settings.items() if name != "board"}
+    words = ("board", "joint")
+    given = {name: float(value) for name, value in device.settings.items() if name not in words}
     return Driven(
         device.id,
         "hinge" if device.kind == "joint" else "slide",
@@ -163,6 +175,7 @@ def _of_device(device: Device) -> Driven:
         given["home"],
         given["armature"],
         group=str(device.settings["board"]),
+        joint=str(device.settings.get("joint", "")),
     )
 
 
@@ -180,9 +193,9 @@ def _of_frame(frame: Frame, motion: Motion) -> Driven:
     return Driven(frame.id, motion.kind, low, high, speed, force, home, _INERTIA * force, gear)
 
 
-def _joint(one: Driven) -> JointSpec:
+def _joint(one: Driven, torque: float) -> JointSpec:
     slides = one.kind == "slide"
-    return JointSpec(one.name, one.low, one.high, one.speed, one.force, prismatic=slides)
+    return JointSpec(one.name, one.low, one.high, one.speed, torque, prismatic=slides)
 
 
 def _motor(one: Driven) -> MotorSpec:
@@ -194,7 +207,7 @@ def _motor(one: Driven) -> MotorSpec:
     current = one.force / per_amp
     gear = one.gear * GEAR
     return MotorSpec(
-        one.name,
+        one.own,
         gear=gear,
         torque_constant=per_amp / gear,
         resistance=SUPPLY / (3.0 * current),

@@ -39,6 +39,9 @@ WAIST = np.array([[1.0, 0, 0], [0, 1, 1], [0, 1, -1]])
 EYES = np.array([[1.0, 0.5], [1, -0.5]])
 """Left and right eye from version and vergence."""
 
+RANGES = (("eyes_version", -30.0, 30.0), ("eyes_vergence", 0.0, 45.0))
+"""Their limits [degrees]."""
+
 
 @dataclass(frozen=True, eq=False)
 class RobotBoard:
@@ -47,6 +50,19 @@ class RobotBoard:
     spec: BoardSpec
     joints: tuple[str, ...]
     transmission: Floats
+
+
+def shared_limits(transmission: Floats, limits: Floats) -> Floats:
+    """Torques (n,) that all joints of a board may ask for at once.
+
+    `limits` (n,) are those of the robot's joints, which follow the board's by `transmission`.
+    """
+    shares = np.abs(np.linalg.inv(transmission)).T
+    count = np.count_nonzero(shares > 1e-12, axis=1)
+    most = np.full_like(shares, np.inf)
+    np.divide((limits / count)[:, None], shares, out=most, where=shares > 1e-12)
+    found: Floats = most.min(axis=0)
+    return found
 
 
 def board_names(robot: Robot) -> tuple[str, ...]:
@@ -105,8 +121,9 @@ def _icub_head(robot: Robot) -> RobotBoard:
     real = ("neck_pitch", "neck_roll", "neck_yaw", "eyes_tilt", "l_eye_pan", "r_eye_pan")
     specs = [_joint(joints[one]) for one in real[:4]]
     pan = joints["l_eye_pan"]
-    for eyes, low, high in (("eyes_version", -30.0, 30.0), ("eyes_vergence", 0.0, 45.0)):
-        specs.append(JointSpec(eyes, radians(low), radians(high), pan.speed, pan.effort))
+    torques = shared_limits(EYES, np.full(2, pan.effort)).tolist()
+    for (eyes, low, high), torque in zip(RANGES, torques, strict=True):
+        specs.append(JointSpec(eyes, radians(low), radians(high), pan.speed, torque))
     coupling, transmission = np.eye(6), np.eye(6)
     coupling[:2, :2] = DIFFERENTIAL
     coupling[4:, 4:] = transmission[4:, 4:] = EYES

@@ -151,13 +151,24 @@ def _add_boards(spec: Any, robot: Robot) -> None:
     for name in board_names(robot):
         board = robot_board(robot, name)
         _add_board(spec, name, board.joints)
-        # motors from the robot's own joints, which a board may drive by others: eyes by vergence
-        coupling = board.spec.coupling @ np.linalg.inv(board.transmission)
-        if not np.allclose(coupling, np.eye(len(coupling))):
-            numbers = np.round(coupling.ravel(), 12) + 0.0
-            spec.add_numeric(name=f"coupling_{name}", data=numbers, size=len(numbers))
+        _add_matrix(spec, f"coupling_{name}", board.spec.coupling)
+        if _add_matrix(spec, f"transmission_{name}", board.transmission):
+            spec.add_text(name=f"joints_{name}", data=" ".join(board.spec.names))
+            for one in board.spec.joints:
+                if one.name not in board.joints:
+                    numbers = np.round([one.low, one.high], 12)
+                    spec.add_numeric(name=f"range_{one.name}", data=numbers, size=2)
     for joint in robot.motors:
         spec.add_numeric(name=f"speed_{joint.name}", data=[joint.speed], size=1)
+
+
+def _add_matrix(spec: Any, name: str, matrix: Floats) -> bool:
+    """Row by row, unless it changes nothing; whether it does."""
+    if np.allclose(matrix, np.eye(len(matrix))):
+        return False
+    numbers = np.round(matrix.ravel(), 12) + 0.0
+    spec.add_numeric(name=name, data=numbers, size=len(numbers))
+    return True
 
 
 def _add_board(spec: Any, name: str, joints: Iterable[str]) -> None:
