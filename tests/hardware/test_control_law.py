@@ -233,6 +233,15 @@ def test_boards_that_cannot_be_are_refused():
     assert board(4, chain).coupled(3).tolist() == [3]
 
 
+def test_a_board_without_couplings_needs_no_search(monkeypatch):
+    """A rank takes the third power of the number of joints: half a minute for a thousand."""
+    monkeypatch.setattr(np.linalg, "matrix_rank", None)
+    spec = board(500)
+    assert spec.coupled(499).tolist() == [499]
+    with pytest.raises(BadValue, match="no motor"):
+        board(3, np.diag([1.0, 0.0, 1.0]))
+
+
 def test_joints_are_found_by_name_or_number():
     select = Selector(("a", "b"))
     assert select.indices(["b", "a"]).tolist() == [1, 0]

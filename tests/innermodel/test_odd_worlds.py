@@ -160,6 +160,10 @@ ODD = {
     '<mesh id="m" file="folder/" tx="-57" scale="-18,5,5"/>': ["root"],
     '<pointcloud id="c"/><mesh id="m" file="axis.osg" render="wireframe"/>': ["root"],
     '<joint id="j" lx="-3.14" hx="0.1" tx="-150" rx="-3.14"/>': ["root", "j"],
+    'parameters<transform id="1a" tx="+500" ry="0,0"/>': ["root", "1a"],
+    '<joint id="elbow" axis="x" min="0.01" max="2.6" home="0.2"/>': ["root", "elbow"],
+    '<plane id="p" nx="-0.01" nz="6766.374512" size="6771.970703,1900,9"/>': ["root"],
+    '<!-- a <plane id="p"/> &ndash;&gt;--><axes id="x"/><INCLUDE/>': ["root"],
 }
 
 
