@@ -18,6 +18,7 @@ WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _PUNCTUATION = re.compile(r"\W+")
 _MISSED = (",", ")", "(", "{", ">", "<", ":", "->", "=>", ".", "=")
 _ARROWS = ("->", "=>")
+_ANY_ARROW = re.compile(r"[-=]+[ \t]*>+|<[-=]+|[→⇒]")
 _CLOSING = {")": "(", "]": "[", ">": "<"}
 _HIDDEN = re.compile(r"[ \t]*//[^\n]*?([)}\]>]*;)[ \t]*$", re.MULTILINE)
 
@@ -118,7 +119,7 @@ def other_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     if not _PUNCTUATION.fullmatch(token.text) or token.kind == "RBRACE":
         return
     for kind, text in [*_signs(situation, accepted), ("_SEMI", ";")]:
-        if token.kind == "STRAY" and token.text not in text and {text, token.text} - {*_ARROWS}:
+        if token.kind == "STRAY" and token.text not in text:
             continue
         yield Repair(
             codes.UNEXPECTED,
@@ -131,22 +132,23 @@ def other_sign(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         )
 
 
-def split_arrow(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
-    """`= >`."""
-    first, second = (*situation.ahead[:2], situation.ahead[-1])[:2]
+def arrow(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """`-->`, `= >`, `<-` or `→` for the arrow of the language."""
     texts = {situation.tables.texts.get(kind, ""): kind for kind in accepted}
-    arrow = first.text + second.text
-    if arrow not in _ARROWS or arrow not in texts:
+    meant = next((one for one in _ARROWS if one in texts), "")
+    start = situation.ahead[0].start
+    run = _ANY_ARROW.match(situation.source.text, start)
+    if not meant or not run:
         return
     yield Repair(
         codes.UNEXPECTED,
-        first.start,
-        second.end,
-        f"`{arrow}` is written without a space",
-        title=f"write `{arrow}`",
-        edits=((first.start, second.end, arrow),),
-        put=(Token(texts[arrow], arrow, first.start, second.end),),
-        skip=2,
+        start,
+        run.end(),
+        f"the arrow is written `{meant}`",
+        title=f"write `{meant}`",
+        edits=((start, run.end(), meant),),
+        put=(Token(texts[meant], meant, start, run.end()),),
+        skip=sum(one.start < run.end() for one in situation.ahead if one.kind != END),
         need=1,
     )
 
@@ -159,7 +161,9 @@ def surplus(situation: Situation) -> Iterator[Repair]:
     if situation.states[-1] in situation.tables.restarts and situation.ahead[1].kind == "_SEMI":
         return  # a whole statement too many, and not a word
     stray = token.kind == "STRAY"
-    manual = situation.tables.language == "smdsl" and token.text[0] in "[]*"
+    manual = situation.tables.language == "smdsl" and (
+        token.text in ("[parallel]", "]") or (token.text[0] in "[*" and token.kind == "STRAY")
+    )
     shown = quote(token) if token.text.isprintable() else f"U+{ord(token.text[0]):04X}"
     yield Repair(
         codes.STRAY_CHARACTER if stray else codes.UNEXPECTED,

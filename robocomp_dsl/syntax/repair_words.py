@@ -160,6 +160,52 @@ def bare_text(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
         )
 
 
+def quoted(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
+    """A name or a number in quotes."""
+    token = situation.ahead[0]
+    inside = token.text[1:-1]
+    if token.kind != "STRING" or "STRING" in accepted:
+        return
+    if "ID" in accepted and WORD.fullmatch(inside):
+        kind, what = "ID", "name"
+    elif "NUMBER" in accepted and inside.isdecimal() and inside.isascii():
+        kind, what = "NUMBER", "number"
+    else:
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        token.start,
+        token.end,
+        f"a {what} stands without quotes",
+        title=f"write `{inside}`",
+        edits=((token.start, token.end, inside),),
+        put=(Token(kind, inside, token.start, token.end),),
+        skip=1,
+        need=1,
+    )
+
+
+def file_of_interface(situation: Situation) -> Iterator[Repair]:
+    """`requires Laser.idsl`: the file for the interface in it."""
+    before, suffix = situation.before, ".idsl"
+    end = before.end + len(suffix)
+    written = situation.source.text[before.end : end + 1]
+    if situation.tables.language != "cdsl" or before.kind != "ID" or written[:5] != suffix:
+        return
+    if WORD.match(written, len(suffix)):
+        return
+    yield Repair(
+        codes.UNEXPECTED,
+        before.end,
+        end,
+        f"an interface is named without its file: `{before.text}`",
+        title=f"delete `{suffix}`",
+        edits=((before.end, end, ""),),
+        skip=_tokens_before(situation, end),
+        need=1,
+    )
+
+
 def open_bracket(situation: Situation, accepted: list[str]) -> Iterator[Repair]:
     """`[mm` without its `]`."""
     token = situation.ahead[0]
