@@ -21,6 +21,11 @@ from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 WORKER = "specificworker.py"
+_PYTHON_2 = re.compile(
+    r"^\s*(?:print\s+[^\s(=]|except\s+[\w.]+\s*,\s*\w+\s*:|raise\s+\w+\s*,|exec\s+['\"])",
+    re.MULTILINE,
+)
+"""Statements that only Python 2 has."""
 _FROM_SRC = re.compile(r"^[ \t]*(?:from|import)[ \t]+src\b", re.MULTILINE)
 
 Placed = tuple[OutputFile, str]
@@ -99,7 +104,10 @@ def _read(path: Path, report: Report) -> user_module.UserModule | None:
         return None
     if user is None:
         for one in found:
-            report.add(codes.UNREADABLE_PYTHON, one.span, one.message)
+            old = _PYTHON_2.search(one.span.source.text)
+            said = f"it is Python 2: `2to3 -w -n {path.name}` brings a copy of it to Python 3"
+            way_out = f"{said}; then migrate that" if old else ""
+            report.add(codes.UNREADABLE_PYTHON, one.span, one.message, help=way_out)
     return user
 
 

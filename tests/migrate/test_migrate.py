@@ -327,3 +327,23 @@ def test_configurations_beside_the_manager_belong_to_the_components(
     assert found is not None
     assert found.instances[2].config == out / "follow/etc/follow.yaml"
     assert "Advance: 70" in (out / "follow/etc/follow.yaml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "is_old"),
+    [
+        ("class A:\n    print 'x'\n", True),
+        ("try:\n\tx()\nexcept Ice.Exception, e:\n\tpass\n", True),
+        ("raise Error, 'x'\n", True),
+        ("print (x\n", False),
+        ("class A:\n    def x(:\n", False),
+    ],
+)
+def test_python_2_is_told(rcgen, old: Path, tmp_path: Path, text: str, is_old: bool) -> None:
+    folder = tmp_path / "follow"
+    shutil.copytree(old / "follow", folder)
+    (folder / "src" / "specificworker.py").write_text(text)
+    done = rcgen("migrate", folder)
+    assert done.code == 1
+    assert ("help: it is Python 2: `2to3 -w -n specificworker.py` brings" in done.err) == is_old
+    assert "error[RC952]" in done.err
