@@ -1,0 +1,75 @@
+"""A program that looks into a deployment: it asks and hears as a component does, and is none."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.runtime import Component, ComponentSpec
+from robocomp_dsl.runtime.clock_interface import CLOCK, ClockProxy, Tick
+from robocomp_dsl.runtime.component_interface import COMPONENT
+from robocomp_dsl.runtime.onlooker import Onlooker, interfaces
+from robocomp_dsl.runtime.parameters import Parameters
+from robocomp_dsl.runtime.runner import Runner
+from robocomp_dsl.runtime.settings import RunSettings
+from robocomp_dsl.runtime.spec import CalledPort
+
+COMPONENTS = Path(__file__).parents[2] / "components"
+DEADLINE = 60.0
+
+
+class Teller(Component):
+    """Tells the time, whether anybody lives by it or not."""
+
+    SPEC = ComponentSpec(
+        name="teller",
+        period=5,
+        middleware="inproc",
+        publishes=(CalledPort("Clock", ClockProxy, "clock_proxy"),),
+    )
+    clock_proxy: ClockProxy
+
+    def compute(self) -> None:
+        self.clock_proxy.tick(Tick(7))
+
+
+@pytest.fixture
+def onlooker() -> Iterator[Onlooker]:
+    domain = uuid.uuid4().hex
+    runner = Runner(Teller, Parameters(), RunSettings(domain=domain))
+    runner.start()
+    made = Onlooker(domain, "inproc")
+    yield made
+    made.close()
+    runner.stop()
+    assert runner.wait()
+
+
+def test_it_asks_components_about_themselves_and_calls_their_ports(onlooker: Onlooker) -> None:
+    proxy = onlooker.component("teller")
+    assert proxy.wait_for_server(DEADLINE)
+    assert proxy.getInfo().name == "teller"
+    assert onlooker.calls(COMPONENT, "teller", "Component").getInfo().name == "teller"
+
+
+def test_it_hears_what_is_published(onlooker: Onlooker) -> None:
+    heard: list[Tick] = []
+    onlooker.hear(CLOCK, "teller", "Clock", {"tick": heard.append})
+    end = time.monotonic() + DEADLINE
+    while not heard:
+        assert time.monotonic() < end, "nothing was heard"
+        time.sleep(0.002)
+    assert heard[0].time == 7
+
+
+def test_interfaces_of_components_are_modules_of_their_own() -> None:
+    reflex, arm = (interfaces(COMPONENTS / name) for name in ("reflex", "generic_arm"))
+    assert reflex is interfaces(COMPONENTS / "reflex")
+    assert reflex.GENERICARM.name == arm.GENERICARM.name
+    assert reflex is not arm
+    with pytest.raises(FileNotFoundError):
+        interfaces(COMPONENTS / "nowhere")
