@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -112,6 +114,46 @@ def test_devices_are_calibrated_used_and_parked(tmp_path: Path) -> None:
         with made.turns:
             assert set(made.devices["pan"].board.table.modes) == {Mode.IDLE}
             assert positions(made)[0] == pytest.approx(0.7, abs=0.06)
+
+
+class Jittery(threading.Thread):
+    """Threads that begin when they like, as on a busy machine."""
+
+    def run(self) -> None:
+        for _ in range(random.randrange(2_000)):
+            os.sched_yield()
+        super().run()
+
+
+def led_in_step(folder: Path) -> bytes:
+    """What becomes of the arm while devices start in step, and what the devices have come to."""
+    folder.mkdir()
+    made = simulation(folder)
+    # a second calibration, that waits for the first: a level of its own
+    again = {"phase": "startup", "level": 6, "calibrate": "arm"}
+    devices = plugged(made, actions=[*DEVICES["actions"], again])
+    told, ready = [], False
+    while not ready or made.time < ready + 0.5:
+        made.advance(0.01)
+        devices.judge()
+        board = made.devices["pan"].board
+        told.append(board.position.tobytes() + board.torque.tobytes() + bytes([devices.ready]))
+        if devices.ready and not ready:
+            ready = made.time
+            devices["reach"].controller.go_to([20.0, 110.0, 300.0], 0.3)
+        assert made.time < 60
+    devices.stop(lambda: made.advance(0.01))
+    return b"".join(told)
+
+
+def test_in_step_devices_live_by_the_time_of_the_world_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Startup, levels and motions come at the same steps, however threads are scheduled."""
+    monkeypatch.setattr(Simulation, "in_step", True)
+    monkeypatch.setattr(threading, "Thread", Jittery)
+    first = led_in_step(tmp_path / "one")
+    assert led_in_step(tmp_path / "two") == first
 
 
 def test_where_the_clock_has_stopped_the_world_goes_on_for_the_shutdown(tmp_path: Path) -> None:

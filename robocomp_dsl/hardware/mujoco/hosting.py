@@ -38,6 +38,7 @@ class Plugged(Hosted):
             lambda: board_parts(simulation),
             simulation.turns,
             lambda spec, joints: _chain(simulation, spec, joints),
+            lambda: simulation.in_step,
         )
 
     def stop(self, passes: Callable[[], object] | None = None) -> None:

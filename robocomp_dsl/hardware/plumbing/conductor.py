@@ -51,7 +51,7 @@ class Conductor:
         self._plan, self._kinds = plan, kinds
         self._open: dict[str, Any] = {}
         self._attached: list[str] = []
-        self._running = Running()
+        self.running = Running()
         self._lock = threading.Lock()
         self.devices: Mapping[str, Any] = MappingProxyType(self._open)
         self.phase, self.level = Phase.CLOSED, 0
@@ -83,12 +83,12 @@ class Conductor:
         done = INTERRUPTS.index(self.phase) + 1 if self.phase in INTERRUPTS else 0
         if done == len(INTERRUPTS) or self.phase in (Phase.CLOSED, Phase.SHUTDOWN):
             return False
-        self._running.stop()
+        self.running.stop()
         return self._enter(INTERRUPTS[done])
 
     def give_up(self) -> None:
         """End all that lasts now, in whatever phase."""
-        self._running.stop()
+        self.running.stop()
 
     def shutdown(self, *, acting: bool = True) -> bool:
         """Interrupt, if nobody has yet; the actions of shutdown; detach and close everything.
@@ -104,8 +104,8 @@ class Conductor:
         else:
             well = True if self.phase in INTERRUPTS else self.interrupt()
             well = self._enter(Phase.SHUTDOWN) and well
-        self._running.stop()
-        well = self._running.wait(seconds=PATIENCE) and well
+        self.running.stop()
+        well = self.running.wait(seconds=PATIENCE) and well
         for name in reversed(self._attached[:]):
             well = self._told(f"detach {name}", partial(self._detach, name)) and well
         return self._close() and well
@@ -114,11 +114,11 @@ class Conductor:
         """Go through the levels of a phase; False also when another phase came in between."""
         with self._lock:
             self.phase, self.level = phase, 0
-        self._running.changed()
+        self.running.changed()
         well = True
         if phase not in (Phase.INTERRUPT2, Phase.INTERRUPT3):
             limit = PATIENCE if phase is Phase.SHUTDOWN else None
-            well = self._running.wait(lambda: self.phase is not phase, seconds=limit)
+            well = self.running.wait(lambda: self.phase is not phase, seconds=limit)
         if phase is Phase.STARTUP:
             well = self._attach_the_rest() and well
         for level in self._levels(phase):
@@ -127,9 +127,9 @@ class Conductor:
             self.level = level
             begun = [a for a in self._plan.actions if (a.phase, a.level) == (phase, level)]
             results = [self._do(action) for action in begun]
-            ended = self._running.wait(lambda: self.phase is not phase, phase=phase)
+            ended = self.running.wait(lambda: self.phase is not phase, phase=phase)
             well = well and ended and all(results)
-        failed = self._running.take_failures(phase)
+        failed = self.running.take_failures(phase)
         return well and not failed and self.phase is phase
 
     def _levels(self, phase: Phase) -> list[int]:
@@ -154,10 +154,10 @@ class Conductor:
             def last(stop: threading.Event) -> bool:
                 return self._told(f"{said} by {by}", lambda: work(name, stop))
 
-            self._running.begin(name, action.phase, last)
+            self.running.begin(name, action.phase, last)
             return True
         if action.verb is Verb.ABORT:
-            self._running.stop(name)
+            self.running.stop(name)
             return True
         change = self._attach if action.verb is Verb.ATTACH else self._detach
         return self._told(said, lambda: change(name))

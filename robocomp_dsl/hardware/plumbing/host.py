@@ -2,7 +2,8 @@
 
 In: the environment that the deployment engine gives to the process, and the boards of the
 component, simulated or real. Out: devices that are led through their phases: startup in a thread of
-its own, since it takes the time of the world, shutdown when the component ends.
+its own, since it takes the time of the world, shutdown when the component ends. Where the time of
+the world is that of a deployment, startup takes its steps in `judge`, and in nothing else.
 """
 
 from __future__ import annotations
@@ -56,9 +57,11 @@ class Hosted:
         boards: Callable[[], Mapping[str, BoardPart]],
         turn: Turn,
         chain: ChainOf,
+        in_step: Callable[[], bool] = bool,
     ) -> None:
         self._plan = described(environment)
         self._boards, self._turn, self._chain = boards, turn, chain
+        self._in_step = in_step
         self._on: Mapping[str, BoardPart] = {}
         self._conductor = self._made()
         self._thread: threading.Thread | None = None
@@ -95,22 +98,28 @@ class Hosted:
                 self._end(acting=False)
             self._on = found
             self._start()
+        if self._in_step() and not self._conductor.running.beat(PATIENCE_S):
+            self._failure = f"the devices do nothing for {PATIENCE_S:g} s"
         if self._failure:
             raise HardwareError(self._failure)
 
     def _start(self) -> None:
         self._conductor, self._failure, self._ending = self._made(), "", False
+        self._conductor.running.keep_step(self._in_step())
+        self._conductor.running.lead()
         self._thread = threading.Thread(target=self._begin, name="devices", daemon=True)
         self._thread.start()
 
     def _begin(self) -> None:
+        well, why = False, "the startup of the devices failed; the log tells which"
         try:
             well = self._conductor.start()
-            why = "the startup of the devices failed; the log tells which"
         except HardwareError as error:
-            well, why = False, f"the devices cannot be opened: {error}"
-        if not well and not self._ending:
-            self._failure = why
+            why = f"the devices cannot be opened: {error}"
+        finally:
+            if not well and not self._ending:
+                self._failure = why
+            self._conductor.running.rest()
 
     def stop(self, passes: Callable[[], object] | None = None) -> None:
         """Interrupt, park and close all; `passes` lets time go on where nothing else does."""
@@ -129,6 +138,7 @@ class Hosted:
 
     def _end(self, *, acting: bool = True) -> None:
         self._ending = True
+        self._conductor.running.keep_step(False)
         if acting:
             self._conductor.interrupt()
         else:
