@@ -48,7 +48,7 @@ class Motors:
 
     def current(self, torque: Floats) -> Floats:
         """Motor currents [A] that make the joint torques (n,) [N m]."""
-        current: Floats = self._to_current @ torque
+        current: Floats = self._to_current.dot(torque)
         return current
 
     def torque_of_current(self, current: Floats) -> Floats:
@@ -69,7 +69,7 @@ class Motors:
 
     def duty(self, torque: Floats, joint_velocity: Floats) -> Floats:
         """Duty cycles [%] behind joint torques at the joints' velocities, within +-100."""
-        duty: Floats = self._duty_of_torque @ torque + self._duty_of_speed @ joint_velocity
+        duty: Floats = self._duty_of_torque.dot(torque) + self._duty_of_speed.dot(joint_velocity)
         return np.minimum(np.maximum(duty, -100.0), 100.0)
 
     def duty_of_speed(self, joint_velocity: Floats) -> Floats:
@@ -79,7 +79,7 @@ class Motors:
 
     def encoder(self, joint_angles: Floats) -> Floats:
         """Encoder counts of the motors, whole numbers."""
-        return np.asarray(np.floor(self._to_counts @ joint_angles) + self.zero)
+        return np.asarray(np.floor(self._to_counts.dot(joint_angles)) + self.zero)
 
     def set_encoder(self, motors: Ints, counts: Floats, joint_angles: Floats) -> None:
         """Let the counters of `motors` stand at `counts` now."""
@@ -87,7 +87,7 @@ class Motors:
 
     def speed(self, joint_velocities: Floats) -> Floats:
         """Encoder counts per second."""
-        return np.asarray(self._to_counts @ joint_velocities)
+        return np.asarray(self._to_counts.dot(joint_velocities))
 
     def set_temperature(self, temperature: Floats) -> None:
         """What thermometers (n,) tell now [degC]."""

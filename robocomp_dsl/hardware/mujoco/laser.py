@@ -98,6 +98,7 @@ class Laser:
         else:
             top = int(model.body_rootid[self._body])
         self._own = carried(model, top)[model.geom_bodyid]
+        self._in_its_way = bool(self._own.any())
 
     def after_step(self, dt: float) -> None:
         """Take a scan when it is due."""
@@ -113,7 +114,7 @@ class Laser:
             hit = distances < it.max_range
             noise = self._random.standard_normal(it.measures) * spread
             distances = np.where(hit, distances + noise, distances)
-        found = np.clip(distances, it.min_range, it.max_range).astype(np.float32)
+        found = np.minimum(np.maximum(distances, it.min_range), it.max_range).astype(np.float32)
         found.flags.writeable = False
         return Scan(float(self._data.time), self._angles, found)
 
@@ -138,7 +139,7 @@ class Laser:
             count,
             self._settings.max_range * MM,
         )
-        if self._own.any():
+        if self._in_its_way:
             own = (geoms >= 0) & self._own[np.maximum(geoms, 0)]
             for i in np.flatnonzero(own):
                 distances[i] = self._behind(rays[i], float(distances[i]))
