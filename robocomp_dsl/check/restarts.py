@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from robocomp_dsl.check import codes
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model.deployment import Restart
+from robocomp_dsl.model.deployment import READY_S, Restart
 from robocomp_dsl.syntax import ast_ddsl as ast
 from robocomp_dsl.syntax.ast_base import Duration, Number
 
 POLICIES = ("on-failure", "always", "never")
 _DEFAULT = Restart()
-_READY_S = 10.0
 _LONGEST_S = 24 * 60 * 60.0
 _MOST = 1_000_000
 
@@ -30,7 +29,7 @@ def restart_of(written: ast.Restart | None, report: Report) -> Restart:
 
 def ready_of(written: Duration | None, report: Report) -> float:
     """Seconds in which a component must be ready."""
-    return seconds_of(written, "ready within", _READY_S, report)
+    return seconds_of(written, "ready within", READY_S, report)
 
 
 def count_of(written: Number | None, what: str, default: int, report: Report) -> int:

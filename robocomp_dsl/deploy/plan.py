@@ -14,6 +14,7 @@ from pathlib import Path
 from robocomp_dsl.deploy.devices import devices_environment, devices_shown
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
+    READY_S,
     Clock,
     Connection,
     Deployment,
@@ -50,7 +51,7 @@ class Process:
     after: tuple[str, ...] = ()
     stops_after: tuple[str, ...] = ()
     restart: Restart = field(default_factory=Restart)
-    ready_within_s: float = 10.0
+    ready_within_s: float = READY_S
     port: int = 0
     config: Path | None = None
     context: str = ""

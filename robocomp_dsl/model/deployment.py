@@ -11,6 +11,9 @@ from robocomp_dsl.model.types import Literal
 from robocomp_dsl.record import Record, Value
 from robocomp_dsl.source import Span
 
+READY_S = 60.0
+"""What a component has until it is ready where nothing is said: a busy machine starts slowly."""
+
 
 class Qos(Value):
     """Quality of service of one connection; None where nothing was written."""
@@ -80,7 +83,7 @@ class Instance(Record):
     port: int = 0
     after: tuple[str, ...] = ()
     restart: Restart = Restart()
-    ready_within_s: float = 10.0
+    ready_within_s: float = READY_S
     doc: str = ""
     group: str = ""
     placed: Span | None = None

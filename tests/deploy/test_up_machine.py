@@ -46,7 +46,7 @@ PLAIN = "\nclass SpecificWorker(GenericWorker):\n    pass\n"
 APP = """
 import "arm/arm.cdsl";
 import "eye/eye.cdsl";
-Deployment app { component arm { ready within 40 s; }; component eye { ready within 40 s; }; };
+Deployment app { component arm { ready within 200 s; }; component eye { ready within 200 s; }; };
 """
 
 

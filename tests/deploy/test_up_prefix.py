@@ -32,10 +32,10 @@ import "arm/arm.cdsl";
 import "eye/eye.cdsl";
 Deployment app
 {
-    component arm { prefix left; context "lab"; ready within 40 s; };
-    component other : arm { prefix "right/hand"; set serial = "of right"; ready within 40 s; };
-    component near : eye { prefix left; after arm; ready within 40 s; };
-    component far : eye { prefix left; after other; ready within 40 s; };
+    component arm { prefix left; context "lab"; ready within 200 s; };
+    component other : arm { prefix "right/hand"; set serial = "of right"; ready within 200 s; };
+    component near : eye { prefix left; after arm; ready within 200 s; };
+    component far : eye { prefix left; after other; ready within 200 s; };
     connect far.Laser -> other.Laser;
 };
 """
