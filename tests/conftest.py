@@ -24,7 +24,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """Give the tests homes of their own, which end with them: nothing of the user is met or left.
 
     Sockets of each worker are in a folder of its own, so that no two tests share a domain by
-    accident; the paths are short, as those of sockets must be.
+    accident; the paths are short, as those of sockets must be. What mypy found out about libraries
+    is kept for all runs of a worker.
     """
     worker = os.environ.get("PYTEST_XDIST_WORKER", "")
     if not worker:
@@ -35,6 +36,7 @@ def pytest_configure(config: pytest.Config) -> None:
     runtime = Path(os.environ["XDG_RUNTIME_DIR"], worker or "alone")
     runtime.mkdir(mode=0o700)
     os.environ["XDG_RUNTIME_DIR"] = str(runtime)
+    os.environ["MYPY_CACHE_DIR"] = str(Path(os.environ["XDG_CACHE_HOME"], f"mypy-{runtime.name}"))
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -215,4 +215,4 @@ def test_what_is_generated_is_as_the_formatter_leaves_it(tmp_path: Path) -> None
     (tmp_path / "head.xml").write_text(WORLD)
     asked = ("--also", "Camera", "--also", "JointMotorSimple", "-o", "made")
     assert rcgen("simulator", "head.xml", *asked, cwd=tmp_path).returncode == 0
-    assert_clean(tmp_path / "made", tmp_path / "cache")
+    assert_clean(tmp_path / "made")

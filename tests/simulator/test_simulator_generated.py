@@ -18,8 +18,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "room_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path, tmp_path: Path) -> None:
-    assert_clean(folder, tmp_path)
+def test_it_is_clean_and_typed(folder: Path) -> None:
+    assert_clean(folder)
 
 
 def test_again_nothing_is_to_do(folder: Path) -> None:

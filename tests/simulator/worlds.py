@@ -157,12 +157,12 @@ def with_simulator(middleware: str, body: str) -> str:
     return f"{CLIENT}{STARTS[middleware]}try:\n{inner}{told}{ENDS[middleware]}middleware.close()\n"
 
 
-def assert_clean(folder: Path, cache: Path) -> None:
+def assert_clean(folder: Path) -> None:
     """A generated component as the linter, the formatter and the type checker see it."""
     for command in (
         [RUFF, "check", "--isolated", "--no-cache", "."],
         [RUFF, "format", "--diff", "--isolated", "--no-cache", "."],
-        [*MYPY, f"--cache-dir={cache}", "."],
+        [*MYPY, "."],
     ):
         done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout
