@@ -87,7 +87,7 @@ class Deployed:
     """The deployment, and proxies of it from outside."""
 
     def __init__(self, robot: str, clock: str, folder: Path) -> None:
-        self.name = f"reflex-{robot}-{os.getpid()}"
+        self.name, self.makes_time = f"reflex-{robot}-{os.getpid()}", "sim" in clock
         home = COMPONENTS / f"{robot}_simulator"
         description = home / "tactile.yaml"
         file, self.said = folder / "touch.ddsl", folder / "said.txt"
@@ -215,7 +215,9 @@ def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who
     os.kill(deployed.pid(who), signal.SIGSTOP)
     try:
         until(lambda: deployed.state() == "Emergency", "an emergency")
-        assert deployed.about["reflex"].getInfo().reason
+        reason = deployed.about["reflex"].getInfo().reason
+        assert reason
+        assert ("time stands still" in reason) == (who == "robot" and deployed.makes_time)
         frames = deployed.reflex.getStatistics().framesAccepted
         if who == "arm":  # the skin is there all the time, and heard
             until(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
