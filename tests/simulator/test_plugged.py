@@ -55,6 +55,9 @@ DEVICES: dict[str, Any] = {
     ],
 }
 DEADLINE_S = 120.0
+LINES = 300
+"""Of a recorded run."""
+RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
 
 
 def simulation(folder: Path) -> Simulation:
@@ -279,31 +282,85 @@ Deployment lab {
 """
 
 
+def deployed(folder: Path, name: str, seen: Callable[[], bool]) -> str:
+    """Run `lab.ddsl` until something is seen, and end it in order; what it has said."""
+    options = ("--name", name, "--domain", name, "--no-table")
+    with (folder / f"{name}.log").open("w+") as log:
+        process = subprocess.Popen(
+            [RCDEPLOY, "lab.ddsl", "up", *options], cwd=folder, stdout=log, stderr=log
+        )
+        try:
+            end = time.monotonic() + DEADLINE_S
+            while not seen():
+                assert process.poll() is None, Path(log.name).read_text()
+                assert time.monotonic() < end, Path(log.name).read_text()
+                time.sleep(0.02)
+        finally:
+            process.send_signal(signal.SIGINT)
+            code = process.wait(timeout=60)
+    said = Path(log.name).read_text()
+    assert code == 0
+    assert "failed" not in said
+    return said
+
+
 def test_a_deployment_plugs_them_together_in_the_process_of_a_simulator(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(ARM)
     assert rcgen("simulator", "arm.xml", cwd=tmp_path).returncode == 0
     folder = tmp_path / "arm_simulator"
     (folder / "specificworker.py").write_text(WORKER)
     (tmp_path / "lab.ddsl").write_text(DDSL)
-    program, name = Path(sys.executable).with_name("rcdeploy"), f"plugged-{os.getpid()}"
     shown = subprocess.run(
-        [program, "lab.ddsl", "plan"], cwd=tmp_path, capture_output=True, text=True, check=False
+        [RCDEPLOY, "lab.ddsl", "plan"], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert "arm: control_board" in shown.stdout, shown.stdout
     assert "startup 5: calibrate arm by zeroing" in shown.stdout
-    options = ("--name", name, "--domain", name, "--no-table")
-    with (tmp_path / "log").open("w") as log:
-        deployed = subprocess.Popen(
-            [program, "lab.ddsl", "up", *options], cwd=tmp_path, stdout=log, stderr=log
-        )
-        try:
-            end = time.monotonic() + DEADLINE_S
-            while not (folder / "reached").exists():
-                assert deployed.poll() is None, (tmp_path / "log").read_text()
-                assert time.monotonic() < end, (tmp_path / "log").read_text()
-                time.sleep(0.02)
-        finally:
-            deployed.send_signal(signal.SIGINT)
-            code = deployed.wait(timeout=60)
-    assert code == 0
-    assert "failed" not in (tmp_path / "log").read_text()
+    deployed(tmp_path, f"plugged-{os.getpid()}", (folder / "reached").exists)
+
+
+WRITER = """\
+from __future__ import annotations
+
+from pathlib import Path
+
+from generated.simulator import Simulator
+
+
+class SpecificWorker(Simulator):
+    goal = None
+
+    def compute(self) -> None:
+        super().compute()
+        with self.simulation.turns:
+            state = self.simulation.devices["pan"].board.state()
+            line = f"{self.clock.now():.6f} {state.position.tobytes().hex()} {self.devices.ready}"
+            if self.devices.ready and self.goal is None:
+                controller = self.devices["reach"].controller
+                self.goal = controller.pose()[:3, 3] + (20.0, 10.0, -20.0)
+                controller.go_to(self.goal, 0.3)
+        with Path("path.txt").open("a") as file:
+            file.write(f"{line}\\n")
+"""
+
+
+def test_in_lockstep_a_deployment_with_devices_repeats_byte_for_byte(tmp_path: Path) -> None:
+    (tmp_path / "arm.xml").write_text(ARM)
+    assert rcgen("simulator", "arm.xml", cwd=tmp_path).returncode == 0
+    folder = tmp_path / "arm_simulator"
+    (folder / "specificworker.py").write_text(WRITER)
+    lockstep = DDSL.replace("{\n", "{\n    clock sim lockstep;\n", 1)
+    (tmp_path / "lab.ddsl").write_text(lockstep)
+    runs, path = [], folder / "path.txt"
+
+    def lines() -> list[str]:
+        return path.read_text().splitlines()[:LINES] if path.exists() else []
+
+    for number in range(2):
+        deployed(tmp_path, f"stepped-{os.getpid()}-{number}", lambda: len(lines()) == LINES)
+        runs.append(lines())
+        path.unlink()
+    assert runs[0] == runs[1]
+    ready = [line.endswith("True") for line in runs[0]]
+    assert not ready[0]
+    assert ready[-1]
+    assert len({line.split()[1] for line in runs[0][ready.index(True) :]}) > 20  # it has moved on
