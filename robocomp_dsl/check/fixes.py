@@ -64,13 +64,21 @@ def fix_all(source: Source, judge: Callable[[str], tuple[Source, list[Diagnostic
 
 
 def apply(source: Source, findings: Iterable[Diagnostic]) -> tuple[str, tuple[Diagnostic, ...]]:
-    """One round: the automatic fixes that do not collide, first come first served."""
+    """One round: the automatic fixes that do not collide, first come first served.
+
+    A fix never takes away what an error is about: the user has still to say what it means.
+    """
+    findings = list(findings)
+    wrong = [one.span for one in findings if one.severity is Severity.ERROR]
+    broken = [(one.start, one.end, "") for one in wrong if one.source is source]
     taken: list[Change] = []
     done: list[Diagnostic] = []
     for one in findings:
         if one.fix is None or not is_automatic(one, source):
             continue
         changes = [_change(source, edit) for edit in one.fix.edits]
+        if any(_covers(a, b) for a in changes for b in broken):
+            continue
         if not any(_collide(a, b) for a in changes for b in taken):
             taken += changes
             done.append(one)
@@ -86,6 +94,10 @@ def _errors(findings: Iterable[Diagnostic]) -> int:
 
 def _collide(one: Change, other: Change) -> bool:
     return one[0] == other[0] or max(one[0], other[0]) < min(one[1], other[1])
+
+
+def _covers(change: Change, wrong: Change) -> bool:
+    return change[0] < wrong[1] and wrong[0] < change[1]
 
 
 def _change(source: Source, edit: Edit) -> Change:

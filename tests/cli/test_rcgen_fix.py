@@ -102,6 +102,17 @@ def test_errors_are_left_to_the_user(rcgen: Rcgen, here: Path) -> None:
     assert (here / "a.cdsl").read_text() == text
 
 
+@pytest.mark.parametrize("wrong", ["[Laser]", '"a-b"'])
+def test_what_an_error_is_about_is_not_taken_away(rcgen: Rcgen, here: Path, wrong: str) -> None:
+    """`requires` lists nothing then, which alone would be mended by deleting it."""
+    path = here / "robot.cdsl"
+    text = f"Component c {{ Communications {{ requires {wrong}; }}; language Python; }};\n"
+    path.write_text(text)
+    run = rcgen("check", "--fix", "--syntax", "robot.cdsl")
+    assert run.code == 1
+    assert path.read_text() == text
+
+
 def test_a_byte_order_mark_and_a_link_stay(rcgen: Rcgen, here: Path) -> None:
     (here / "real.cdsl").write_bytes(b"\xef\xbb\xbf" + FORMS["a.cdsl"].encode())
     (here / "a.cdsl").symlink_to("real.cdsl")
