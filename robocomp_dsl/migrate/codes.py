@@ -223,14 +223,20 @@ PERIOD = Code(
 STATE_METHOD = Code(
     "RC958",
     Severity.ERROR,
-    "a method of a state is called otherwise",
+    "a method of a state has no state",
+    """RoboComp called `sm_search` when the state `search` was entered. The machine of the component
+has no state of that name, so the method is never called.""",
+)
+
+STATE_CALLED = Code(
+    "RC959",
+    Severity.NOTE,
+    "a method of a state is called by `legacy.py`",
     """RoboComp called `sm_search` when the state `search` was entered, and code fired
-`self.t_search_to_found.emit()`. Now the method is `on_enter_search` (`state_search` is called every
-period while the state lasts), and code fires an event by the name of the target:
+`self.t_search_to_found.emit()`. `legacy.py` still does both; an event is fired in the next period.
+To leave it behind, call the method `on_enter_search`, and fire the event yourself:
 
-    self.machine.go("found")
-
-Rename the methods and put their code in the place of the stubs.""",
+    self.machine.go("t_search_to_found")""",
 )
 
 NOT_COPIED = Code(

@@ -7,6 +7,7 @@ data, and in the report everything that was not carried over. Nothing is written
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 from robocomp_dsl.check import check_cdsl
@@ -164,6 +165,9 @@ def _resolve(moved: Moved, workspace: Workspace, report: Report) -> Component | 
     """
     for one in moved.files:
         workspace.files.open_buffer(moved.out / one.path, one.text)
+    for path in (*moved.folder.glob("*.smdsl"), *moved.folder.glob("*.scxml")):
+        with suppress(UnreadableSource):  # it is copied as it is, and judged there
+            workspace.files.open_buffer(moved.out / path.name, workspace.files.read(path).text)
     found = Report()
     component = check_cdsl(moved.out / moved.description, workspace, found)
     if component is None or found.failed:

@@ -27,12 +27,15 @@ Change = tuple[int, int, str]
 
 @dataclass(frozen=True, slots=True)
 class Names:
-    """What can be imported: the module for old names, the modules of interfaces, the handlers."""
+    """What can be imported: the module for old names, the modules of interfaces, the handlers.
+
+    `states` are those of the state machine, as their methods end; None without a machine.
+    """
 
     legacy: str
     modules: frozenset[str]
     handlers: Mapping[str, str]
-    has_states: bool = False
+    states: frozenset[str] | None = None
 
 
 def _used(tree: ast.Module) -> dict[str, set[str]]:

@@ -10,7 +10,9 @@ from collections.abc import Iterator
 from robocomp_dsl.generate import names
 from robocomp_dsl.generate.component_names import SERVED, Called, modules_of, names_of
 from robocomp_dsl.generate.literals import python_string
+from robocomp_dsl.generate.names import COMPONENT_MEMBERS
 from robocomp_dsl.generate.templates import render
+from robocomp_dsl.generate.worker import machine_of
 from robocomp_dsl.migrate.infer import Leaf, Parameters
 from robocomp_dsl.migrate.texts import leaves
 from robocomp_dsl.model.component import Component
@@ -53,7 +55,33 @@ def legacy_text(component: Component, parameters: Parameters) -> str:
         settings=list(_settings(parameters)),
         typed=parameters.typed,
         proxies=list(_proxies(component, called)),
+        machine=_machine_name(component),
+        states=list(states_of(component)),
+        events=list(_events(component)),
     )
+
+
+def states_of(component: Component) -> Iterator[str]:
+    """The states of its machine, as the methods that were called for them end."""
+    machine = machine_of(component)
+    for one in machine.of_verb("state") if machine else ():
+        yield one.name.removeprefix("state_")
+
+
+def _machine_name(component: Component) -> str:
+    """The attribute that was started; empty without one, or where the name is no such thing."""
+    given = component.statemachine
+    name = given.machine.name if given and given.machine else ""
+    return name if name.isidentifier() and name not in COMPONENT_MEMBERS else ""
+
+
+def _events(component: Component) -> Iterator[tuple[str, str]]:
+    """The signals of old, of both generations of RoboComp, and the events of today."""
+    given = component.statemachine
+    for one in given.machine.transitions if given and given.machine else ():
+        if one.event and one.target and one.source.isidentifier() and one.target.isidentifier():
+            yield f"t_{one.source}_to_{one.target}", one.event
+            yield f"{one.source}to{one.target}", one.event
 
 
 def _types(module: Module, called: Called) -> Iterator[tuple[str, str]]:

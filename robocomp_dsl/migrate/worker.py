@@ -16,6 +16,7 @@ from robocomp_dsl.generate.names import COMPONENT_MEMBERS
 from robocomp_dsl.generate.upkeep.user_module import UserModule
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.imports import Change, Names, adapted_imports, span_of
+from robocomp_dsl.migrate.legacy import states_of
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import Span
 
@@ -27,7 +28,8 @@ def names_for(component: Component, legacy: str) -> Names:
     called = names_of(component)
     handlers = {operation.name: name for (_, operation), name in called.handlers.items()}
     modules = frozenset(one.name for one in modules_of(component))
-    return Names(legacy, modules, handlers, component.statemachine is not None)
+    states = frozenset(states_of(component)) if component.statemachine else None
+    return Names(legacy, modules, handlers, states)
 
 
 def adapted(user: UserModule, names: Names, report: Report) -> str:
@@ -36,7 +38,8 @@ def adapted(user: UserModule, names: Names, report: Report) -> str:
     if user.worker is not None:
         changes += _aliases(user, names)
         _judge_names(user, user.worker, report)
-        _judge_states(user, user.worker if names.has_states else None, report)
+        if names.states is not None:
+            _judge_states(user, user.worker, names.states, report)
     text = user.source.text
     for start, end, new in sorted(changes, reverse=True):
         text = text[:start] + new + text[end:]
@@ -90,10 +93,17 @@ def _judge_names(user: UserModule, worker: ast.ClassDef, report: Report) -> None
             report.add(codes.NAME_TAKEN, span_of(user, node), said)
 
 
-def _judge_states(user: UserModule, worker: ast.ClassDef | None, report: Report) -> None:
-    """Tell the methods and events of a state machine of old."""
-    for node in ast.walk(worker) if worker else ():
-        if isinstance(node, ast.FunctionDef) and node.name.startswith("sm_"):
-            new = f"on_enter_{node.name.removeprefix('sm_')}"
-            said = f"`{node.name}` is called by nothing; its name is `{new}` now"
+def _judge_states(
+    user: UserModule, worker: ast.ClassDef, states: frozenset[str], report: Report
+) -> None:
+    """Tell the methods of a state machine of old: who calls them now, if anybody does."""
+    for node in ast.walk(worker):
+        if not isinstance(node, ast.FunctionDef) or not node.name.startswith("sm_"):
+            continue
+        state = node.name.removeprefix("sm_")
+        if state in states:
+            said = f"`{node.name}` is called `on_enter_{state}` now; `legacy.py` calls it still"
+            report.add(codes.STATE_CALLED, user.span_of(node), said)
+        else:
+            said = f"nobody calls `{node.name}`: there is no state `{state}`"
             report.add(codes.STATE_METHOD, user.span_of(node), said)

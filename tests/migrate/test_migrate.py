@@ -6,6 +6,8 @@ import ast
 import hashlib
 import random
 import shutil
+import subprocess
+import sys
 import uuid
 from collections.abc import Callable
 from pathlib import Path
@@ -347,3 +349,68 @@ def test_python_2_is_told(rcgen, old: Path, tmp_path: Path, text: str, is_old: b
     assert done.code == 1
     assert ("help: it is Python 2: `2to3 -w -n specificworker.py` brings" in done.err) == is_old
     assert "error[RC952]" in done.err
+
+
+STATES = """Machine_old{
+    states first, second;
+    initial_state start;
+    end_state over;
+    transition{
+        start => first;
+        first => first, second;
+        second => over;
+    };
+};
+"""
+STATE_WORKER = """from genericworker import *
+
+class SpecificWorker(GenericWorker):
+    def __init__(self, proxy_map):
+        super(SpecificWorker, self).__init__(proxy_map)
+        self.rounds = 0
+        self.Machine_old.start()
+
+    @QtCore.Slot()
+    def sm_start(self):
+        print("start", flush=True)
+        self.t_start_to_first.emit()
+
+    @QtCore.Slot()
+    def sm_first(self):
+        self.rounds += 1
+        print("first", self.rounds, flush=True)
+        if self.rounds < 3:
+            self.t_first_to_first.emit()
+        else:
+            self.firsttosecond.emit()
+
+    @QtCore.Slot()
+    def sm_second(self):
+        print("second", flush=True)
+        self.t_second_to_over.emit()
+
+    @QtCore.Slot()
+    def sm_over(self):
+        print("over", flush=True)
+"""
+
+
+def test_an_old_state_machine_runs_as_it_did(rcgen, tmp_path: Path) -> None:
+    folder = tmp_path / "states"
+    (folder / "src").mkdir(parents=True)
+    (folder / "states.cdsl").write_text(
+        'Component states { Communications { }; language python; statemachine "old.smdsl"; };\n'
+    )
+    (folder / "old.smdsl").write_text(STATES)
+    (folder / "etc").mkdir()
+    (folder / "etc" / "config").write_text("Period = 10\n")
+    (folder / "src" / "specificworker.py").write_text(STATE_WORKER)
+    done = rcgen("migrate", folder, "--format", "concise")
+    assert done.code == 0, done.err
+    run = subprocess.run(
+        [sys.executable, "main.py", "--middleware", "inproc"],
+        cwd=tmp_path / "states-migrated", capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    said = ["start", "first 1", "first 2", "first 3", "second", "over"]
+    assert run.stdout.splitlines() == said, run.stderr

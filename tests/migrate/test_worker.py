@@ -97,10 +97,13 @@ def test_attributes_of_the_component_are_told(tmp_path: Path) -> None:
 
 def test_methods_of_states_are_told(tmp_path: Path) -> None:
     path = tmp_path / "specificworker.py"
-    path.write_text("class SpecificWorker(G):\n    def sm_search(self):\n        pass\n")
+    path.write_text(
+        "class SpecificWorker(G):\n    def sm_search(self): ...\n    def sm_x(self): ...\n"
+    )
     user = user_module.read(path, Report())
     assert user is not None
     report = Report()
-    adapted(user, replace(NAMES, has_states=True), report)
-    assert [(one.code.id, one.span.text) for one in report] == [("RC958", "sm_search")]
+    adapted(user, replace(NAMES, states=frozenset({"search"})), report)
+    said = [(one.code.id, one.span.text) for one in report]
+    assert said == [("RC959", "sm_search"), ("RC958", "sm_x")]
     assert "on_enter_search" in next(iter(report)).message
