@@ -88,7 +88,10 @@ def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
 
 def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
     process = subprocess.Popen(
-        command(copy, "--robot", "nao"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command(copy, "--robot", "nao", "--touches", "5"),  # it is not over when it is killed
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     try:
         pids = running(f"touch-nao-{process.pid}")
