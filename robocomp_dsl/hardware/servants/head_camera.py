@@ -9,17 +9,14 @@ Luminance is that of ITU-R BT.601. Each image comes with the states of the joint
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import nullcontext
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.camera import CameraDevice, CameraSettings
+from robocomp_dsl.hardware.camera import CameraSettings
 from robocomp_dsl.hardware.errors import CommandRefused
-from robocomp_dsl.hardware.servants.base import told_state
-from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
-from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
 Bytes = NDArray[np.uint8]
@@ -28,21 +25,15 @@ BOTH = 5
 """The number that means all cameras together, as components of RoboComp ask for them."""
 
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
-_ANY_TIME = nullcontext()
 
 
-class HeadCameraServant(Servant):
+class HeadCameraServant(CarriedCameraServant):
     """The devices of the port are cameras, then the base under the first, if there is one."""
-
-    TAKES_TURNS: ClassVar[bool] = False
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
     ) -> None:
         super().__init__(interface, port, ids, devices)
-        self._motors = JointMotorServant(interface, port, ids, devices)
-        self._cameras = [one for one in ids if hasattr(devices[one], "picture")]
-        self._bases = [one for one in ids if one not in self._cameras]
         self._fed = np.empty((0, 0, 3), dtype=np.uint8)
 
     def getYUVImage(self, cam: int) -> tuple[Any, ...]:
@@ -77,7 +68,7 @@ class HeadCameraServant(Servant):
         """The first camera; all are told to be like it."""
         it = self._settings(0)
         return self.types.TCamParams(
-            name=self._cameras[0],
+            name=self.cameras[0],
             driver="robocomp_dsl",
             device=self.port,
             mode="RGB",
@@ -85,14 +76,14 @@ class HeadCameraServant(Servant):
             width=it.width,
             height=it.height,
             size=it.width * it.height,
-            numCams=len(self._cameras),
+            numCams=len(self.cameras),
             FPS=round(1 / it.period),
             timerPeriod=round(it.period * 1000),
             leftCamera=0,
-            rightCamera=min(1, len(self._cameras) - 1),
+            rightCamera=min(1, len(self.cameras) - 1),
             bothCameras=BOTH,
-            talkToBase=bool(self._bases),
-            talkToJointMotor=self._has_joints(),
+            talkToBase=bool(self.bases),
+            talkToJointMotor=self.has_joints(),
         )
 
     def setInnerImage(self, roi: Any) -> None:
@@ -111,7 +102,7 @@ class HeadCameraServant(Servant):
     # -- what is seen -------------------------------------------------------------------------
 
     def _numbers(self, cam: int) -> range:
-        count = len(self._cameras)
+        count = len(self.cameras)
         if cam == BOTH:
             return range(count)
         if not 0 <= cam < count:
@@ -121,7 +112,7 @@ class HeadCameraServant(Servant):
     def _seen(self, cam: int) -> list[Bytes]:
         """The latest images, each of shape (height, width, 3)."""
         return [
-            self._fed if i == 0 and self._fed.size else self._camera(i).picture().colour
+            self._fed if i == 0 and self._fed.size else self.camera(i).picture().colour
             for i in self._numbers(cam)
         ]
 
@@ -129,26 +120,16 @@ class HeadCameraServant(Servant):
         made: Bytes = np.concatenate([form(one).ravel() for one in self._seen(cam)])
         return made
 
-    def _camera(self, number: int) -> CameraDevice:
-        found: CameraDevice = self.device(self._cameras[number])
-        return found
-
     def _settings(self, number: int) -> CameraSettings:
-        return self._camera(number).settings
+        return self.camera(number).settings
 
     # -- what is around it --------------------------------------------------------------------
 
-    def _has_joints(self) -> bool:
-        return any(hasattr(one, "board") for one in tuple(self._devices.values()))
-
     def _told(self, image: Bytes) -> tuple[Any, ...]:
         """The image with the states of the joints and of the base; empty where there are none."""
-        base, head = self.types.TBaseState, self.types.THeadState
-        with getattr(self._camera(0), "turns", _ANY_TIME):  # a driver's world does not wait
-            joints = self._motors.getAllMotorState() if self._has_joints() else {}
-            state = told_state(base, self.device(self._bases[0]).state()) if self._bases else base()
+        joints, base = self.around()
         moving = any(one.isMoving for one in joints.values())
-        return image, head(motorsState=joints, isMoving=moving), state
+        return image, self.types.THeadState(motorsState=joints, isMoving=moving), base
 
 
 def _luminance(seen: Bytes) -> Bytes:

@@ -9,45 +9,32 @@ infinite distance, and as a point w = 0: then x, y, z are the direction.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import nullcontext
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.camera import CameraDevice, CameraSettings, Picture
-from robocomp_dsl.hardware.servants.base import told_state
-from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
-from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.hardware.camera import CameraSettings, Picture
+from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
 Floats = NDArray[np.float32]
 _BYTES = {"color": 3, "depth": 4}
 """Of a pixel."""
 
-_ANY_TIME = nullcontext()
 
-
-class SeenServant(Servant):
+class SeenServant(CarriedCameraServant):
     """The first device of the port is the camera, the second, if any, the base under it."""
-
-    TAKES_TURNS: ClassVar[bool] = False
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
     ) -> None:
         super().__init__(interface, port, ids, devices)
-        self._motors = JointMotorServant(interface, port, ids, devices)
         self._registration = self.types.Registration.DepthInColor
-
-    @property
-    def _camera(self) -> CameraDevice:
-        found: CameraDevice = self.device()
-        return found
 
     def getRGBDParams(self) -> Any:
         """How the camera is set up."""
-        it = self._camera.settings
+        it = self.camera().settings
         made = {
             name: self.types.CameraParameters(
                 focal=round(it.focal),
@@ -61,8 +48,8 @@ class SeenServant(Servant):
         return self.types.TRGBDParams(
             **made,
             timerPeriod=round(it.period * 1000),
-            talkToBase=len(self.ids) > 1,
-            talkToJointMotor=self._has_joints(),
+            talkToBase=bool(self.bases),
+            talkToJointMotor=self.has_joints(),
             driver="robocomp_dsl",
             device=self.ids[0],
         )
@@ -77,12 +64,12 @@ class SeenServant(Servant):
 
     def getData(self) -> tuple[Any, ...]:
         """Colour bytes and distances."""
-        seen = self._camera.picture()
-        return seen.colour.ravel(), seen.depth.ravel(), *self._around()
+        seen = self.camera().picture()
+        return seen.colour.ravel(), seen.depth.ravel(), *self.around()
 
     def getDepthInIR(self) -> tuple[Any, ...]:
         """Distances."""
-        return self._camera.picture().depth.ravel(), *self._around()
+        return self.camera().picture().depth.ravel(), *self.around()
 
     def getDepth(self) -> tuple[Any, ...]:
         """Distances."""
@@ -90,40 +77,29 @@ class SeenServant(Servant):
 
     def getImage(self) -> tuple[Any, ...]:
         """Colours, distances and points of one moment."""
-        seen = self._camera.picture()
-        return self._colours(seen), seen.depth.ravel(), self._points(seen), *self._around()
+        seen = self.camera().picture()
+        return self._colours(seen), seen.depth.ravel(), self._points(seen), *self.around()
 
     def getRGB(self) -> tuple[Any, ...]:
         """Colours."""
-        return self._colours(self._camera.picture()), *self._around()
+        return self._colours(self.camera().picture()), *self.around()
 
     def getXYZ(self) -> tuple[Any, ...]:
         """A point for every pixel."""
-        return self._points(self._camera.picture()), *self._around()
+        return self._points(self.camera().picture()), *self.around()
 
     def getXYZByteStream(self) -> tuple[Any, ...]:
         """The points as bytes: x, y, z, w of each as 32-bit floats, little endian."""
-        found = homogeneous(self._camera.settings, self._camera.picture().depth)
-        return found.astype("<f4").view(np.uint8).ravel(), *self._around()
+        found = homogeneous(self.camera().settings, self.camera().picture().depth)
+        return found.astype("<f4").view(np.uint8).ravel(), *self.around()
 
     def _colours(self, seen: Picture) -> Any:
         red, green, blue = seen.colour.reshape(-1, 3).T
         return self.types.ColorSeq.from_columns(red=red, green=green, blue=blue)
 
     def _points(self, seen: Picture) -> Any:
-        x, y, z, w = homogeneous(self._camera.settings, seen.depth).T
+        x, y, z, w = homogeneous(self.camera().settings, seen.depth).T
         return self.types.PointSeq.from_columns(x=x, y=y, z=z, w=w)
-
-    def _has_joints(self) -> bool:
-        return any(hasattr(one, "board") for one in tuple(self._devices.values()))
-
-    def _around(self) -> tuple[Any, Any]:
-        """The states of the joints and of the base; empty and zero where there are none."""
-        state = self.types.TBaseState
-        with getattr(self._camera, "turns", _ANY_TIME):  # a driver's world does not wait
-            joints = self._motors.getAllMotorState() if self._has_joints() else {}
-            base = told_state(state, self.device(self.ids[1]).state()) if self.ids[1:] else state()
-        return joints, base
 
 
 def homogeneous(settings: CameraSettings, depth: Floats) -> Floats:
