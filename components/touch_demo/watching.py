@@ -29,7 +29,7 @@ FINGER = "finger"
 FINGER_JOINTS = ["finger_x", "finger_y", "finger_z"]
 STIFF = {"kp": 2000.0, "ki": 0.0, "kd": 40.0, "maxOutput": 20.0, "maxIntegral": 0.0}
 """N/m, N s/m and N: a finger that gives way by 1 mm under 2 N."""
-PATIENCE_S = 45.0
+PATIENCE_S = 90.0
 """Wall time that a start, and anything that is waited for afterwards, may take."""
 _LOOKS_S = 0.02
 _NEWS_S = 1.0
