@@ -13,6 +13,7 @@ from presence import Presence
 from served import Served
 from wire import arm_facts
 
+from robocomp_dsl.runtime.clock import TIMELESS
 from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
 from robocomp_dsl.tactile.errors import TactileError
 from robocomp_dsl.tactile.reflex.withdrawal import ArmFacts
@@ -24,7 +25,6 @@ AGAIN_S = 0.1
 """What was refused, or not answered, is tried so often."""
 ASK_AGAIN_S = 1.0
 """While the reflex is blind it asks so often what is there: it may be another skin, another arm."""
-TIMELESS = "time stands still: who makes it has ended, or hangs"
 
 
 class Lookout(Served):

@@ -42,6 +42,7 @@ class Body:
         self.model: Any = compiled(spec, findings)
         self.data: Any = mujoco.MjData(self.model)
         self.sites = np.array([self.model.site(f"taxel{i}").id for i in range(len(skin.limb))])
+        self._known = {self.model.joint(i).name for i in range(self.model.njnt)}
         mapping = part.mapping
         self._mapping, self._to_si = mapping, mapping.to_si[mapping.present]
         self._joints = [name.rpartition("/")[2] for name in part.joints]
@@ -57,8 +58,11 @@ class Body:
         arm: Floats | None = None,
         finger: Floats | None = None,
     ) -> None:
-        """Set joints by name, generic angles (5,) and the finger's joints (3,)."""
-        angles = dict(joints or {})
+        """Set joints by name, generic angles (5,) and the finger's joints (3,).
+
+        Joints that only a board has, as version and vergence of eyes, leave the model as it is.
+        """
+        angles = {name: at for name, at in (joints or {}).items() if name in self._known}
         if arm is not None:
             device = (arm - self._mapping.sigma) / self._mapping.gamma
             values = device[self._mapping.present] * self._to_si

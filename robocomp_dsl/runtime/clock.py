@@ -13,6 +13,8 @@ from typing import Protocol
 NANO = 1_000_000_000
 DIGITS = 9
 """Moments are rounded to ns, so that sums of periods meet the times that a source tells."""
+TIMELESS = "nobody tells the time any more: whoever makes it has ended, or hangs"
+"""The reason of an emergency while a clock is `silent`."""
 
 
 class Wake(threading.Event):

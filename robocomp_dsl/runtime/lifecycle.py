@@ -16,7 +16,7 @@ from collections.abc import Callable
 from enum import StrEnum
 from typing import Protocol
 
-from robocomp_dsl.runtime.clock import DIGITS, NANO, Clock, Wake
+from robocomp_dsl.runtime.clock import DIGITS, NANO, TIMELESS, Clock, Wake
 from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe
@@ -26,7 +26,6 @@ from robocomp_dsl.runtime.statistics import Statistics
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency of a component that has no period of its own."""
-TIMELESS = "nobody tells the time any more: whoever makes it has ended, or hangs"
 
 
 class State(StrEnum):

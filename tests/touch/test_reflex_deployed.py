@@ -217,7 +217,7 @@ def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who
         until(lambda: deployed.state() == "Emergency", "an emergency")
         reason = deployed.about["reflex"].getInfo().reason
         assert reason
-        assert ("time stands still" in reason) == (who == "robot" and deployed.makes_time)
+        assert ("nobody tells the time" in reason) == (who == "robot" and deployed.makes_time)
         frames = deployed.reflex.getStatistics().framesAccepted
         if who == "arm":  # the skin is there all the time, and heard
             until(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
