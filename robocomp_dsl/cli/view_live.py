@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Never, TypeAlias
 
@@ -25,10 +25,7 @@ from robocomp_dsl.hardware.simulation_interface import (
 from robocomp_dsl.hardware.view.picture import Look
 from robocomp_dsl.hardware.view.running import CannotFollow, look_at
 from robocomp_dsl.runtime.errors import AmbiguousServer, MiddlewareError
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.onlooker import Onlooker
 
 ME = f"rcgen-view-{os.getpid()}"
 DEFAULT = "default"
@@ -96,21 +93,14 @@ def _hand(component: str, domain: str | None) -> Iterator[Proxies]:
 @contextmanager
 def _connected(component: str, domain: str) -> Iterator[Proxies]:
     try:
-        middleware: Middleware = open_middleware(
-            "zenoh", Host(ME, domain, Execution(), Statistics())
-        )
+        looker = Onlooker(domain, name=ME)
     except MiddlewareError as error:
         _fail(str(error))
-    try:
-        peers = (component,) if component else ()
+    with closing(looker):
         yield (
-            SimulationProxy(middleware.proxy(Endpoint(SIMULATION, ME, "Simulation", peers))),
-            InnerModelManagerProxy(
-                middleware.proxy(Endpoint(INNERMODELMANAGER, ME, "InnerModelManager", peers))
-            ),
+            SimulationProxy(looker.link(SIMULATION, component, "Simulation")),
+            InnerModelManagerProxy(looker.link(INNERMODELMANAGER, component, "InnerModelManager")),
         )
-    finally:
-        middleware.close()
 
 
 def _domains(said: str | None) -> Sequence[str]:

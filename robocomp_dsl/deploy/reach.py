@@ -7,35 +7,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from typing import TypeAlias
 
-from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentInfo, ComponentProxy
+from robocomp_dsl.runtime.component_interface import ComponentInfo, ComponentProxy
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.onlooker import Onlooker
 
 ProxyOf: TypeAlias = Callable[[str], ComponentProxy]
-_NAME = "rcdeploy"
 _AT_ONCE = 16
 
 
 @contextmanager
 def proxies(domain: str, patience_s: float) -> Iterator[ProxyOf]:
     """Calls components by their names. What is asked of them raises `MiddlewareError`."""
-    middleware = open_middleware("zenoh", Host(_NAME, domain, Execution(), Statistics()))
+    with closing(Onlooker(domain, name="rcdeploy")) as looker:
 
-    def proxy_of(name: str) -> ComponentProxy:
-        proxy = ComponentProxy(middleware.proxy(Endpoint(COMPONENT, _NAME, "Component", (name,))))
-        proxy.set_timeout(patience_s)
-        return proxy
+        def proxy_of(name: str) -> ComponentProxy:
+            proxy = looker.component(name)
+            proxy.set_timeout(patience_s)
+            return proxy
 
-    try:
         yield proxy_of
-    finally:
-        middleware.close()
 
 
 def infos(domain: str, names: Iterable[str], patience_s: float) -> Mapping[str, ComponentInfo]:

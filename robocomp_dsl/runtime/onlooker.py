@@ -20,15 +20,13 @@ from robocomp_dsl.runtime.middleware import open_middleware
 from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Link
 from robocomp_dsl.runtime.statistics import Statistics
 
-_ME = "onlooker"
-
 
 class Onlooker:
-    """Connections into one domain; `close` them at the end."""
+    """Connections into one domain; `close` them at the end. `name` is for messages to people."""
 
-    def __init__(self, domain: str, middleware: str = "zenoh") -> None:
-        self._execution = Execution()
-        host = Host(_ME, domain, self._execution, Statistics())
+    def __init__(self, domain: str, middleware: str = "zenoh", name: str = "onlooker") -> None:
+        self._name, self._execution = name, Execution()
+        host = Host(name, domain, self._execution, Statistics())
         self._middleware = open_middleware(middleware, host)
 
     def component(self, name: str) -> ComponentProxy:
@@ -48,12 +46,13 @@ class Onlooker:
         handlers: Mapping[str, Callable[..., Any]],
     ) -> None:
         """Call handlers, by the names of operations, with what the component publishes."""
-        at = Endpoint(interface, _ME, port, (component,))
+        at = Endpoint(interface, self._name, port, (component,))
         self._middleware.subscribe(at, handlers, self._execution)
 
     def link(self, interface: Interface, component: str, port: str) -> Link:
-        """What a proxy of that port stands on."""
-        return self._middleware.proxy(Endpoint(interface, _ME, port, (f"{component}.{port}",)))
+        """What a proxy of that port stands on; no component: the only one that serves it."""
+        peers = (f"{component}.{port}",) if component else ()
+        return self._middleware.proxy(Endpoint(interface, self._name, port, peers))
 
     def close(self) -> None:
         """Leave the domain."""
