@@ -1,6 +1,7 @@
 # make demo   see it work: a finger touches two robots, and one reflex withdraws their arms
 # make test   run the tests
-# Both set up everything they need in .venv; only Python (3.11 or newer) and make must be there.
+# make docs   build the documentation into build/docs
+# They set up everything they need in .venv; only Python (3.11 or newer) and make must be there.
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -13,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix
+.PHONY: test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -27,7 +28,11 @@ test: $(READY)
 
 # Many random rounds: minutes, not seconds.
 test-slow: $(READY)
-	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow $(TESTS)
+	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow -o timeout=7200 -o faulthandler_timeout=0 $(TESTS)
+
+# Build the wheel, install it outside the checkout, run the demos from copied folders.
+test-wheel: $(READY)
+	$(BIN)/python -m pytest -q -m wheel tests/packaging
 
 # MINUTES shared by all languages; what breaks a rule is kept in build/fuzz/found.
 fuzz: $(READY)
@@ -57,6 +62,12 @@ lint: $(READY)
 format: $(READY)
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+
+# A warning is an error. The pages need no network.
+docs: $(READY)
+	$(BIN)/pip install -q --disable-pip-version-check -e '.[docs]'
+	rm -rf build/docs
+	$(BIN)/python -m docs.build_site build/docs
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks $(ONLY)

@@ -14,12 +14,12 @@ from pathlib import Path
 from statistics import median, quantiles
 from typing import Any
 
-from robocomp_dsl.check import CHECKS, check_file
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli.program import YOUNG
+from robocomp_dsl.check.languages import CHECKS, check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.program import GC_GEN0_THRESHOLD
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import parse_cdsl
+from robocomp_dsl.syntax.parse import parse_cdsl
 
 ROOT = Path(__file__).resolve().parents[1]
 ROUNDS = 200
@@ -70,7 +70,7 @@ def per_file() -> list[dict[str, Any]]:
         for path in sorted((ROOT / folder).rglob("*"))
         if path.suffix in CHECKS and path.suffix != ".xml"
     ]
-    gc.set_threshold(YOUNG)  # as in a command
+    gc.set_threshold(GC_GEN0_THRESHOLD)  # as in a command
     _cost(files[0])  # what is loaded on first use is start-up
     costs = sorted(_cost(path) for path in files)
     rows = {
@@ -101,11 +101,11 @@ def changed() -> list[dict[str, Any]]:
             begin = time.perf_counter()
             parse_cdsl(Source(path, _text(number)), Report())
             middle = time.perf_counter()
-            workspace.files.open_buffer(path, _text(number))
+            workspace.sources.set_overlay(path, _text(number))
             report = Report()
             check_file(path, workspace, report)
-            if report.failed:
-                raise AssertionError([one.message for one in report])
+            if report.has_errors:
+                raise AssertionError([finding.message for finding in report])
             beyond.append((time.perf_counter() - middle - (middle - begin)) * 1000)
     name = "check of a component with 5 imports, changed, beyond parsing"
     return [

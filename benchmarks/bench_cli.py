@@ -78,9 +78,9 @@ def _timed(command: list[str], environment: dict[str, str]) -> float:
 def _figures(medians: dict[str, float]) -> list[dict[str, Any]]:
     bare = medians.pop("python -c pass")
     goals = {"rcgen --help": 80, "rcgen check": 150, "rcgen component": 250}
-    made: list[dict[str, Any]] = [{"name": "python -c pass", "value": bare, "unit": "ms"}]
+    figures: list[dict[str, Any]] = [{"name": "python -c pass", "value": bare, "unit": "ms"}]
     for name, value in medians.items():
         ok = value <= goals[name]
-        made.append({"name": name, "value": value, "unit": "ms", "goal": goals[name], "ok": ok})
-        made.append({"name": f"{name} / python -c pass", "value": value / bare, "unit": "x"})
-    return made
+        figures.append({"name": name, "value": value, "unit": "ms", "goal": goals[name], "ok": ok})
+        figures.append({"name": f"{name} / python -c pass", "value": value / bare, "unit": "x"})
+    return figures

@@ -15,7 +15,7 @@ import numpy as np
 
 from benchmarks.pose_interface import Pose
 from robocomp_dsl.runtime import types as rt
-from robocomp_dsl.runtime.codec import compile_decoder, compile_encoder
+from robocomp_dsl.runtime.codec.codec import compile_decoder, compile_encoder
 
 ROUNDS = 40
 CALLS = 400
@@ -24,35 +24,22 @@ CALLS = 400
 class Beam(rt.Struct):
     """One ray."""
 
-    __slots__ = ("angle", "dist")
-    _fields_ = (("angle", rt.FLOAT), ("dist", rt.FLOAT))
-
-    def __init__(self, angle: float = 0.0, dist: float = 0.0) -> None:
-        self.angle = angle
-        self.dist = dist
+    angle: rt.Float = 0.0
+    dist: rt.Float = 0.0
 
 
 class Scan(rt.StructArray[Beam]):
     """A laser scan."""
 
     __slots__ = ()
-    _element_ = Beam
 
 
 class Frame(rt.Struct):
     """Of a skin: which taxels, and what they feel."""
 
-    __slots__ = ("ids", "stamp", "values")
-    _fields_ = (
-        ("stamp", rt.DOUBLE),
-        ("ids", rt.Array(rt.SHORT)),
-        ("values", rt.Array(rt.FLOAT)),
-    )
-
-    def __init__(self, stamp: float, ids: Any, values: Any) -> None:
-        self.stamp = stamp
-        self.ids = ids
-        self.values = values
+    stamp: rt.Double
+    ids: rt.Int16Array
+    values: rt.Float32Array
 
 
 def trip(kind: Any, value: Any) -> Callable[[], Any]:
@@ -94,7 +81,7 @@ def run() -> list[dict[str, Any]]:
                 work()
             took[name].append((perf_counter_ns() - start) / CALLS / 1000)
     goals = {"pose": 3.0, "scan of 1000 rays": 5.0, "skin frame of 4000 taxels": 5.0}
-    made: list[dict[str, Any]] = [
+    figures: list[dict[str, Any]] = [
         {
             "name": f"{name}, encode and decode",
             "value": median(times),
@@ -105,4 +92,4 @@ def run() -> list[dict[str, Any]]:
     ]
     pairs = zip(took["pose"], took["pose by struct, by hand"], strict=True)
     ratio = median(ours / theirs for ours, theirs in pairs)
-    return [*made, {"name": "pose / by hand", "value": ratio, "unit": "x"}]
+    return [*figures, {"name": "pose / by hand", "value": ratio, "unit": "x"}]

@@ -12,17 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.hardware.cartesian import goal_of, step
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
-from robocomp_dsl.hardware.mujoco.control_board_chain import chain_of
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.boards import robot_board
-from robocomp_dsl.hardware.robots.build import add_robot, new_world
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.kinematics.cartesian import goal_of, step
+from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
+from robocomp_dsl.simulation.devices.control_board_chain import extract_chain
+from robocomp_dsl.simulation.robots.boards import robot_board
+from robocomp_dsl.simulation.robots.build import add_robot, new_world
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.world.world import World
 
 JOINTS = 30
 ROUNDS, STEPS = 60, 50
@@ -74,7 +74,7 @@ def _cartesian() -> list[dict[str, Any]]:
     spec = new_world(0.001)
     add_robot(spec, robot)
     part = SimulatedBoard(robot_board(robot, "right_arm"))
-    chain = chain_of(World(spec, [part]).model, part.board.spec.names, "r_hand")
+    chain = extract_chain(World(spec, [part]).model, part.board.spec.names, "r_hand")
     goal, best = goal_of(chain.pose(chain.rest * 0.9)), np.inf
     for _ in range(ROUNDS):
         start = time.thread_time()

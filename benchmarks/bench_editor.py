@@ -18,7 +18,7 @@ from typing import Any
 from lsprotocol import types as lsp
 from pygls.lsp.client import LanguageClient
 
-SERVER = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen import main; main()", "lsp"]
+SERVER = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen.main import main; main()", "lsp"]
 ROUNDS = 200
 WARM_UP = 20
 OTHERS = 98
@@ -109,7 +109,7 @@ def _processor(client: LanguageClient) -> float:
 def _memory(client: LanguageClient) -> dict[str, Any]:
     process: Any = client._server  # pygls has no other way to its process
     status = Path(f"/proc/{process.pid}/status").read_text(encoding="ascii")
-    kilobytes = int(next(one for one in status.splitlines() if "VmRSS" in one).split()[1])
+    kilobytes = int(next(line for line in status.splitlines() if "VmRSS" in line).split()[1])
     return {"name": "server, 100 files open", "value": kilobytes / 1024, "unit": "MB", "goal": 200}
 
 

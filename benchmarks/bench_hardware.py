@@ -8,19 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.hardware.differential_robot import Mechanics
-from robocomp_dsl.hardware.frame_layout import Layout
-from robocomp_dsl.hardware.laser import LaserSettings
-from robocomp_dsl.hardware.mujoco.differential_robot import DifferentialRobot
-from robocomp_dsl.hardware.mujoco.laser import Laser
-from robocomp_dsl.hardware.mujoco.mirror import mirror
-from robocomp_dsl.hardware.mujoco.room import Room, Wall
-from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.build import add_robot, new_world
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
-from robocomp_dsl.hardware.scene import Box, Frame, Motion, Scene
-from robocomp_dsl.hardware.transforms import TransformTree
+from robocomp_dsl.hardware.description.scene import Box, Frame, Motion, Scene
+from robocomp_dsl.hardware.devices.differential_robot import Mechanics
+from robocomp_dsl.hardware.devices.laser import LaserSettings
+from robocomp_dsl.hardware.kinematics.frame_layout import FrameLayout
+from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from robocomp_dsl.simulation.devices.differential_robot import DifferentialRobot
+from robocomp_dsl.simulation.devices.laser import Laser
+from robocomp_dsl.simulation.models.model_to_transforms import mirror
+from robocomp_dsl.simulation.robots.build import add_robot, new_world
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.scene.room import Room, Wall
+from robocomp_dsl.simulation.scene.scene_spec import build_spec
+from robocomp_dsl.simulation.world.world import World
 
 
 def best(action: Callable[[], Any], count: int, rounds: int = 9) -> float:
@@ -37,16 +37,16 @@ def best(action: Callable[[], Any], count: int, rounds: int = 9) -> float:
 def tree(count: int) -> TransformTree:
     """Frames that branch as a robot's do: each stands in one of the 100 before it."""
     random = np.random.default_rng(0)
-    made = TransformTree()
+    transforms = TransformTree()
     for i in range(count):
         parent = "root" if i == 0 else f"f{int(random.integers(max(0, i - 100), i))}"
         place, turn = random.uniform(-100, 100, 3), random.uniform(-3, 3, 3)
         motion = Motion("hinge", "z")
-        made.add(Frame(f"f{i}", parent, tuple(place.tolist()), tuple(turn.tolist()), motion))
-    return made
+        transforms.add(Frame(f"f{i}", parent, tuple(place.tolist()), tuple(turn.tolist()), motion))
+    return transforms
 
 
-def layout(count: int) -> Layout:
+def layout(count: int) -> FrameLayout:
     """The arrays of a tree of 14 levels."""
     random = np.random.default_rng(1)
     levels = [[("f0", "", random.uniform(-3, 3, 6).tolist())]]
@@ -61,7 +61,7 @@ def layout(count: int) -> Layout:
                 for n, k in zip(names, pick, strict=True)
             ]
         )
-    return Layout(levels)
+    return FrameLayout(levels)
 
 
 def run() -> Iterator[dict[str, Any]]:

@@ -19,11 +19,11 @@ import zenoh
 
 from benchmarks.middleware_peer import drain
 from benchmarks.pose_interface import MOVER, TRACK, MoverProxy, Pose, TrackProxy
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
-from robocomp_dsl.runtime.statistics import Statistics
 
 ROUNDS = 60
 CALLS = 100
@@ -82,12 +82,12 @@ def over_zenoh() -> list[dict[str, Any]]:
         assert peer.stdout
         peer.stdout.readline()
         raw = open_session(domain)
-        host = Host("client", domain, Execution(), Statistics())
-        made = open_middleware("zenoh", host)
+        host = MiddlewareContext("client", domain, CallbackGroup(), Statistics())
+        middleware = open_middleware("zenoh", host)
         try:
-            took = in_turns(_calls(raw.session, made, host))
+            took = in_turns(_calls(raw.session, middleware, host))
         finally:
-            made.close()
+            middleware.close()
             raw.close()
             assert peer.stdin
             peer.stdin.close()
@@ -111,7 +111,9 @@ def over_zenoh() -> list[dict[str, Any]]:
     ]
 
 
-def _calls(session: zenoh.Session, made: Any, host: Host) -> dict[str, Callable[[], Any]]:
+def _calls(
+    session: zenoh.Session, middleware: Any, host: MiddlewareContext
+) -> dict[str, Callable[[], Any]]:
     pose = Pose()
     ready = MOVER.operations[0].encode_request((pose,))
     querier = session.declare_querier("raw/query")
@@ -124,10 +126,10 @@ def _calls(session: zenoh.Session, made: Any, host: Host) -> dict[str, Callable[
 
     subscriber = session.declare_subscriber("raw/back", zenoh.handlers.FifoChannel(256))
     drain(subscriber.handler, rung)
-    mover = MoverProxy(made.proxy(Endpoint(MOVER, "client", "Mover")))
-    track = TrackProxy(made.advertise(Endpoint(TRACK, "client", "There")))
+    mover = MoverProxy(middleware.proxy(Endpoint(MOVER, "client", "Mover")))
+    track = TrackProxy(middleware.advertise(Endpoint(TRACK, "client", "There")))
     heard = Endpoint(TRACK, "client", "Back", ("peer",))
-    made.subscribe(heard, {"moved": bell.ring}, host.execution)
+    middleware.subscribe(heard, {"moved": bell.ring}, host.callback_group)
 
     def raw_query() -> None:
         querier.get(payload=ready).recv().ok.payload.to_bytes()
@@ -156,7 +158,10 @@ def _calls(session: zenoh.Session, made: Any, host: Host) -> dict[str, Callable[
 def in_process() -> list[dict[str, Any]]:
     """A synchronous call of a component in the same process."""
     domain = f"bench-{uuid.uuid4().hex[:8]}"
-    hosts = [Host(name, domain, Execution(), Statistics()) for name in ("server", "client")]
+    hosts = [
+        MiddlewareContext(name, domain, CallbackGroup(), Statistics())
+        for name in ("server", "client")
+    ]
     server, client = (open_middleware("inproc", host) for host in hosts)
     pose = Pose()
 
@@ -166,7 +171,7 @@ def in_process() -> list[dict[str, Any]]:
 
     servant = Servant()
     at = Endpoint(MOVER, "server", "Mover")
-    server.serve(at, {"move": servant.move}, hosts[0].execution)
+    server.serve(at, {"move": servant.move}, hosts[0].callback_group)
     mover = MoverProxy(client.proxy(Endpoint(MOVER, "client", "Mover")))
     mover.move(pose)
 
@@ -178,7 +183,7 @@ def in_process() -> list[dict[str, Any]]:
 
     above = []
     for _ in range(ROUNDS):
-        with hosts[1].execution:
+        with hosts[1].callback_group:
             above.append(many(mover.move) - many(servant.move))
     client.close()
     server.close()

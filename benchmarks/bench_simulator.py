@@ -114,7 +114,7 @@ def _speeds(it: Run, name: str, goal: float) -> Iterator[dict[str, Any]]:
     first, last = it.lines[1], it.lines[-1]
     wall = (last.simulated - first.simulated) / (last.wall - first.wall)
     yield {"name": "  by the wall clock, whatever else the machine does", "value": wall, **higher}
-    bare = 1.0 / min(one.bare for one in it.lines)
+    bare = 1.0 / min(line.bare for line in it.lines)
     yield {"name": "  bare physics of the same model", "value": bare, **higher}
     shares = [
         (b.cpu_before - a.cpu) / (b.simulated - a.simulated) / ((a.bare + b.bare) / 2)

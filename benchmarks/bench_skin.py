@@ -24,15 +24,15 @@ from benchmarks.skin_heard import interfaces, latencies, pace
 from benchmarks.skin_world import make
 from benchmarks.urgent import urgent
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
-from robocomp_dsl.hardware.mujoco.skin import SimulatedSkin
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.boards import whole_robot
-from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
-from robocomp_dsl.hardware.robots.catalog import ROBOTS, description
-from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot
+from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
+from robocomp_dsl.simulation.devices.skin import SimulatedSkin
+from robocomp_dsl.simulation.robots.boards import whole_robot
+from robocomp_dsl.simulation.robots.build import add_robot, new_world, set_pose
+from robocomp_dsl.simulation.robots.catalog import ROBOTS, description
+from robocomp_dsl.simulation.world.world import World
+from robocomp_dsl.tactile.description.model import GenericPart, Limb, Patch, RobotDescription
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from robocomp_dsl.tactile.skin.layout import singles
+from robocomp_dsl.tactile.skin.layout import place_taxels
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
 
 ROUNDS = 12
@@ -46,17 +46,17 @@ TAPS = 300
 ROUNDS_OF_READING = 1000
 
 
-def _dense(part: Part, first: int) -> Part:
+def _dense(part: GenericPart, first: int) -> GenericPart:
     """The part with 1000 taxels on each limb."""
     patches = []
     for i, limb in enumerate(part.limbs):
         x = np.linspace(limb.cone.x0 + 0.004, limb.cone.x1 - 0.004, 25)
         theta = np.linspace(-np.pi, np.pi, 40, endpoint=False)
         places = np.stack(np.meshgrid(x, theta, indexing="ij"), axis=-1).reshape(-1, 2)
-        made = singles(limb.cone, places)
+        placed = place_taxels(limb.cone, places)
         ids = tuple(range(first + 1000 * i, first + 1000 * (i + 1)))
         patches.append(
-            Patch(f"{part.name}{i}", limb.name, ids, made.points, made.normals, Sensitivity())
+            Patch(f"{part.name}{i}", limb.name, ids, placed.points, placed.normals, Sensitivity())
         )
     return replace(part, patches=tuple(patches))
 
@@ -107,16 +107,16 @@ def run() -> Iterator[dict[str, Any]]:
     yield from _library()
     for fingers in (1, 10):
         with tempfile.TemporaryDirectory() as folder:
-            made = make(Path(folder), fingers)
-            yield from _paced(made, 4 * fingers)
+            simulator = make(Path(folder), fingers)
+            yield from _paced(simulator, 4 * fingers)
             if fingers == 1:
-                yield from _tapped(made, Path(folder) / "taps")
-                yield from _decoded(made)
+                yield from _tapped(simulator, Path(folder) / "taps")
+                yield from _decoded(simulator)
 
 
-def _paced(made: Path, fingers: int) -> Iterator[dict[str, Any]]:
+def _paced(simulator: Path, fingers: int) -> Iterator[dict[str, Any]]:
     """The quietest of all windows: what else the machine does is no part of it."""
-    found = pace(made)
+    found = pace(simulator)
     name = f"generated simulator, 4000 taxels, 31 joints, {fingers} fingers, over zenoh"
     higher: dict[str, Any] = {"unit": "x", "better": "higher"}
     goal = {"goal": 5.0} if fingers == 4 else {}
@@ -126,9 +126,9 @@ def _paced(made: Path, fingers: int) -> Iterator[dict[str, Any]]:
     yield {"name": "  frames lost", "value": found.lost, "unit": "", "goal": 0}
 
 
-def _tapped(made: Path, file: Path) -> Iterator[dict[str, Any]]:
+def _tapped(simulator: Path, file: Path) -> Iterator[dict[str, Any]]:
     with urgent() as first:
-        found = latencies(made, file, TAPS)
+        found = latencies(simulator, file, TAPS)
     yield {
         "name": f"the machine's own lateness{' at real-time priority' if first else ''}, p99",
         "value": float(np.percentile(found.lateness, 99)),
@@ -140,22 +140,22 @@ def _tapped(made: Path, file: Path) -> Iterator[dict[str, Any]]:
         yield {"name": f"{name}, p{share}", "value": value, "unit": "ms", "goal": goal}
     yield {
         "name": "  touches that were not heard of",
-        "value": found.made - len(found.way),
+        "value": found.count - len(found.way),
         "unit": "",
     }
 
 
-def _decoded(made: Path) -> Iterator[dict[str, Any]]:
-    types, random = interfaces(made), np.random.default_rng(1)
+def _decoded(simulator: Path) -> Iterator[dict[str, Any]]:
+    types, random = interfaces(simulator), np.random.default_rng(1)
     force, x, y, z = random.random((4, 4000)).astype(np.float32)
     raw = random.integers(0, 256, 4000).astype(np.uint8)
     operation = types.SkinFrameProxy.INTERFACE.operations[0]
     calls = {}
-    for name, given in (
+    for name, fields in (
         ("forces", {}),
         ("forces, shear and raw values", {"shearX": x, "shearY": y, "shearZ": z, "raw": raw}),
     ):
-        sent = operation.encode_request((types.Frame(force=force, geometry=1, **given),))
+        sent = operation.encode_request((types.Frame(force=force, geometry=1, **fields),))
         calls[name] = partial(operation.decode_request, sent)
     for name, value in _quietest(calls).items():
         what = f"reading a frame of 4000 taxels: {name}"
@@ -178,7 +178,7 @@ def _library() -> list[dict[str, Any]]:
     """Real-time factors, and what the skin adds."""
     read = description("icub_v2")
     parts = tuple(_dense(part, 2000 * i) for i, part in enumerate(read.parts))
-    skin = SimulatedSkin(SkinGeometry.of(Robot("dense", parts)))
+    skin = SimulatedSkin(SkinGeometry.of(RobotDescription("dense", parts)))
     idle = SimulatedSkin(skin.geometry)
     worlds = {
         "skin, 40 fingers": _world(skin, True),

@@ -9,11 +9,11 @@ from typing import Any
 import zenoh
 
 from benchmarks.pose_interface import MOVER, TRACK, Pose, TrackProxy
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
-from robocomp_dsl.runtime.statistics import Statistics
 
 
 def drain(handler: Any, act: Any) -> None:
@@ -53,18 +53,20 @@ def serve_raw(session: zenoh.Session, ready: bytes) -> list[Any]:
 def main(domain: str) -> None:
     """Serve both ways."""
     raw = open_session(domain)
-    kept = serve_raw(raw.session, MOVER.operations[0].encode_reply(Pose()))
-    execution = Execution()
-    made = open_middleware("zenoh", Host("peer", domain, execution, Statistics()))
-    made.serve(Endpoint(MOVER, "peer", "Mover"), {"move": lambda pose: pose}, execution)
-    back = TrackProxy(made.advertise(Endpoint(TRACK, "peer", "Back")))
+    raw_server = serve_raw(raw.session, MOVER.operations[0].encode_reply(Pose()))
+    execution = CallbackGroup()
+    middleware = open_middleware(
+        "zenoh", MiddlewareContext("peer", domain, execution, Statistics())
+    )
+    middleware.serve(Endpoint(MOVER, "peer", "Mover"), {"move": lambda pose: pose}, execution)
+    back = TrackProxy(middleware.advertise(Endpoint(TRACK, "peer", "Back")))
     at = Endpoint(TRACK, "peer", "There", ("client",))
-    made.subscribe(at, {"moved": back.moved}, execution)
+    middleware.subscribe(at, {"moved": back.moved}, execution)
     print("ready", flush=True)
     sys.stdin.read()
-    made.close()
+    middleware.close()
     raw.close()
-    del kept
+    del raw_server
 
 
 if __name__ == "__main__":

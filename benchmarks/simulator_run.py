@@ -19,10 +19,10 @@ from types import SimpleNamespace
 from typing import Any
 
 from benchmarks.humanoid import humanoid
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 STEP_MS = 1.0
 PATIENCE = 60.0
@@ -62,20 +62,22 @@ class Run:
         link = self.middleware.proxy(at)
         if not link.wait(PATIENCE):
             raise TimeoutError(f"nobody serves {port}")
-        return SimpleNamespace(**{one.name: link.bind(one) for one in interface.operations})
+        return SimpleNamespace(
+            **{operation.name: link.bind(operation) for operation in interface.operations}
+        )
 
     def hear(self, kind: str, port: str, operation: str) -> None:
         """Subscribe to a topic and count what comes."""
 
-        def take(*told: Any) -> None:
+        def take(*arguments: Any) -> None:
             self.heard[port] += 1
             if kind == "ControlBoardStateProxy":
-                self.time = told[0].time
+                self.time = arguments[0].time
                 self.news.set()
 
         interface = getattr(self.types, kind).INTERFACE
         at = Endpoint(interface, "client", port)
-        self.middleware.subscribe(at, {operation: take}, Execution())
+        self.middleware.subscribe(at, {operation: take}, CallbackGroup())
 
 
 @contextmanager
@@ -93,8 +95,10 @@ def simulator(
         text=True,
         env=os.environ | ({TAP: "1"} if tap else {}),
     )
-    execution = Execution()
-    middleware = open_middleware("zenoh", Host("client", domain, execution, Statistics()))
+    execution = CallbackGroup()
+    middleware = open_middleware(
+        "zenoh", MiddlewareContext("client", domain, execution, Statistics())
+    )
     run = Run(process, middleware, _interfaces(home))
     reader = threading.Thread(target=_read, args=(run,))
     reader.start()
@@ -121,7 +125,9 @@ def _generated(folder: Path, *, camera: bool) -> Path:
 
 
 def _interfaces(home: Path) -> Any:
-    spec = spec_from_file_location("humanoid_interfaces", home / "generated" / "interfaces.py")
+    spec = spec_from_file_location(
+        "humanoid_interfaces", home / f"{NAME}_generated" / "interfaces.py"
+    )
     assert spec is not None
     assert spec.loader is not None
     module = module_from_spec(spec)
@@ -133,8 +139,8 @@ def _interfaces(home: Path) -> Any:
 def _read(run: Run) -> None:
     assert run.process.stdout is not None
     for text in run.process.stdout:
-        told = json.loads(text)
-        if told and isinstance(told[0], float):
-            run.lines.append(Line(*told))
+        record = json.loads(text)
+        if record and isinstance(record[0], float):
+            run.lines.append(Line(*record))
         else:
-            run.effects = [(torque, at) for torque, at in told]
+            run.effects = [(torque, at) for torque, at in record]

@@ -14,7 +14,7 @@ import time
 from typing import Any
 
 import mujoco
-from generated.simulator import Simulator
+from humanoid_simulator_generated.simulator import Simulator
 
 TAP = "BENCH_TAP"
 """Set in the environment where the joint is to be watched, which costs a little."""
@@ -35,7 +35,7 @@ class SpecificWorker(Simulator):
     def initialize(self) -> None:
         """The world runs already."""
         super().initialize()
-        with self.simulation.turns:
+        with self.simulation.lock:
             self.bare = mujoco.MjData(self.simulation.world.model)
             self.effects: list[tuple[float, float]] = []
             if os.environ.get(TAP):
@@ -64,14 +64,14 @@ class SpecificWorker(Simulator):
 
     def _tell(self) -> None:
         before, world = time.process_time(), self.simulation.world
-        with self.simulation.turns:
+        with self.simulation.lock:
             mujoco.mj_copyData(self.bare, world.model, world.data)
         begun = time.thread_time()
         for _ in range(SAMPLE):
             mujoco.mj_step(world.model, self.bare)
         bare = (time.thread_time() - begun) / SAMPLE / world.step
-        said = (world.time, before, time.process_time(), time.perf_counter(), bare)
-        print(json.dumps(said), flush=True)
+        record = (world.time, before, time.process_time(), time.perf_counter(), bare)
+        print(json.dumps(record), flush=True)
 
     def finalize(self) -> None:
         """Tell the effects."""

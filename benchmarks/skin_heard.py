@@ -22,10 +22,10 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 PATIENCE = 60.0
 PERIOD = 0.0873
@@ -62,32 +62,36 @@ class Heard:
 
 def interfaces(folder: Path) -> Any:
     """The generated interfaces, as a module."""
-    spec = util.spec_from_file_location("skin_interfaces", folder / "generated/interfaces.py")
+    spec = util.spec_from_file_location(
+        "skin_interfaces", next(folder.glob("*_generated/interfaces.py"))
+    )
     assert spec
     assert spec.loader
-    made = util.module_from_spec(spec)
-    sys.modules[spec.name] = made
-    spec.loader.exec_module(made)
-    return made
+    module = util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
 
 
 @contextmanager
 def running(folder: Path, *settings: str, taps: Path | None = None) -> Iterator[Heard]:
     """The simulator with `settings` (`speed=0`), heard over zenoh from its first frames on."""
     domain = f"bench-{uuid.uuid4().hex[:8]}"
-    given = [word for one in settings for word in ("--set", one)]
+    options = [word for setting in settings for word in ("--set", setting)]
     process = subprocess.Popen(
-        [sys.executable, "main.py", "--domain", domain, *given],
+        [sys.executable, "main.py", "--domain", domain, *options],
         cwd=folder,
         env={**os.environ, **({"TAPS": str(taps)} if taps else {})},
         stderr=subprocess.DEVNULL,
     )
     heard = Heard(process)
-    middleware = open_middleware("zenoh", Host("client", domain, Execution(), Statistics()))
+    middleware = open_middleware(
+        "zenoh", MiddlewareContext("client", domain, CallbackGroup(), Statistics())
+    )
     try:
         topic = interfaces(folder).SkinFrameProxy.INTERFACE
         at = Endpoint(topic, "client", "SkinFrame")
-        middleware.subscribe(at, {"frame": heard.frame}, Execution())
+        middleware.subscribe(at, {"frame": heard.frame}, CallbackGroup())
         heard.until(10)
         yield heard
     finally:
@@ -106,7 +110,7 @@ class Pace:
 
 
 def pace(folder: Path, windows: int = 12, frames: int = 100) -> Pace:
-    """How fast it lives at full speed, in windows of so many frames."""
+    """The pace of the simulator at full speed, in `windows` of `frames` frames each."""
     marks = []
     with running(folder, "speed=0") as heard:
         heard.until(200)
@@ -124,13 +128,13 @@ def pace(folder: Path, windows: int = 12, frames: int = 100) -> Pace:
 
 @dataclass(frozen=True)
 class Taps:
-    """What became of taps: `way` (n,) [ms] from the physics to the handler; `made`, whatever came.
+    """What became of taps: `way` (n,) [ms] from the physics to the handler; `count` of all taps.
 
     `lateness` (m,) [ms] of sleeps of a millisecond meanwhile: what the machine alone adds.
     """
 
     way: Any
-    made: int
+    count: int
     lateness: Any
 
 

@@ -15,8 +15,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.robots.catalog import description, description_file
-from robocomp_dsl.hardware.robots.export import WORLDS, text
+from robocomp_dsl.simulation.robots.catalog import description, description_file
+from robocomp_dsl.simulation.robots.export import WORLDS, text
 from robocomp_dsl.tactile.description.model import Limb
 
 ROBOT = "nao_h25"
@@ -34,7 +34,7 @@ from time import monotonic_ns
 
 import numpy as np
 
-from generated.simulator import Simulator
+from nao_simulator_generated.simulator import Simulator
 
 PERIOD, DOWN = 0.0873, 0.03
 
@@ -45,7 +45,7 @@ class SpecificWorker(Simulator):
     def initialize(self) -> None:
         super().initialize()
         if "TAPS" in os.environ:
-            with self.simulation.turns:
+            with self.simulation.lock:
                 self.tap(os.environ["TAPS"])
 
     def tap(self, file: str) -> None:
@@ -78,18 +78,18 @@ def make(folder: Path, fingers: int) -> Path:
     (folder / "nao.xml").write_text(_world(fingers))
     (folder / "tactile.yaml").write_text(_dense(description_file(ROBOT).read_text()))
     rcgen = Path(sys.executable).with_name("rcgen")
-    given = [rcgen, "simulator", "nao.xml", "--tactile", "tactile.yaml"]
-    subprocess.run(given, cwd=folder, check=True, capture_output=True)
-    made = folder / "nao_simulator"
-    (made / "specificworker.py").write_text(WORKER)
-    return made
+    command = [rcgen, "simulator", "nao.xml", "--tactile", "tactile.yaml"]
+    subprocess.run(command, cwd=folder, check=True, capture_output=True)
+    simulator = folder / "nao_simulator"
+    (simulator / "specificworker.py").write_text(WORKER)
+    return simulator
 
 
-def _dense(given: str) -> str:
+def _dense(text: str) -> str:
     """The description with 1000 taxels on each limb."""
     import yaml  # noqa: PLC0415 - only here
 
-    read = yaml.safe_load(given)
+    read = yaml.safe_load(text)
     for number, (name, part) in enumerate(read["parts"].items()):
         patches = []
         for i, limb in enumerate(description(ROBOT).part(name).limbs):
@@ -106,7 +106,7 @@ def _dense(given: str) -> str:
 
 def _world(fingers: int) -> str:
     """The world of the robot, three more joints, and fingers that stay where they press."""
-    world = next(one for one in WORLDS if one.robot == ROBOT)
+    world = next(candidate for candidate in WORLDS if candidate.robot == ROBOT)
     spec = mujoco.MjSpec.from_string(text(world))
     spec.nuser_body = 3
     _add_pointer(spec)

@@ -1,6 +1,6 @@
-"""Findings: data that every stage adds to a report, and only the command line or an editor shows.
+"""Diagnostics: every stage adds them to a report; the command line and the editor show them.
 
-In: spans and words. Out: `Diagnostic` values collected in a `Report`.
+In: spans and messages. Out: `Diagnostic` values collected in a `Report`.
 """
 
 from __future__ import annotations
@@ -8,22 +8,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from enum import StrEnum
 
-from robocomp_dsl.record import Value
+from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Span
 
 
 class Severity(StrEnum):
-    """How bad a finding is; only errors stop the stages behind the one that found them."""
+    """How severe a diagnostic is; only errors stop the later stages."""
 
     ERROR = "error"
     WARNING = "warning"
     NOTE = "note"
 
 
-class Code(Value):
-    """What a kind of finding is: the text that `rcgen explain` prints.
+class Code(ValueRecord):
+    """A kind of diagnostic and the text that `rcgen explain` prints.
 
-    `explanation` says why it is wrong and shows a wrong and a right example.
+    `explanation` says why the input is wrong and shows a wrong and a correct example.
     """
 
     id: str
@@ -32,29 +32,29 @@ class Code(Value):
     explanation: str
 
 
-class Note(Value):
-    """A second place that explains a finding, often in another file."""
+class Note(ValueRecord):
+    """A second location that explains a diagnostic, often in another file."""
 
     span: Span
     message: str
 
 
-class Edit(Value):
-    """Put `text` in the place of `span`."""
+class Edit(ValueRecord):
+    """Replace `span` by `text`."""
 
     span: Span
     text: str
 
 
-class Fix(Value):
-    """Edits that remove a finding; applied together or not at all."""
+class Fix(ValueRecord):
+    """Edits that remove the cause of a diagnostic; applied together or not at all."""
 
     title: str
     edits: tuple[Edit, ...]
 
 
-class Diagnostic(Value):
-    """One finding at one place. `label` stands beside the carets, `help` below the excerpt."""
+class Diagnostic(ValueRecord):
+    """One finding at one location. `label` is printed beside the carets, `help` below."""
 
     code: Code
     span: Span
@@ -66,17 +66,17 @@ class Diagnostic(Value):
 
     @property
     def severity(self) -> Severity:
-        """That of its code."""
+        """The severity of the code."""
         return self.code.severity
 
 
 class Report:
-    """The findings of a run, in the order they were made; duplicates are dropped."""
+    """The diagnostics of a run, in the order they were reported; duplicates are dropped."""
 
-    __slots__ = ("_found",)
+    __slots__ = ("_diagnostics",)
 
     def __init__(self) -> None:
-        self._found: dict[tuple[str, Span, str], Diagnostic] = {}
+        self._diagnostics: dict[tuple[str, Span, str], Diagnostic] = {}
 
     def add(
         self,
@@ -89,28 +89,28 @@ class Report:
         help: str = "",
         fix: Fix | None = None,
     ) -> None:
-        """Add one finding."""
-        made = Diagnostic(code, span, message, label, tuple(notes), help, fix)
-        self._found.setdefault((code.id, span, message), made)
+        """Add one diagnostic."""
+        diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix)
+        self._diagnostics.setdefault((code.id, span, message), diagnostic)
 
-    def extend(self, findings: Iterable[Diagnostic]) -> None:
-        """Add findings made elsewhere."""
-        for one in findings:
-            self._found.setdefault((one.code.id, one.span, one.message), one)
+    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add diagnostics of another report."""
+        for new in diagnostics:
+            self._diagnostics.setdefault((new.code.id, new.span, new.message), new)
 
     def __iter__(self) -> Iterator[Diagnostic]:
-        return iter(self._found.values())
+        return iter(self._diagnostics.values())
 
     def __len__(self) -> int:
-        return len(self._found)
+        return len(self._diagnostics)
 
     @property
-    def failed(self) -> bool:
-        """Whether anything in it is an error."""
-        return any(one.severity is Severity.ERROR for one in self)
+    def has_errors(self) -> bool:
+        """Whether the report contains an error."""
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self)
 
     def sorted(self) -> list[Diagnostic]:
-        """By file, place and code: the order in which they are shown."""
+        """The diagnostics sorted by file, position and code, as they are shown."""
         return sorted(
             self, key=lambda d: (str(d.span.source.path), d.span.start, d.span.end, d.code.id)
         )
@@ -121,22 +121,22 @@ _MOST_COMPARED = 100
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known name that `word` most likely means, or None; a wrong case always counts as near."""
+    """The known name closest to `word`, or None; a difference in case only always matches."""
     by_letters: dict[str, str] = {}
     for name in known:
         by_letters.setdefault(name.lower(), name)
     letters = word.lower()
     if letters in by_letters:
         return by_letters[letters]
-    from difflib import get_close_matches  # noqa: PLC0415 - most runs find nothing misspelt
+    from difflib import get_close_matches  # noqa: PLC0415 - rarely needed
 
-    found = get_close_matches(letters, _plausible(letters, by_letters), 1, _NEAR)
-    return by_letters[found[0]] if found else None
+    matches = get_close_matches(letters, _similar_length(letters, by_letters), 1, _NEAR)
+    return by_letters[matches[0]] if matches else None
 
 
-def _plausible(word: str, known: Iterable[str]) -> list[str]:
-    """Those of `known` that can be near by their lengths; of very many, the most similar."""
-    # The measure is 2 * (letters in common) / (letters of both).
+def _similar_length(word: str, known: Iterable[str]) -> list[str]:
+    """The names whose length allows a match; if there are very many, the most similar ones."""
+    # The similarity ratio is 2 * (letters in common) / (letters of both).
     half = _NEAR / 2
     fitting = [k for k in known if min(len(k), len(word)) >= half * (len(k) + len(word))]
     if len(fitting) > _MOST_COMPARED:
@@ -146,6 +146,6 @@ def _plausible(word: str, known: Iterable[str]) -> list[str]:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The label ``did you mean `x`?``, or an empty text."""
+    """The label ``did you mean `x`?``, or an empty string."""
     guess = nearest(word, known)
     return f"did you mean `{guess}`?" if guess else ""

@@ -1,4 +1,4 @@
-"""Where grammars, templates and the standard interfaces are: in a wheel or in a checkout alike."""
+"""Paths of grammars, templates, interfaces and examples, in a wheel and in a checkout."""
 
 from __future__ import annotations
 
@@ -11,3 +11,5 @@ _ROOT = _INSTALLED if _INSTALLED.is_dir() else _PACKAGE.parent
 GRAMMARS = _ROOT / "grammars"
 TEMPLATES = _ROOT / "templates"
 INTERFACES = _ROOT / "interfaces"
+COMPONENTS = _ROOT / "components"
+"""Example components, robots and demos, one folder each."""

@@ -1,9 +1,9 @@
-"""Source texts and spans: what every stage points at when it speaks of the user's files.
+"""Source texts and spans: how every stage refers to a position in the user's files.
 
-In: a path and its text. Out: `Source` (immutable text that can turn an offset into a line and a
-column) and `Span` (a range of characters in one source). Lines and columns count from 1 and
-columns count characters; they are computed only when somebody looks. A `Piece` lets the spans of
-an unchanged part of a text move along when the text around it changes in an editor.
+In: a path and its text. Out: `Source` (immutable text that converts an offset to a line and a
+column) and `Span` (a range of characters in one source). Lines and columns count from 1, and
+columns count characters; they are computed on demand. A `TextRegion` moves the spans of an
+unchanged part of a text when the text before it is edited.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 from robocomp_dsl.record import Record
 
 MAX_BYTES = 4 * 1024 * 1024
-"""Larger inputs are refused: no description of a component comes near it."""
+"""Larger inputs are rejected; real descriptions are far smaller."""
 
 
 _LINE_END = re.compile(r"\r\n?|\n")
@@ -35,33 +35,33 @@ _LEGACY = {
 
 
 class UnreadableSource(Exception):
-    """The file cannot be used as a text; the message says why, in words for the user."""
+    """The file cannot be read as text; the message tells the user why."""
 
 
 class Source(Record):
-    """One text as the user wrote it; `path` is how the user named it.
+    """One text as the user wrote it; `path` is the path that the user gave.
 
-    `memory` is for texts that are edited: all texts of one file share it, and a parser keeps there
-    what it can use again for the next one. None means that the text is read once.
+    `parse_cache` is for texts that are edited: all versions of one file share it, and the parser
+    stores there what it can reuse for the next version. None: the text is parsed once.
     """
 
     path: Path
     text: str
-    memory: dict[str, Any] | None = None
-    shift = 0
-    __slots__ = ("__dict__", "__weakref__")  # for `line_starts`, and editors keep more beside it
+    parse_cache: dict[str, Any] | None = None
+    offset = 0
+    __slots__ = ("__dict__", "__weakref__")  # for `line_starts` and for data of the editor
 
     @classmethod
     def read(cls, path: Path) -> Source:
-        """The file at `path`, decoded by `decode`.
+        """Read the file at `path` and decode it with `decode`.
 
-        Raises `UnreadableSource` when it is missing, a folder, too large or not a text.
+        Raises `UnreadableSource` if it is missing, a folder, too large or not a text file.
         """
         try:
             with path.open("rb") as stream:
                 data = stream.read(MAX_BYTES + 1)
         except FileNotFoundError:
-            raise UnreadableSource("there is no such file") from None
+            raise UnreadableSource("the file does not exist") from None
         except IsADirectoryError:
             raise UnreadableSource("this is a folder, not a file") from None
         except (OSError, ValueError) as error:
@@ -71,20 +71,20 @@ class Source(Record):
 
     @property
     def source(self) -> Source:
-        """Itself: a text is a place that never moves."""
+        """The source itself, so that `Source` and `TextRegion` have the same interface."""
         return self
 
     @cached_property
     def line_starts(self) -> list[int]:
         """Offset of the first character of every line."""
-        if _LONE_RETURN.search(self.text):  # as old Macs ended lines, and editors still show them
-            return [0, *(one.end() for one in _LINE_END.finditer(self.text))]
+        if _LONE_RETURN.search(self.text):  # line ends of classic Mac OS
+            return [0, *(line_end.end() for line_end in _LINE_END.finditer(self.text))]
         starts = [0]
         find = self.text.find
-        at = find("\n")
-        while at >= 0:
-            starts.append(at + 1)
-            at = find("\n", at + 1)
+        line_end = find("\n")
+        while line_end >= 0:
+            starts.append(line_end + 1)
+            line_end = find("\n", line_end + 1)
         return starts
 
     def position(self, offset: int) -> tuple[int, int]:
@@ -103,50 +103,51 @@ class Source(Record):
         return Span(self, start, end)
 
     @property
-    def whole(self) -> Span:
-        """An empty span at the very start, for findings about the file as such."""
+    def file_span(self) -> Span:
+        """An empty span at offset 0, for diagnostics about the file as a whole."""
         return Span(self, 0, 0)
 
 
-class Piece:
+class TextRegion:
     """A part of a text that stays the same while the text around it is edited.
 
-    `shift` is how far it has moved since it was read; the parser sets both when the text changes.
+    `offset` is how many characters it has moved since it was parsed. The incremental parser sets
+    `source` and `offset` when the text changes.
     """
 
-    __slots__ = ("shift", "source")
+    __slots__ = ("offset", "source")
 
     def __init__(self, source: Source) -> None:
         self.source = source
-        self.shift = 0
+        self.offset = 0
 
 
 class Span:
-    """The characters [start, end) of a source; they move with the piece they were read in."""
+    """The characters [start, end) of a source; a span moves with the region it was parsed in."""
 
-    __slots__ = ("_end", "_place", "_start")
+    __slots__ = ("_end", "_region", "_start")
     __match_args__ = ("source", "start", "end")
 
-    def __init__(self, place: Source | Piece, start: int, end: int) -> None:
-        """`start` and `end` count from where the text of `place` begins, without its shift."""
-        self._place = place
+    def __init__(self, region: Source | TextRegion, start: int, end: int) -> None:
+        """`start` and `end` are offsets in the text before `region` moved."""
+        self._region = region
         self._start = start
         self._end = end
 
     @property
     def source(self) -> Source:
         """The text."""
-        return self._place.source
+        return self._region.source
 
     @property
     def start(self) -> int:
         """Offset of the first character."""
-        return self._start + self._place.shift
+        return self._start + self._region.offset
 
     @property
     def end(self) -> int:
-        """Offset behind the last character."""
-        return self._end + self._place.shift
+        """Offset after the last character."""
+        return self._end + self._region.offset
 
     @property
     def text(self) -> str:
@@ -154,29 +155,29 @@ class Span:
         return self.source.text[self.start : self.end]
 
     @property
-    def begin(self) -> tuple[int, int]:
+    def start_position(self) -> tuple[int, int]:
         """Line and column of the first character, from 1."""
         return self.source.position(self.start)
 
     @property
-    def finish(self) -> tuple[int, int]:
-        """Line and column just behind the last character, from 1."""
+    def end_position(self) -> tuple[int, int]:
+        """Line and column after the last character, from 1."""
         return self.source.position(self.end)
 
-    def to(self, other: Span) -> Span:
+    def cover(self, other: Span) -> Span:
         """From the start of this span to the end of `other`."""
-        return self.part(self.start, max(self.end, other.end))
+        return self.subspan(self.start, max(self.end, other.end))
 
-    def part(self, start: int, end: int) -> Span:
-        """The characters [start, end) of the source; they move as this span does."""
-        shift = self._place.shift
-        return Span(self._place, start - shift, end - shift)
+    def subspan(self, start: int, end: int) -> Span:
+        """The characters [start, end) of the source, in the same region."""
+        offset = self._region.offset
+        return Span(self._region, start - offset, end - offset)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Span):
             return NotImplemented
-        mine, theirs = (self.source, self.start, self.end), (other.source, other.start, other.end)
-        return mine == theirs
+        own, others = (self.source, self.start, self.end), (other.source, other.start, other.end)
+        return own == others
 
     def __hash__(self) -> int:
         return hash((self.source, self.start, self.end))
@@ -186,19 +187,19 @@ class Span:
 
 
 def decode(data: bytes) -> str:
-    """`data` as text: UTF-8, or what an XML declaration says; a BOM is dropped.
+    """Decode `data` as UTF-8, or as the XML declaration says; a BOM is removed.
 
-    Raises `UnreadableSource` for what no editor would show as a text.
+    Raises `UnreadableSource` if it is too large, binary or in another encoding.
     """
     if len(data) > MAX_BYTES:
         raise UnreadableSource(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        raise UnreadableSource("the text is UTF-16; save it as UTF-8")
+        raise UnreadableSource("the file is UTF-16; save it as UTF-8")
     if b"\0" in data:
-        raise UnreadableSource("this is a binary file, not a text")
-    if found := _POINTER.match(data):
-        tool = "Git LFS" if found[1] else "git-annex"
-        raise UnreadableSource(f"this is only a pointer of {tool}; the file itself is not here")
+        raise UnreadableSource("this is a binary file, not a text file")
+    if pointer := _POINTER.match(data):
+        tool = "Git LFS" if pointer[1] else "git-annex"
+        raise UnreadableSource(f"this is a {tool} pointer; the file content was not downloaded")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -207,14 +208,14 @@ def decode(data: bytes) -> str:
         if name is None:
             line = data.count(b"\n", 0, error.start) + 1
             raise UnreadableSource(
-                f"the text is not UTF-8: byte 0x{data[error.start]:02x} in line {line}; "
+                f"the file is not UTF-8: byte 0x{data[error.start]:02x} in line {line}; "
                 "save it as UTF-8"
             ) from None
         return data.decode(name, "replace")
 
 
-def declared_as_utf8(text: str) -> str:
-    """`text` with `UTF-8` in its XML declaration, if it has one that names another encoding."""
+def declare_utf8(text: str) -> str:
+    """`text` with `UTF-8` in its XML declaration, if that names another encoding."""
     declared = _DECLARED.match(text)
     if declared is None or declared[3].lower() not in _LEGACY:
         return text

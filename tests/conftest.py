@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import os
+import signal
 import tempfile
 from pathlib import Path
 
@@ -17,6 +20,9 @@ settings.register_profile("random", ANYWHERE)
 settings.load_profile("same")
 
 
+_M_ARENA_MAX = -8
+"""The parameter of glibc's `mallopt` for the number of heaps (malloc.h)."""
+
 _HOMES = ("CONFIG_HOME", "DATA_HOME", "STATE_HOME", "CACHE_HOME")
 
 
@@ -27,16 +33,38 @@ def pytest_configure(config: pytest.Config) -> None:
     accident; the paths are short, as those of sockets must be. What mypy found out about libraries
     is kept for all runs of a worker.
     """
+    _restore_interrupt()
+    _share_heaps()
     worker = os.environ.get("PYTEST_XDIST_WORKER", "")
     if not worker:
         home = tempfile.TemporaryDirectory(prefix="rc-", ignore_cleanup_errors=True)
         config.add_cleanup(home.cleanup)
-        os.environ |= {f"XDG_{one}": str(Path(home.name) / one.lower()) for one in _HOMES}
+        os.environ |= {f"XDG_{name}": str(Path(home.name) / name.lower()) for name in _HOMES}
         os.environ["XDG_RUNTIME_DIR"] = home.name
     runtime = Path(os.environ["XDG_RUNTIME_DIR"], worker or "alone")
     runtime.mkdir(mode=0o700)
     os.environ["XDG_RUNTIME_DIR"] = str(runtime)
     os.environ["MYPY_CACHE_DIR"] = str(Path(os.environ["XDG_CACHE_HOME"], f"mypy-{runtime.name}"))
+
+
+def _restore_interrupt() -> None:
+    """Receive SIGINT, and let child processes receive it, also in the background of a script.
+
+    A shell that is not interactive starts background jobs with SIGINT ignored, children inherit
+    that, and a test that interrupts a command would wait until its timeout.
+    """
+    if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _share_heaps() -> None:
+    """Let all threads share two heaps.
+
+    Tests start thousands of threads, and what a thread has freed stays in its own heap: a worker
+    would keep gigabytes that nobody uses. Other C libraries than glibc have no such heaps.
+    """
+    with contextlib.suppress(AttributeError):
+        ctypes.CDLL(None).mallopt(_M_ARENA_MAX, 2)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -1,7 +1,7 @@
 """One control board, as far as the arm uses it: its joints, their modes, commands to them.
 
-In: a proxy, the names of the joints. Out: what the board measures, and commands in the mode that
-they need. Failures of the board keep their type; `Refusal` says what it refuses, and where.
+In: a proxy, the names of the joints. Out: measurements, and commands after the switch to the mode
+that they need. Middleware errors are passed on; a rejected command raises `CommandRefused`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
-from generated.interfaces import (
+from generic_arm_generated.interfaces import (
     BoardState,
     ControlBoardProxy,
     ControlMode,
@@ -33,23 +33,23 @@ MODES = {
 }
 
 
-class Refusal(Exception):
-    """A board does not do what it was told; the message has its words."""
+class CommandRefused(Exception):
+    """A board rejects a command; the message is the board's."""
 
 
 class WrongBoard(Exception):
-    """A board without the joints that the description expects."""
+    """A board lacks joints that the description expects."""
 
 
-class Overtaken(Exception):
-    """A command that was given up for a later one."""
+class CommandSuperseded(Exception):
+    """A later command replaced this one before it was sent."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Joints:
-    """The joints `names` of the physical part `part`; `at` (k,) of the arm's joints (m,).
+    """The joints `names` of the physical part `part`; `at` (k,) are their indices in the arm (m,).
 
-    `held` are joints beyond these, each with the angle at which it stays.
+    `held` are further joints, each with the angle at which it is fixed.
     """
 
     part: str
@@ -59,7 +59,7 @@ class Joints:
 
 
 class Board:
-    """The board at the port `port`. `rows` (k,) are its numbers of the joints, after `reach`."""
+    """The board at the port `port`. `rows` (k,) are the joints' indices on it, after `reach`."""
 
     def __init__(self, port: str, proxy: ControlBoardProxy, joints: Joints) -> None:
         self.port, self.joints = port, joints
@@ -68,50 +68,50 @@ class Board:
         self._names, self._held = list(joints.names), list(joints.held)
         self._count, self._fastest = 0, np.zeros(0)
         self._modes: list[ControlMode] = []  # empty: not known
-        self._changes, self._pushed = 0, False
+        self._changes, self._in_torque_mode = 0, False
 
     def reach(self) -> None:
-        """Find the joints on the board. Raises `WrongBoard`, and what the call raises."""
+        """Look up the joints on the board. Raises `WrongBoard` and errors of the call."""
         joints = self._proxy.getJoints()
-        # a description may count joints instead of naming them
+        # a description may number joints instead of naming them
         found = {str(i): i for i in range(len(joints))}
-        found |= {one.name: i for i, one in enumerate(joints)}
+        found |= {joint.name: i for i, joint in enumerate(joints)}
         missing = [name for name in (*self.joints.names, *self.joints.held) if name not in found]
         if missing:
-            has = ", ".join(one.name for one in joints)
+            has = ", ".join(joint.name for joint in joints)
             raise WrongBoard(
                 f"the board at `{self.port}` has no joint `{missing[0]}`, which the description"
-                f" expects on `{self.joints.part}`; it has {has}: is the port wired to another"
+                f" expects on `{self.joints.part}`; it has {has}: is the port connected to another"
                 " board?"
             )
         self._count = len(joints)
         self.rows = np.array([found[name] for name in self.joints.names], np.int64)
         self._names = [joints[row].name for row in self.rows]
         held = [joints[found[name]] for name in self.joints.held]
-        self._held = [one.name for one in held]
-        self._fastest = np.array([one.speedLimit for one in held])
+        self._held = [joint.name for joint in held]
+        self._fastest = np.array([joint.speedLimit for joint in held])
 
     def read(self) -> BoardState:
-        """Everything it measured last. Raises `WrongBoard`, and `Refusal` for what is no number."""
+        """The latest measurements. Raises `WrongBoard`; `CommandRefused` for NaN or infinity."""
         changes = self._changes
         state = self._proxy.getState()
-        told = (state.position, state.velocity, state.torque)
-        if any(len(one) != self._count for one in told) or len(state.modes) != self._count:
+        columns = (state.position, state.velocity, state.torque)
+        if any(len(column) != self._count for column in (*columns, state.modes)):
             raise WrongBoard(f"the board at `{self.port}` has other joints than before")
-        wrong = ~np.isfinite([one[self.rows] for one in told]).all(axis=0)
+        wrong = ~np.isfinite([column[self.rows] for column in columns]).all(axis=0)
         if wrong.any():
             name = self._names[int(np.argmax(wrong))]
-            raise Refusal(f"`{self.port}` tells no numbers for `{name}`")
-        if self._changes == changes:  # else a command changed them while this answer was on its way
+            raise CommandRefused(f"`{self.port}` reports values that are not finite for `{name}`")
+        if self._changes == changes:  # otherwise a command changed them during this call
             self._modes = [state.modes[row] for row in self.rows]
         return state
 
     def prepare(self, control: Control, speeds: Floats | None, proceed: Callable[[], None]) -> None:
-        """Bring the joints into the mode that `control` needs; moves go at `speeds` (k,).
+        """Switch the joints to the mode that `control` needs, and set `speeds` (k,) in rad/s.
 
-        `proceed` raises when that is no longer wanted.
+        `proceed` raises `CommandSuperseded` if a later command has started.
         """
-        with self._words():
+        with self._translate_refusals():
             self._change(MODES[control])
             if speeds is not None:
                 proceed()
@@ -120,13 +120,13 @@ class Board:
     def send(
         self, control: Control, values: Floats, hold: float, proceed: Callable[[], None]
     ) -> Bools:
-        """The command itself, (k,); which values the board clipped.
+        """Send the command (k,); returns which values the board clipped.
 
-        Where somebody else has changed the mode meanwhile, it is changed back once, unless
-        `proceed` raises.
+        If another client has changed the mode meanwhile, it is changed back once, unless `proceed`
+        raises.
         """
         proceed()
-        with self._words():
+        with self._translate_refusals():
             try:
                 return self._command(control, values, hold)
             except WrongMode:
@@ -137,38 +137,38 @@ class Board:
                 return self._command(control, values, hold)
 
     def hold_others(self, share: float) -> None:
-        """Send the held joints to where they stay, at a share of their speed limits."""
+        """Move the held joints to their fixed angles, at a share of their speed limits."""
         names, angles = self._held, np.array(list(self.joints.held.values()))
-        if names:  # an empty list would be all joints of the board
-            with self._words():
+        if names:  # an empty list would mean all joints of the board
+            with self._translate_refusals():
                 self._proxy.setControlMode(names, ControlMode.Position)
                 self._proxy.setReferenceSpeed(names, share * self._fastest)
                 self._proxy.positionMove(names, angles)
 
     def arrived(self) -> bool:
-        """Whether no joint is on its way to a goal."""
+        """Whether no joint is moving to a goal."""
         return bool(np.all(self._proxy.motionDone(self._names)))
 
     def stop(self) -> None:
-        """End motions; joints that were pushed hold where they are."""
-        with self._words():
+        """Stop all motions; joints in torque mode hold their position."""
+        with self._translate_refusals():
             self._proxy.stopMotion(self._names)
-            if self._pushed:
+            if self._in_torque_mode:
                 self._change(ControlMode.Position)
 
     def springs(self) -> list[Impedance]:
-        """Springs and dampers as they are set, (k,)."""
+        """The current springs and dampers, (k,)."""
         return [self._proxy.getImpedance(name) for name in self._names]
 
     def set_springs(self, springs: Sequence[Impedance]) -> None:
-        """Springs and dampers (k,)."""
-        for name, one in zip(self._names, springs, strict=True):
-            with self._words(f", {name}"):
-                self._proxy.setImpedance(name, one)
+        """Set springs and dampers (k,)."""
+        for name, spring in zip(self._names, springs, strict=True):
+            with self._translate_refusals(f", {name}"):
+                self._proxy.setImpedance(name, spring)
 
-    def interact(self, mode: InteractionMode) -> None:
-        """Stiff, or giving way like the springs."""
-        with self._words():
+    def set_interaction_mode(self, mode: InteractionMode) -> None:
+        """Make the joints stiff, or compliant by their springs."""
+        with self._translate_refusals():
             self._proxy.setInteractionMode(self._names, mode)
 
     def _command(self, control: Control, values: Floats, hold: float) -> Bools:
@@ -182,17 +182,17 @@ class Board:
         return np.asarray(proxy.setTorque(names, values))
 
     def _change(self, mode: ControlMode) -> None:
-        if any(one is not mode for one in self._modes) or not self._modes:
+        if any(current is not mode for current in self._modes) or not self._modes:
             self._changes += 1
             self._proxy.setControlMode(self._names, mode)
             self._modes = [mode] * len(self._names)
-            self._pushed = mode is ControlMode.Torque
+            self._in_torque_mode = mode is ControlMode.Torque
 
     @contextmanager
-    def _words(self, about: str = "") -> Iterator[None]:
-        """What the board refuses, with the port before it."""
+    def _translate_refusals(self, about: str = "") -> Iterator[None]:
+        """Raise `CommandRefused` for a rejected call; its message starts with the port."""
         try:
             yield
         except (Refused, UnknownJoint, WrongMode) as error:
-            self._modes = []  # whatever they are, they are not what was thought
-            raise Refusal(f"`{self.port}`{about}: {error.what}") from None
+            self._modes = []  # unknown now
+            raise CommandRefused(f"`{self.port}`{about}: {error.what}") from None

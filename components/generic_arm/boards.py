@@ -1,4 +1,4 @@
-"""The control boards of one arm as one device: readings joined, orders taken apart.
+"""The control boards of one arm as one device: joins readings and splits commands.
 
 In: the joints of a generic part by the names of physical parts, a proxy for each part. Out:
 readings (m,) of the arm's joints in generic order, and commands to the boards. Radians, N m, s.
@@ -10,19 +10,19 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from board import Board, Joints, Overtaken, Refusal
-from generated.interfaces import ControlBoardProxy, Impedance, InteractionMode
+from board import Board, CommandRefused, CommandSuperseded, Joints
+from generic_arm_generated.interfaces import ControlBoardProxy, Impedance, InteractionMode
 
-from robocomp_dsl.runtime.parameters import ConfigError, Finding, Place
-from robocomp_dsl.runtime.parameters.findings import Text
-from robocomp_dsl.tactile.arm.generic_arm import Control, Orders
+from robocomp_dsl.runtime.parameters import ConfigError, ConfigFinding, ConfigLocation
+from robocomp_dsl.runtime.parameters.findings import ConfigText
+from robocomp_dsl.tactile.arm.generic_arm import Control, JointCommands
 from robocomp_dsl.tactile.arrays import Bools, Floats
-from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.model import GenericPart
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Reading:
-    """All of the arm's joints (m,); `time` is that of the board that was read longest ago."""
+    """All joints of the arm (m,); `time` is that of the oldest board reading [s]."""
 
     time: float
     position: Floats
@@ -31,7 +31,7 @@ class Reading:
 
 
 class Boards:
-    """Every board of an arm of `size` joints."""
+    """All boards of an arm of `size` joints."""
 
     def __init__(self, boards: Sequence[Board], size: int) -> None:
         self.boards = tuple(boards)
@@ -39,119 +39,123 @@ class Boards:
         self._commands = 0
 
     def reach(self) -> None:
-        """Find the joints on their boards. Raises `WrongBoard`, and what a call raises."""
-        for one in self.boards:
-            one.reach()
+        """Look up the joints on their boards. Raises `WrongBoard` and errors of the calls."""
+        for board in self.boards:
+            board.reach()
 
     def read(self) -> Reading:
-        """Ask every board where its joints are."""
+        """Read the state of every board."""
         position, velocity, torque = (np.empty(self._size) for _ in range(3))
         time = np.inf
-        for one in self.boards:
-            state = one.read()
-            at, rows = one.joints.at, one.rows
+        for board in self.boards:
+            state = board.read()
+            at, rows = board.joints.at, board.rows
             position[at], velocity[at] = state.position[rows], state.velocity[rows]
             torque[at] = state.torque[rows]
             time = min(time, state.time)
         return Reading(time, position, velocity, torque)
 
-    def send(self, orders: Orders, hold: float) -> Bools:
-        """Carry out `orders`; which joints (m,) the boards have clipped.
+    def send(self, commands: JointCommands, hold: float) -> Bools:
+        """Send `commands`; returns which joints (m,) the boards have clipped.
 
-        Velocities end after `hold` s, 0: never. Raises `Overtaken` when another command came while
-        the modes were being changed. When a board refuses, all stop.
+        Velocities expire after `hold` s, 0: never. Raises `CommandSuperseded` if another command
+        arrives while modes are being changed. If a board rejects the command, all boards stop.
         """
         proceed = self._begin()
-        for one in self.boards:
-            one.prepare(orders.control, _part(orders.speeds, one), proceed)
+        for board in self.boards:
+            board.prepare(commands.control, _board_part(commands.speeds, board), proceed)
         clipped = np.zeros(self._size, bool)
         try:
-            for one in self.boards:
-                values = orders.values[one.joints.at]
-                clipped[one.joints.at] = one.send(orders.control, values, hold, proceed)
+            for board in self.boards:
+                values = commands.values[board.joints.at]
+                clipped[board.joints.at] = board.send(commands.control, values, hold, proceed)
         except Exception as error:
-            if len(self.boards) > 1 and not isinstance(error, Overtaken):
+            if len(self.boards) > 1 and not isinstance(error, CommandSuperseded):
                 self.stop()
             raise
         return clipped
 
     def moving(self) -> bool:
-        """Whether a board is still on its way to a goal."""
-        return any(not one.arrived() for one in self.boards)
+        """Whether a board is still moving to a goal."""
+        return any(not board.arrived() for board in self.boards)
 
     def stop(self) -> None:
-        """End every motion, on all boards."""
+        """Stop every motion, on all boards."""
         self._begin()
-        for one in self.boards:
-            one.stop()
+        for board in self.boards:
+            board.stop()
 
     def hold(self, share: float) -> None:
-        """Let the joints keep the angles that they have; those beyond the arm go to theirs.
+        """Hold the current angles of the arm; joints beyond the arm move to their fixed angles.
 
-        They do at a `share` of their speed limits.
+        These move at a `share` of their speed limits.
         """
-        for one in self.boards:
-            one.hold_others(share)
+        for board in self.boards:
+            board.hold_others(share)
         proceed = self._begin()
-        for one in self.boards:
-            one.prepare(Control.POSITION, None, proceed)
+        for board in self.boards:
+            board.prepare(Control.POSITION, None, proceed)
 
     def soften(self, stiffness: Floats, damping: Floats) -> None:
-        """Springs [N m/rad] and dampers [N m s/rad] (m,) instead of stiff joints.
+        """Set springs [N m/rad] and dampers [N m s/rad] (m,), and make the joints compliant.
 
-        When a board refuses them, all springs are again what they were.
+        If a board rejects them, the previous springs are restored on all boards.
         """
-        wanted = [Impedance(k, d, 0.0) for k, d in zip(stiffness, damping, strict=True)]
-        before = [one.springs() for one in self.boards]
+        impedances = [Impedance(k, d, 0.0) for k, d in zip(stiffness, damping, strict=True)]
+        before = [board.springs() for board in self.boards]
         try:
-            for one in self.boards:
-                one.set_springs([wanted[i] for i in one.joints.at])
-        except Refusal:
-            for one, springs in zip(self.boards, before, strict=True):
-                one.set_springs(springs)
+            for board in self.boards:
+                board.set_springs([impedances[i] for i in board.joints.at])
+        except CommandRefused:
+            for board, springs in zip(self.boards, before, strict=True):
+                board.set_springs(springs)
             raise
-        for one in self.boards:
-            one.interact(InteractionMode.Compliant)
+        for board in self.boards:
+            board.set_interaction_mode(InteractionMode.Compliant)
 
     def stiffen(self) -> None:
-        """Stiff joints."""
-        for one in self.boards:
-            one.interact(InteractionMode.Stiff)
+        """Make the joints stiff."""
+        for board in self.boards:
+            board.set_interaction_mode(InteractionMode.Stiff)
 
     def __str__(self) -> str:
-        return ", ".join(f"{one.joints.part or 'the robot'} at {one.port}" for one in self.boards)
+        return ", ".join(
+            f"{board.joints.part or 'the robot'} at {board.port}" for board in self.boards
+        )
 
     def _begin(self) -> Callable[[], None]:
-        """A new command; what it calls says whether it is still the latest."""
+        """Start a command; the returned function raises if a later one has started."""
         self._commands += 1
         mine = self._commands
 
         def proceed() -> None:
             if self._commands != mine:
-                raise Overtaken("another command came first")
+                raise CommandSuperseded("a later command replaced this one")
 
         return proceed
 
 
-def joined(part: Part, file: str, proxies: Mapping[str, ControlBoardProxy]) -> Boards:
-    """The boards of `part` of `file`: its physical parts, at the ports in their order.
+def create_boards(part: GenericPart, file: str, proxies: Mapping[str, ControlBoardProxy]) -> Boards:
+    """The boards of `part` of `file`: one for each physical part, in the order of the ports.
 
-    Raises `ConfigError` where there is no port for one of them, or no joint at all.
+    Raises `ConfigError` if there are more parts than ports, or no joints.
     """
-    servos = [one for one in part.servos if one.joint]
-    physical = list(dict.fromkeys(one.part for one in servos))
+    servos = [servo for servo in part.servos if servo.joint]
+    physical = list(dict.fromkeys(servo.part for servo in servos))
     if not 0 < len(physical) <= len(proxies):
-        said = f"`{part.name}` is on {len(physical)} physical parts: {', '.join(physical)}"
-        place = Place(Text(file, ()), part.place.line, part.place.column)
-        raise ConfigError([Finding(place, said, help=f"there are ports for {len(proxies)}")])
+        message = f"`{part.name}` is on {len(physical)} physical parts: {', '.join(physical)}"
+        place = ConfigLocation(ConfigText(file, ()), part.place.line, part.place.column)
+        raise ConfigError(
+            [ConfigFinding(place, message, help=f"there are ports for {len(proxies)}")]
+        )
     boards = []
     for name, (port, proxy) in zip(physical, proxies.items(), strict=False):
-        at = np.flatnonzero([one.part == name for one in servos])
+        at = np.flatnonzero([servo.part == name for servo in servos])
         names = tuple(servos[i].joint for i in at)
-        held = {one.joint: one.at for one in part.held if one.part == name}
+        held = {joint.joint: joint.position for joint in part.fixed_joints if joint.part == name}
         boards.append(Board(port, proxy, Joints(name, names, at, held)))
     return Boards(boards, len(servos))
 
 
-def _part(values: Floats | None, board: Board) -> Floats | None:
+def _board_part(values: Floats | None, board: Board) -> Floats | None:
     return None if values is None else values[board.joints.at]

@@ -1,7 +1,7 @@
-"""The arm under control: where it is, what it was told, and what of that still lasts.
+"""Controls the arm: its state, the current command, and commands that must be renewed.
 
-In: orders of the library, the boards, the time. Out: states and outcomes in generic units. A board
-that fails makes the whole arm fail, until `update` has gone well again.
+In: commands of the library, the boards, the time. Out: states and outcomes in generic units. If one
+board fails the whole arm fails, until `update` succeeds again.
 """
 
 from __future__ import annotations
@@ -10,41 +10,41 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from board import Overtaken, Refusal, WrongBoard
+from board import CommandRefused, CommandSuperseded, WrongBoard
 from boards import Boards
 
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm, Orders
+from robocomp_dsl.tactile.arm.generic_arm import Control, GenericArm, JointCommands
 from robocomp_dsl.tactile.arrays import Bools, Floats
-from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.model import GenericPart
 from robocomp_dsl.tactile.errors import TactileError
 
 STILL = 0.02
-"""A joint that turns slower than this has come to rest [rad/s]."""
+"""A joint that turns slower than this is at rest [rad/s]."""
 
-AWAY = (MiddlewareError, Refusal, WrongBoard, TactileError)
-"""What may go wrong with the boards; it is tried again until it goes well."""
+ARM_ERRORS = (MiddlewareError, CommandRefused, WrongBoard, TactileError)
+"""Errors of the boards that are retried until they recover."""
 
 
 @dataclass(frozen=True, slots=True)
-class Beginning:
-    """What happens when the boards are reached: `speed` is a share of the speed limits."""
+class StartAction:
+    """What happens when the boards are first reached: `speed` is a share of the speed limits."""
 
-    what: Literal["nothing", "hold", "start"]
+    action: Literal["nothing", "hold", "start"]
     speed: float
     compliant: bool
 
 
 class ArmControl:
-    """`trouble` says why the arm does not answer, empty while it does; `moving` whether it moves.
+    """`trouble` says why the arm does not reply, empty while it does; `moving` whether it moves.
 
-    Speeds and glides end `hold` s after the last command, 0: never; torques `push_hold` s after it,
-    since whoever pushes may have ended. Until then torques are renewed in every period: a board
-    lets go of who falls silent.
+    Velocities expire `hold` s after the last command, 0: never; torques after `push_hold` s, so a
+    crashed client cannot keep pushing. Until then torques are resent in every period, because a
+    board releases joints without new references.
     """
 
-    def __init__(self, arm: GenericArm, boards: Boards, clock: Clock, begin: Beginning) -> None:
+    def __init__(self, arm: GenericArm, boards: Boards, clock: Clock, begin: StartAction) -> None:
         self.arm, self.moving = arm, False
         self.hold = self.push_hold = 0.0
         self.trouble = "its boards have not been reached yet"
@@ -52,19 +52,19 @@ class ArmControl:
         self._reached = self._known = False
         self._aiming, self._sent, self._sending = False, 0, 0
         self._glide: Floats | None = None
-        self._push: Orders | None = None
+        self._push: JointCommands | None = None
         self._springs = _springs(arm.part) if begin.compliant else None
         self._ends = np.inf
 
     def update(self) -> str:
-        """Reach the boards if need be, read them, go on with what lasts.
+        """Connect to the boards if necessary, read them, and renew the current command.
 
-        The warning that there is to give, or nothing. Raises one of `AWAY`.
+        Returns a warning, or an empty string. Raises one of `ARM_ERRORS`.
         """
         try:
             warning = "" if self._reached else self._reach()
             self._read()
-            warning = self._go_on() or warning
+            warning = self._renew_commands() or warning
         except Exception as error:
             self.lose(str(error) or type(error).__name__)
             raise
@@ -72,34 +72,35 @@ class ArmControl:
         return warning
 
     def lose(self, why: str) -> None:
-        """The boards have to be reached anew; nobody knows what they do meanwhile."""
+        """Record that the arm is unreachable; the boards are looked up again."""
         self.trouble = why
         self._reached, self._ends = False, np.inf
         self._glide = self._push = None
 
-    def carry_out(self, orders: Orders, glide: Floats | None = None) -> Bools:
-        """Send orders, from now on renewed as `glide` (3,) wants; which angles (n,) were clipped.
+    def carry_out(self, commands: JointCommands, glide: Floats | None = None) -> Bools:
+        """Send commands; returns which angles (n,) were clipped.
 
-        Raises one of `AWAY`, `Overtaken`.
+        `glide` (3,) is a velocity of the hand in m/s, from which joint speeds are renewed every
+        period. Raises one of `ARM_ERRORS`, `CommandSuperseded`.
         """
         self._sending += 1
         try:
-            cut = self._boards.send(orders, self.hold)
+            cut = self._boards.send(commands, self.hold)
         finally:
             self._sending -= 1
         lasts = {Control.VELOCITY: self.hold, Control.TORQUE: self.push_hold}
-        self._ends = self._clock.now() + (lasts.get(orders.control, 0.0) or np.inf)
+        self._ends = self._clock.now() + (lasts.get(commands.control, 0.0) or np.inf)
         self._glide = glide
-        self._push = orders if orders.control is Control.TORQUE else None
+        self._push = commands if commands.control is Control.TORQUE else None
         self._sent += 1
-        self._aiming = orders.control is Control.POSITION
+        self._aiming = commands.control is Control.POSITION
         self.moving |= self._aiming
-        clipped = orders.clipped.copy()
+        clipped = commands.clipped.copy()
         clipped[self.arm.mapping.present] |= cut
         return clipped
 
     def soften(self, stiffness: Floats, damping: Floats) -> None:
-        """Generic springs and dampers (n,); empty ones make the joints stiff."""
+        """Set generic springs and dampers (n,); empty ones make the joints stiff."""
         springs = None
         if len(stiffness) or len(damping):
             springs = self.arm.stiffness(stiffness, damping)
@@ -109,7 +110,7 @@ class ArmControl:
         self._springs = springs
 
     def stop(self) -> None:
-        """End every motion."""
+        """Stop every motion."""
         self._glide = self._push = None
         self._ends, self._aiming = np.inf, False
         self._boards.stop()
@@ -117,54 +118,60 @@ class ArmControl:
     def _reach(self) -> str:
         self._boards.reach()
         self._read()
-        again, self._reached, self._known = self._known, True, True
-        if again:
-            self.stop()  # nobody knows what became of the last command
-        if self._begin.what == "nothing":
+        was_known, self._reached, self._known = self._known, True, True
+        if was_known:
+            self.stop()  # the state of the last command is unknown
+        if self._begin.action == "nothing":
             return ""
         try:
-            self._take_hold()
-            if self._begin.what == "start" and not again:
+            self._hold_arm()
+            if self._begin.action == "start" and not was_known:
                 part = self.arm.part
-                self.carry_out(self.arm.move(part.start, part.speed_limits * self._begin.speed))
-        except Refusal as error:
+                self.carry_out(
+                    self.arm.position_move(part.start, part.speed_limits * self._begin.speed)
+                )
+        except CommandRefused as error:
             return f"the arm cannot be held: {error}"
         return ""
 
-    def _take_hold(self) -> None:
-        """Hold the arm, by the springs that were set last."""
+    def _hold_arm(self) -> None:
+        """Hold the arm, with the springs that were set last."""
         if self._springs is not None:
             self._boards.soften(*self._springs)
         self._boards.hold(self._begin.speed)
 
     def _read(self) -> None:
         sent = self._sent
-        it = self._boards.read()
-        state = self.arm.sense(it.time, it.position, it.velocity, it.torque)
-        under_way = self._aiming and self._boards.moving()
-        if self._sent == sent:  # else a goal came while this was asked
-            self._aiming = under_way
+        reading = self._boards.read()
+        state = self.arm.update_state(
+            reading.time, reading.position, reading.velocity, reading.torque
+        )
+        in_motion = self._aiming and self._boards.moving()
+        if self._sent == sent:  # otherwise a goal was sent during the call
+            self._aiming = in_motion
         self.moving = self._aiming or bool((np.abs(state.velocity) > STILL).any())
 
-    def _go_on(self) -> str:
-        """Turn a glide into new joint speeds, push again; end what has lasted, or is refused."""
+    def _renew_commands(self) -> str:
+        """Resend a line motion or torques; stop when they expire or are rejected."""
         if self._clock.now() >= self._ends:
             self.stop()
         elif not self._sending and (self._glide is not None or self._push is not None):
-            what = "is pushed" if self._glide is None else "glides"
-            orders = self._push if self._glide is None else self.arm.glide(self._glide)
-            assert orders is not None  # noqa: S101  one of the two lasts
+            motion = "torque control" if self._glide is None else "line motion"
+            commands = self._push if self._glide is None else self.arm.line_move(self._glide)
+            assert commands is not None  # noqa: S101  one of the two is active
             try:
-                self._boards.send(orders, self.hold)
-            except Refusal as error:
+                self._boards.send(commands, self.hold)
+            except CommandRefused as error:
                 self.stop()
-                return f"the hand {what} no further: {error}"
-            except Overtaken:
-                pass  # by a command that will tell what comes next
+                return f"{motion} of the hand ended: {error}"
+            except CommandSuperseded:
+                pass  # the later command decides how the motion continues
         return ""
 
 
-def _springs(part: Part) -> tuple[Floats, Floats]:
-    """Stiffness and damping of the joints that exist, as the description has them."""
-    servos = [one for one in part.servos if one.joint]
-    return np.array([one.stiffness for one in servos]), np.array([one.damping for one in servos])
+def _springs(part: GenericPart) -> tuple[Floats, Floats]:
+    """Stiffness and damping of the joints that exist, from the description."""
+    servos = [servo for servo in part.servos if servo.joint]
+    return np.array([servo.stiffness for servo in servos]), np.array(
+        [servo.damping for servo in servos]
+    )

@@ -1,4 +1,4 @@
-"""generic_arm: asks the boards where the arm is, tells it in generic units, and hands orders on."""
+"""generic_arm: reads the boards, publishes the state in generic units, forwards commands."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import numpy as np
-from answers import position_of, rotation_of, told_chain, told_limits, told_pose, told_state
-from board import Overtaken
-from boards import joined
-from control import AWAY, ArmControl, Beginning
-from generated.genericworker import GenericWorker
-from generated.interfaces import (
+from board import CommandSuperseded
+from boards import create_boards
+from control import ARM_ERRORS, ArmControl, StartAction
+from generic_arm_generated.genericworker import GenericWorker
+from generic_arm_generated.interfaces import (
     Angles,
     ArmLimits,
     ArmState,
@@ -21,40 +20,49 @@ from generated.interfaces import (
     Pose,
     Unreachable,
 )
+from messages import (
+    chain_to_message,
+    limits_to_message,
+    pose_to_message,
+    position_of,
+    rotation_of,
+    state_to_message,
+)
 
+from robocomp_dsl.runtime.clock import CLOCK_LOST
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.tactile import errors
-from robocomp_dsl.tactile.arm.generic_arm import GenericArm, Orders
+from robocomp_dsl.tactile.arm.generic_arm import GenericArm, JointCommands
 from robocomp_dsl.tactile.arrays import Floats
-from robocomp_dsl.tactile.description.part_file import arm_part
+from robocomp_dsl.tactile.description.part_file import load_arm_part
 
 
 class SpecificWorker(GenericWorker):
-    """An arm of five joints that is the same on every robot, on top of the boards of a real arm.
+    """A five-joint arm that is the same on every robot, on top of the boards of a real arm.
 
-    Boards are asked, not listened to: an answer that does not come is known at once, a board need
-    not publish, and the arm has the rate that it is given here.
+    Boards are polled: a missing reply is detected immediately, boards need not publish, and the
+    rate of the arm is set here.
     """
 
     arm: GenericArm
     control: ArmControl
-    told: str = ""
+    last_refusal: str = ""
 
     def initialize(self) -> None:
-        """Read the description; the boards are reached in `compute`, whenever they are there."""
-        it = self.params
+        """Read the description; `compute` connects to the boards when they are available."""
+        params = self.params
         proxies = {
             "board": self.board_proxy,
             "board2": self.board2_proxy,
             "board3": self.board3_proxy,
         }
-        part = arm_part(it.description, it.part, self.config_file)
+        part = load_arm_part(params.description, params.part, self.config_file)
         for proxy in proxies.values():
-            proxy.set_timeout(it.patience / 1000)
-        boards = joined(part, it.description, proxies)
-        self.log.info("%s: %s", it.part, boards)
+            proxy.set_timeout(params.patience / 1000)
+        boards = create_boards(part, params.description, proxies)
+        self.log.info("%s: %s", params.part, boards)
         self.arm = GenericArm(part)
-        begin = Beginning(it.begin, it.begin_speed, it.compliant)
+        begin = StartAction(params.begin, params.begin_speed, params.compliant)
         self.control = ArmControl(self.arm, boards, self.clock, begin)
         self.did_set_speed(1.0)
         self.did_set_hold(0.0)
@@ -62,50 +70,50 @@ class SpecificWorker(GenericWorker):
         self.did_set_period(0)
 
     def did_set_speed(self, _old: float) -> None:
-        """All commands keep to the share of the speed limits."""
+        """Set the share of the speed limits that commands may use."""
         self.arm.speed_limits = self.arm.part.speed_limits * self.params.speed
 
     def did_set_hold(self, _old: float) -> None:
-        """What comes from now on lasts as long."""
+        """Set how long later commands last."""
         self.control.hold = self.params.hold
 
     def did_set_push_hold(self, _old: float) -> None:
-        """The same for torques."""
+        """Set how long later torques last."""
         self.control.push_hold = self.params.push_hold
 
     def did_set_period(self, _old: int) -> None:
-        """Another rate of reading and publishing."""
+        """Set the rate of reading and publishing."""
         self.set_period(self.params.period)
 
     def compute(self) -> None:
-        """Ask where the arm is, go on with what lasts, tell the state."""
+        """Read the arm, renew the current command, publish the state."""
         warning = self.control.update()
         if warning:
             self.log.warning("%s", warning)
-        self.genericarmstate_proxy.armState(told_state(self.arm, moving=self.control.moving))
+        self.genericarmstate_proxy.armState(state_to_message(self.arm, moving=self.control.moving))
 
     def emergency(self) -> None:
-        """While time stands still no motion can be watched: stop, and take hold anew later."""
-        if self.clock.silent:
-            self.leave_standing()
-            self.control.lose("nobody tells the time")
+        """Without time no motion can be supervised: stop, and hold the arm again later."""
+        if self.clock.is_stale:
+            self.stop_if_reachable()
+            self.control.lose(CLOCK_LOST)
 
     def finalize(self) -> None:
-        """Leave no arm moving."""
-        if hasattr(self, "control"):  # not there after a wrong description
-            self.leave_standing()
+        """Stop the arm."""
+        if hasattr(self, "control"):  # missing after an invalid description
+            self.stop_if_reachable()
 
-    def leave_standing(self) -> None:
-        """Stop the arm, if it answers."""
+    def stop_if_reachable(self) -> None:
+        """Stop the arm if it is reachable."""
         if not self.control.trouble:
             try:
                 self.control.stop()
-            except AWAY as error:
+            except ARM_ERRORS as error:
                 self.log.info("the arm could not be stopped: %s", error)
 
     @contextmanager
-    def in_words(self) -> Iterator[None]:
-        """What goes wrong, as the exceptions that the interface declares."""
+    def declared_errors(self) -> Iterator[None]:
+        """Raise errors as the exceptions that the interface declares."""
         if self.control.trouble:
             raise NotPossible(f"the arm does not answer: {self.control.trouble}")
         try:
@@ -114,101 +122,101 @@ class SpecificWorker(GenericWorker):
             raise Unreachable(str(error), error.distance, error.angle) from None
         except MiddlewareError as error:
             raise NotPossible(f"the arm does not answer: {error}") from None
-        except (*AWAY, Overtaken) as error:
+        except (*ARM_ERRORS, CommandSuperseded) as error:
             raise NotPossible(str(error)) from None
 
     @contextmanager
-    def in_log(self, what: str) -> Iterator[None]:
-        """The same for commands, whose callers get no answer."""
+    def log_refusals(self, command: str) -> Iterator[None]:
+        """Log errors of commands, whose callers receive no reply."""
         try:
-            with self.in_words():
+            with self.declared_errors():
                 yield
         except NotPossible as error:
-            if error.what != self.told:  # a stream of commands fails in the same way each time
-                self.log.warning("`%s` is not carried out: %s", what, error.what)
-            self.told = error.what
+            if error.what != self.last_refusal:  # log each reason of a command stream once
+                self.log.warning("`%s` is not carried out: %s", command, error.what)
+            self.last_refusal = error.what
         else:
-            self.told = ""
+            self.last_refusal = ""
 
-    def outcome(self, orders: Orders) -> Outcome:
-        """Carry out orders; what of them was not possible."""
-        return Outcome(self.control.carry_out(orders), orders.dropped)
+    def outcome(self, commands: JointCommands) -> Outcome:
+        """Send commands; returns what was clipped or dropped."""
+        return Outcome(self.control.carry_out(commands), commands.dropped)
 
     # implements RoboCompGenericArm::GenericArm
 
     def GenericArm_getState(self) -> ArmState:
-        """Where the arm is and how it moves."""
-        with self.in_words():
-            return told_state(self.arm, moving=self.control.moving)
+        """The state of the arm."""
+        with self.declared_errors():
+            return state_to_message(self.arm, moving=self.control.moving)
 
     def GenericArm_getLimits(self) -> ArmLimits:
-        """Its limits, and which joints there are."""
-        return told_limits(self.arm)
+        """The limits, and which joints exist."""
+        return limits_to_message(self.arm)
 
     def GenericArm_getChain(self) -> Chain:
-        """Its kinematic chain in generic angles."""
+        """The kinematic chain in generic angles."""
         try:
-            return told_chain(self.arm.chain)
+            return chain_to_message(self.arm.chain)
         except errors.NoChain as error:
             raise NotPossible(str(error)) from None
 
     def GenericArm_getHand(self) -> Pose:
-        """Where the hand is."""
-        with self.in_words():
-            return told_pose(self.arm.hand())
+        """The pose of the hand."""
+        with self.declared_errors():
+            return pose_to_message(self.arm.end_effector_pose())
 
     def GenericArm_move(self, position: Angles, speed: Angles) -> Outcome:
-        """Go to angles, at these mean speeds or, without any, as fast as the limits allow."""
-        with self.in_words():
-            return self.outcome(self.arm.move(position, given(speed)))
+        """Move to angles, at these mean speeds or, if empty, as fast as the limits allow."""
+        with self.declared_errors():
+            return self.outcome(self.arm.position_move(position, optional_speed(speed)))
 
     def GenericArm_moveBy(self, way: Angles, speed: Angles) -> Outcome:
-        """Go by these angles from here."""
-        with self.in_words():
-            return self.outcome(self.arm.move_by(way, given(speed)))
+        """Move by these angles from the current ones."""
+        with self.declared_errors():
+            return self.outcome(self.arm.relative_move(way, optional_speed(speed)))
 
     def GenericArm_reach(self, x: float, y: float, z: float) -> Outcome:
-        """Bring the hand to a point."""
-        with self.in_words():
+        """Move the hand to a point."""
+        with self.declared_errors():
             return self.outcome(self.arm.reach(np.array([x, y, z])))
 
     def GenericArm_reachPose(self, pose: Pose) -> Outcome:
-        """Bring the hand to a point and a rotation."""
-        with self.in_words():
+        """Move the hand to a pose."""
+        with self.declared_errors():
             return self.outcome(self.arm.reach(position_of(pose), rotation_of(pose)))
 
     def GenericArm_follow(self, position: Angles) -> None:
-        """Be at these angles at once; for streams of small steps."""
-        with self.in_log("follow"):
-            self.outcome(self.arm.follow(position))
+        """Set these angles immediately; for streams of small steps."""
+        with self.log_refusals("follow"):
+            self.outcome(self.arm.set_position(position))
 
     def GenericArm_drive(self, velocity: Angles) -> None:
-        """Turn at these speeds until the next command."""
-        with self.in_log("drive"):
-            self.outcome(self.arm.drive(velocity))
+        """Turn at these velocities until the next command."""
+        with self.log_refusals("drive"):
+            self.outcome(self.arm.velocity_move(velocity))
 
     def GenericArm_push(self, torque: Angles) -> None:
-        """Give these torques; a push that is not renewed ends."""
-        with self.in_log("push"):
-            self.outcome(self.arm.push(torque))
+        """Apply these torques; they expire unless they are renewed."""
+        with self.log_refusals("push"):
+            self.outcome(self.arm.set_torque(torque))
 
     def GenericArm_glide(self, vx: float, vy: float, vz: float) -> None:
         """Move the hand at this velocity until the next command."""
-        with self.in_log("glide"):
-            way = np.array([vx, vy, vz])
-            self.control.carry_out(self.arm.glide(way), way)
+        with self.log_refusals("glide"):
+            velocity = np.array([vx, vy, vz])
+            self.control.carry_out(self.arm.line_move(velocity), velocity)
 
     def GenericArm_setStiffness(self, stiffness: Angles, damping: Angles) -> None:
-        """Give way like springs and dampers; two empty sequences make it stiff."""
-        with self.in_words():
+        """Make the arm compliant; two empty sequences make it stiff."""
+        with self.declared_errors():
             self.control.soften(stiffness, damping)
 
     def GenericArm_stop(self) -> None:
-        """End every motion."""
-        with self.in_words():
+        """Stop every motion."""
+        with self.declared_errors():
             self.control.stop()
 
 
-def given(speed: Angles) -> Floats | None:
+def optional_speed(speed: Angles) -> Floats | None:
     """The speeds, or None for an empty sequence."""
     return speed if len(speed) else None

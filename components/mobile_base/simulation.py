@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from generated.params import BaseGroup, LaserGroup, MobileBaseParams
+from mobile_base_generated.params import BaseGroup, LaserGroup, MobileBaseParams
 
-from robocomp_dsl.hardware.differential_robot import Mechanics
-from robocomp_dsl.hardware.laser import LaserSettings
-from robocomp_dsl.hardware.mujoco.differential_robot import DifferentialRobot
-from robocomp_dsl.hardware.mujoco.laser import Laser, Mount
-from robocomp_dsl.hardware.mujoco.room import Room
-from robocomp_dsl.hardware.mujoco.world import World
+from robocomp_dsl.hardware.devices.differential_robot import Mechanics
+from robocomp_dsl.hardware.devices.laser import LaserSettings
+from robocomp_dsl.simulation.devices.differential_robot import DifferentialRobot
+from robocomp_dsl.simulation.devices.laser import Laser, LaserMount
+from robocomp_dsl.simulation.scene.room import Room
+from robocomp_dsl.simulation.world.world import World
 
 HERE = Path(__file__).parent
 
@@ -35,31 +35,31 @@ def simulate(params: MobileBaseParams) -> Simulation:
         drift=params.base.drift,
         watchdog=params.base.watchdog / 1000,
     )
-    mount = Mount(base.name, y=params.laser.height, z=params.laser.ahead)
+    mount = LaserMount(base.name, y=params.laser.height, z=params.laser.ahead)
     laser = Laser(_settings(params.laser), mount)
     return Simulation(World(room.spec(), (base, laser), seed=params.seed), base, laser)
 
 
-def _mechanics(given: BaseGroup) -> Mechanics:
+def _mechanics(params: BaseGroup) -> Mechanics:
     return Mechanics(
-        wheel_radius=given.wheel_radius,
-        axis=given.axis,
-        body_radius=given.radius,
-        mass_kg=given.mass,
-        encoder_steps=given.encoder_steps,
-        gear_ratio=given.gear_ratio,
-        max_adv=given.max_adv,
-        max_rot=given.max_rot,
-        max_acceleration=given.max_acceleration,
+        wheel_radius=params.wheel_radius,
+        axis=params.axis,
+        body_radius=params.radius,
+        mass_kg=params.mass,
+        encoder_steps=params.encoder_steps,
+        gear_ratio=params.gear_ratio,
+        max_adv=params.max_adv,
+        max_rot=params.max_rot,
+        max_acceleration=params.max_acceleration,
     )
 
 
-def _settings(given: LaserGroup) -> LaserSettings:
+def _settings(params: LaserGroup) -> LaserSettings:
     return LaserSettings(
-        measures=given.measures,
-        degrees=given.degrees,
-        min_range=given.min_range,
-        max_range=given.max_range,
-        noise=given.noise,
-        period=given.period / 1000,
+        measures=params.measures,
+        degrees=params.degrees,
+        min_range=params.min_range,
+        max_range=params.max_range,
+        noise=params.noise,
+        period=params.period / 1000,
     )

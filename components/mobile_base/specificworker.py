@@ -5,16 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from generated.genericworker import GenericWorker
-from generated.interfaces import HardwareFailedException, LaserConfData, TBaseState, TLaserData
+from mobile_base_generated.genericworker import GenericWorker
+from mobile_base_generated.interfaces import (
+    HardwareFailedException,
+    LaserConfData,
+    TBaseState,
+    TLaserData,
+)
 from simulation import Simulation, simulate
 
-from robocomp_dsl.hardware.errors import HardwareError
-from robocomp_dsl.hardware.planar import ORIGIN, Pose
-from robocomp_dsl.hardware.servants.base import told_state
-from robocomp_dsl.hardware.servants.laser import told_settings
-from robocomp_dsl.runtime.clock_source import ClockSource
-from robocomp_dsl.runtime.parameters import Refused
+from robocomp_dsl.hardware.devices.errors import HardwareError
+from robocomp_dsl.hardware.kinematics.planar import ORIGIN, Pose
+from robocomp_dsl.hardware.servants.base import base_state_to_message
+from robocomp_dsl.hardware.servants.laser import settings_to_message
+from robocomp_dsl.runtime.parameters import ParameterRejected
+from robocomp_dsl.runtime.time.clock_source import ClockSource
 
 MOST_BEHIND = 0.1
 """Seconds that one `compute` may make up for; behind a longer pause the world was asleep."""
@@ -34,13 +39,13 @@ class SpecificWorker(GenericWorker):
     def begin(self) -> None:
         """The world as it is at the beginning."""
         self.simulation = simulate(self.params)
-        self.last, self.epoch = self.clock.now(), max(self.clock.epoch, 0)
+        self.last, self.epoch = self.clock.now(), max(self.clock.reset_count, 0)
         self.next_publication = 0.0
 
     def will_set_speed(self, value: float) -> None:
         """The clock of the machine cannot be waited for less than it takes."""
         if not value and not isinstance(self.clock, ClockSource):
-            raise Refused(
+            raise ParameterRejected(
                 "0 is for deployments with `clock sim`, where this component is the clock"
             )
 
@@ -51,7 +56,7 @@ class SpecificWorker(GenericWorker):
 
     def compute(self) -> None:
         """Let the world catch up with the clock, and tell where the base is."""
-        if self.clock.epoch != self.epoch:
+        if self.clock.reset_count != self.epoch:
             self.begin()
         now = self.clock.now()
         passed, self.last = now - self.last, now
@@ -66,13 +71,15 @@ class SpecificWorker(GenericWorker):
             period = self.params.publish_period / 1000
             self.next_publication = max(self.next_publication + period, world.time)
             state = self.simulation.base.state()
-            self.differentialrobotpub_proxy.pushBaseState(told_state(TBaseState, state), state.time)
+            self.differentialrobotpub_proxy.pushBaseState(
+                base_state_to_message(TBaseState, state), state.time
+            )
 
     # implements RoboCompDifferentialRobot::DifferentialRobot
 
     def DifferentialRobot_getBaseState(self) -> TBaseState:
         """The whole state."""
-        state: TBaseState = told_state(TBaseState, self.simulation.base.state())
+        state: TBaseState = base_state_to_message(TBaseState, self.simulation.base.state())
         return state
 
     def DifferentialRobot_getBasePose(self) -> tuple[int, int, float]:
@@ -122,8 +129,8 @@ class SpecificWorker(GenericWorker):
     def Laser_getLaserConfData(self) -> LaserConfData:
         """How the laser is set up."""
         laser = self.simulation.laser
-        told: LaserConfData = told_settings(LaserConfData, laser.name, laser.settings)
-        return told
+        message: LaserConfData = settings_to_message(LaserConfData, laser.name, laser.settings)
+        return message
 
 
 @contextmanager

@@ -1,12 +1,12 @@
-"""nao_simulator: a running world. Written once by rcgen; from now on this file is yours."""
+"""nao_simulator: a running world. Generated once by rcgen; this file is yours."""
 
 from __future__ import annotations
 
-from generated.simulator import Simulator
+from nao_simulator_generated.simulator import Simulator
 
 
 class SpecificWorker(Simulator):
-    """The simulator as it comes; methods that stand here win over those of `Simulator`.
+    """The generated simulator; methods defined here override those of `Simulator`.
 
-    `self.simulation` is the world: touch it under `with self.simulation.turns:`.
+    `self.simulation` is the world: access it under `with self.simulation.lock:`.
     """

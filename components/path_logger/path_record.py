@@ -55,7 +55,7 @@ class PathRecord:
         part = path.with_name(path.name + ".part")
         with part.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.writer(stream)
-            writer.writerow(one.name for one in fields(Sample))
+            writer.writerow(column.name for column in fields(Sample))
             for sample in self.samples:
                 writer.writerow(round(number, 4) for number in astuple(sample))
         part.replace(path)

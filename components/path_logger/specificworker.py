@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from generated.genericworker import GenericWorker
-from generated.interfaces import PathSummary, TBaseState
+from path_logger_generated.genericworker import GenericWorker
+from path_logger_generated.interfaces import PathSummary, TBaseState
 from path_record import PathRecord
 
 

@@ -14,9 +14,9 @@ import mujoco
 import numpy as np
 from recording import Floats, Place, Skin
 
-from robocomp_dsl.hardware.mujoco.model_file import compiled, read_spec
-from robocomp_dsl.hardware.view.picture import lit
-from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.simulation.models.model_file import compiled, read_spec
+from robocomp_dsl.simulation.view.picture import add_lighting
+from robocomp_dsl.tactile.description.model import GenericPart
 
 FINGER = ("finger_x", "finger_y", "finger_z")
 CAMERA = "onlooker"
@@ -29,9 +29,9 @@ _CLEAR = 0.055
 class Body:
     """`data` is in the pose that was set last. Taxel i of the skin is the site `taxel<i>`."""
 
-    def __init__(self, world: Path, skin: Skin, part: Part) -> None:
+    def __init__(self, world: Path, skin: Skin, part: GenericPart) -> None:
         spec, findings = read_spec(world)
-        lit(spec)
+        add_lighting(spec)
         for i in range(len(skin.limb)):
             where = skin.placed(skin.limbs[skin.limb[i]], skin.points[i])
             spec.body(skin.bodies[skin.limb[i]]).add_site(
@@ -102,14 +102,14 @@ class Body:
     def clearance(self, point: Floats) -> float:
         """How far the finger at `point` (3,) would be from everything else; at most 0.2 m."""
         at = self.data.geom_xpos[self.finger_geom]
-        kept = at.copy()
+        previous = at.copy()
         at[:] = point
         fromto = np.zeros(6)
         nearest = min(
             mujoco.mj_geomDistance(self.model, self.data, self.finger_geom, other, 0.2, fromto)
             for other in self._solid
         )
-        at[:] = kept
+        at[:] = previous
         return float(nearest)
 
     @property

@@ -11,8 +11,8 @@ import numpy as np
 from colours import FAINT, INK, JOINTS, SOFT, TOUCH
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator, MultipleLocator
+from panel import COLUMN, LEFT, Column, Sheet
 from recording import Floats
-from sheet import COLUMN, LEFT, Column, Sheet
 
 HIGH = 1.75
 _JOINTS = ("shoulder pitch", "shoulder roll", "shoulder yaw", "elbow pitch", "elbow yaw")
@@ -57,7 +57,7 @@ def _with_gaps(times: Floats, angles: Floats) -> tuple[Floats, Floats]:
 
 def span(columns: Sequence[Column]) -> tuple[float, float]:
     """Angles that all robots' curves fit between."""
-    every = np.degrees(np.concatenate([one.recording.arm.ravel() for one in columns]))
+    every = np.degrees(np.concatenate([column.recording.arm.ravel() for column in columns]))
     return float(every.min()) - 6.0, float(every.max()) + 6.0
 
 

@@ -9,22 +9,34 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
 import sys
 import time
 from contextlib import closing
 from pathlib import Path
+from shutil import which
 
-from body import Body
-from deployed import deployed
-from failure import DemoFailed
-from live import Live
-from outcome import words
-from pressing import park, press
-from recording import Place, Press, Recording, save
-from report import report
-from subject import PART, SUBJECTS, Subject
-from watching import Watching
-from way import NoWay
+try:
+    from body import Body
+    from deployed import deployed
+    from failure import DemoFailed
+    from live import Live
+    from metrics import words
+    from path_planner import NoPath
+    from pressing import park, press
+    from recording import Place, Press, Recording, save
+    from report import report
+    from subject import PART, SUBJECTS, Subject
+    from wait_for import RobotUnderTest
+except ModuleNotFoundError as error:
+    python = Path(which("rcgen") or "rcgen").resolve().with_name("python3")
+    other = python.is_file() and python.parent != Path(sys.executable).parent
+    place = f", {python}" if other else ""
+    sys.exit(
+        f"demo.py cannot run with {sys.executable}, which lacks the module `{error.name}`.\n"
+        f"Install the package: {sys.executable} -m pip install 'robocomp_dsl[all]'\n"
+        f"or use the Python of the environment that has rcgen{place}."
+    )
 
 LIVE_FRAMES = 500
 ATTEMPTS = 3
@@ -32,23 +44,25 @@ ATTEMPTS = 3
 
 def main() -> int:
     """Run it."""
-    given = _arguments()
-    subjects = [SUBJECTS[given.robot]] if given.robot else list(SUBJECTS.values())
+    # Also where a script runs it in the background, which ignores SIGINT.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    options = _arguments()
+    subjects = [SUBJECTS[options.robot]] if options.robot else list(SUBJECTS.values())
     try:
-        if given.live:
-            watch_live(subjects[0], given.port)
+        if options.live:
+            watch_live(subjects[0], options.port)
             return 0
         began = time.monotonic()
-        recordings = [touched(one, given.touches) for one in subjects]
-        troubles = report(subjects, recordings, given.picture)
+        recordings = [touched(subject, options.touches) for subject in subjects]
+        troubles = report(subjects, recordings, options.picture)
         print(f"{time.monotonic() - began:.0f} s in all")
-    except (DemoFailed, NoWay) as error:
+    except (DemoFailed, NoPath) as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130
-    for one in troubles:
-        print(f"demo: {one}", file=sys.stderr)
+    for trouble in troubles:
+        print(f"demo: {trouble}", file=sys.stderr)
     return 1 if troubles else 0
 
 
@@ -63,20 +77,20 @@ def _arguments() -> argparse.Namespace:
         "--live", action="store_true", help="one robot in the browser, touched until Ctrl-C"
     )
     parser.add_argument("--port", type=int, default=0, help="of the page; 0: any that is free")
-    given = parser.parse_args()
-    if given.touches < 1:
+    options = parser.parse_args()
+    if options.touches < 1:
         parser.error("--touches: one at least")
-    if not given.picture.absolute().parent.is_dir():
-        parser.error(f"--picture: there is no folder {given.picture.absolute().parent}")
-    return given
+    if not options.picture.absolute().parent.is_dir():
+        parser.error(f"--picture: there is no folder {options.picture.absolute().parent}")
+    return options
 
 
 def touched(subject: Subject, touches: int) -> Recording:
     """One robot touched at so many places, from the start of its deployment to its end."""
     print(f"{subject.name}: starting simulator, arm and reflex ...", flush=True)
     with (
-        deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
-        closing(Watching(_name(subject), PART, alive, None)) as stage,
+        deployed(subject.ddsl, _name(subject), subject.recording_path.with_suffix(".log")) as alive,
+        closing(RobotUnderTest(_name(subject), PART, alive, None)) as stage,
     ):
         rest, places = stage.joints(), stage.places()
         body = Body(subject.world, stage.skin, subject.part)
@@ -86,17 +100,17 @@ def touched(subject: Subject, touches: int) -> Recording:
             print(f"{subject.name}: touching the {words(place.name)}", flush=True)
             presses.append(pressed(subject.name, stage, body, place))
         park(stage, body, home)
-        made = stage.heard.recording(subject.name, presses, places=places, rest=rest)
-    save(made, subject.kept.with_suffix(".npz"))
-    return made
+        recording = stage.heard.recording(subject.name, presses, places=places, rest=rest)
+    save(recording, subject.recording_path.with_suffix(".npz"))
+    return recording
 
 
-def pressed(name: str, stage: Watching, body: Body, place: Place) -> Press:
+def pressed(name: str, stage: RobotUnderTest, body: Body, place: Place) -> Press:
     """One touch; again when the reflex was frozen meanwhile, as on a machine that is too busy."""
     for _ in range(ATTEMPTS - 1):
-        made = press(stage, body, place)
-        if not stage.heard.frozen_since(made.began):
-            return made
+        result = press(stage, body, place)
+        if not stage.heard.frozen_since(result.began):
+            return result
         print(f"{name}: the reflex was frozen meanwhile, data came too late; again", flush=True)
     return press(stage, body, place)
 
@@ -104,16 +118,16 @@ def pressed(name: str, stage: Watching, body: Body, place: Place) -> Press:
 def watch_live(subject: Subject, port: int) -> None:
     """One robot in the browser, touched again and again until Ctrl-C."""
     with (
-        deployed(subject.ddsl, _name(subject), subject.kept.with_suffix(".log")) as alive,
-        closing(Watching(_name(subject), PART, alive, LIVE_FRAMES)) as stage,
+        deployed(subject.ddsl, _name(subject), subject.recording_path.with_suffix(".log")) as alive,
+        closing(RobotUnderTest(_name(subject), PART, alive, LIVE_FRAMES)) as stage,
     ):
         rest, places = stage.joints(), stage.places()
         body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
         page = Live(subject.name, stage.simulation(), stage.skin, stage.heard, port)
         with closing(page) as live:
-            said = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
-            print(said, flush=True)
+            message = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
+            print(message, flush=True)
             while True:
                 for place in places:
                     press(stage, body, place)

@@ -24,9 +24,9 @@ def deployed(ddsl: Path, name: str, log: Path) -> Iterator[Callable[[], None]]:
     program = Path(sys.executable).with_name("rcdeploy")
     command = [program, ddsl, "up", "--name", name, "--domain", name, "--no-table"]
     log.parent.mkdir(parents=True, exist_ok=True)
-    with log.open("wb") as told:
+    with log.open("wb") as output:
         process = subprocess.Popen(  # noqa: S603 - our own words
-            list(map(str, command)), stdout=told, stderr=subprocess.STDOUT
+            list(map(str, command)), stdout=output, stderr=subprocess.STDOUT
         )
     try:
         yield lambda: _runs(process, log)

@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from colours import on_robot
 from failure import DemoFailed
-from heard import Heard
 from photograph import towards_camera
 from recording import Floats, Ints, Skin
+from topic_buffer import TopicBuffer
 
-from robocomp_dsl.hardware.view.running import CannotFollow
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.simulation.view.running import UnsupportedSimulation
 
 HIGHEST = 2.0
 """N at the end of the colours."""
@@ -34,9 +34,9 @@ log = logging.getLogger("touch_demo")
 class Live:
     """The page, until `close`. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
 
-    def __init__(self, name: str, hand: Any, skin: Skin, heard: Heard, port: int) -> None:
+    def __init__(self, name: str, hand: Any, skin: Skin, heard: TopicBuffer, port: int) -> None:
         try:
-            from robocomp_dsl.hardware.view.live import LivePage  # noqa: PLC0415 - an extra
+            from robocomp_dsl.simulation.view.live import LivePage  # noqa: PLC0415 - an extra
         except ImportError as missing:
             raise DemoFailed(str(missing)) from None
         self._skin, self._heard = skin, heard
@@ -44,7 +44,7 @@ class Live:
             self._page = LivePage(name, hand, port=port)
         except OSError as error:
             raise DemoFailed(f"no page at port {port}: {error.strerror}") from None
-        except (CannotFollow, MiddlewareError) as error:
+        except (UnsupportedSimulation, MiddlewareError) as error:
             raise DemoFailed(f"the simulation cannot be shown: {error}") from None
         self.url = self._page.page.url
         self._shown: dict[str, Any] = {}
@@ -66,8 +66,8 @@ class Live:
     def _run(self) -> None:
         while not self._over.wait(1 / _PICTURES):
             try:
-                self._page.look()
-            except CannotFollow as error:
+                self._page.refresh()
+            except UnsupportedSimulation as error:
                 log.warning("the page stands still: %s", error)
                 return
             self.show()

@@ -12,11 +12,11 @@ import mujoco
 import numpy as np
 from body import CAMERA, Body
 from colours import on_robot
+from metrics import TouchMetrics, arm_at
 from numpy.typing import NDArray
-from outcome import Outcome, arm_at
 from recording import Floats, Recording
 
-from robocomp_dsl.hardware.view.picture import Look, Painter
+from robocomp_dsl.simulation.view.picture import Renderer, Viewpoint
 
 Pixels = NDArray[np.uint8]
 
@@ -24,10 +24,10 @@ _OPENING = 28.0
 """Degrees that the camera sees from its upper to its lower edge."""
 
 
-def best_seen(it: Recording, body: Body, touches: Sequence[Outcome]) -> Outcome:
+def best_seen(it: Recording, body: Body, touches: Sequence[TouchMetrics]) -> TouchMetrics:
     """The touch whose place faces the camera and goes far."""
 
-    def worth(touch: Outcome) -> float:
+    def worth(touch: TouchMetrics) -> float:
         if touch.trouble:
             return -1.0
         body.pose(it.rest, arm_at(it, touch.contact))
@@ -40,7 +40,7 @@ def best_seen(it: Recording, body: Body, touches: Sequence[Outcome]) -> Outcome:
 
 
 def before_and_after(
-    it: Recording, body: Body, touch: Outcome, highest: float, size: tuple[int, int]
+    it: Recording, body: Body, touch: TouchMetrics, highest: float, size: tuple[int, int]
 ) -> tuple[Pixels, Pixels]:
     """The touch where the skin feels most, and the arm when it is farthest away.
 
@@ -50,16 +50,16 @@ def before_and_after(
     felt = np.where(pressed, it.force.sum(axis=1), -1.0)
     moments = (float(it.frame_time[int(felt.argmax())]), touch.farthest)
     width, height = size
-    with Painter(body.model, width, height) as painter:
+    with Renderer(body.model, width, height) as painter:
         _show(it, body, moments[0], highest)
         _aim(body, it, moments, width / height)
         first, last = (_paint(it, body, painter, moment, highest) for moment in moments)
     return first, last
 
 
-def _paint(it: Recording, body: Body, painter: Painter, moment: float, highest: float) -> Pixels:
+def _paint(it: Recording, body: Body, painter: Renderer, moment: float, highest: float) -> Pixels:
     _show(it, body, moment, highest)
-    return painter.paint(body.data, Look(camera=CAMERA)).copy()
+    return painter.render(body.data, Viewpoint(camera=CAMERA)).copy()
 
 
 def _show(it: Recording, body: Body, moment: float, highest: float) -> None:

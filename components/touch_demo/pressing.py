@@ -12,8 +12,8 @@ from typing import Protocol
 
 import numpy as np
 from body import Body
+from path_planner import plan_path
 from recording import Floats, Place, Press
-from way import way
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,12 +64,14 @@ class Stage(Protocol):
 
 
 def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Press:
-    """Press one place. Raises `NoWay`."""
+    """Press one place. Raises `NoPath`."""
     stage.wait_until_calm()
     body.pose(arm=stage.arm(), finger=stage.finger())
     skin, out = body.touching(place), body.outward(place)
     here = body.finger_point
-    _follow(stage, body, [here, *way(body.clearance, here, skin + manner.off * out)], manner.speed)
+    _follow(
+        stage, body, [here, *plan_path(body.clearance, here, skin + manner.off * out)], manner.speed
+    )
     _go(stage, body, skin + manner.near * out, _SHORTEST)
     stage.wait(_SHORTEST + _SETTLE)
     began = stage.now()
@@ -85,11 +87,11 @@ def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Pre
 
 
 def park(stage: Stage, body: Body, home: Floats, manner: Manner = PLAIN) -> None:
-    """Bring the finger back to where it was, out of the robot's reach. Raises `NoWay`."""
+    """Bring the finger back to where it was, out of the robot's reach. Raises `NoPath`."""
     stage.wait_until_calm()
     body.pose(arm=stage.arm(), finger=stage.finger())
     here = body.finger_point
-    _follow(stage, body, [here, *way(body.clearance, here, home)], manner.speed)
+    _follow(stage, body, [here, *plan_path(body.clearance, here, home)], manner.speed)
 
 
 def _follow(stage: Stage, body: Body, points: list[Floats], speed: float) -> None:

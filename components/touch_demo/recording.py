@@ -99,7 +99,7 @@ class Recording:
 
     def place(self, name: str) -> Place:
         """The place of that name; `KeyError` without one."""
-        return {one.name: one for one in self.places}[name]
+        return {place.name: place for place in self.places}[name]
 
 
 _ARRAYS = ("frame_time", "force", "arm_time", "arm", "finger_time", "finger")
@@ -113,9 +113,9 @@ def save(it: Recording, file: Path) -> None:
         "part": it.part,
         "limbs": it.skin.limbs,
         "bodies": it.skin.bodies,
-        "places": [{**_plain(one), "centre": one.centre.tolist()} for one in it.places],
-        "presses": [asdict(one) for one in it.presses],
-        "answers": [asdict(one) for one in it.answers],
+        "places": [{**_plain(place), "centre": place.centre.tolist()} for place in it.places],
+        "presses": [asdict(press) for press in it.presses],
+        "answers": [asdict(answer) for answer in it.answers],
         "rest": dict(it.rest),
     }
     arrays = {name: getattr(it, name) for name in _ARRAYS}
@@ -134,18 +134,20 @@ def load(file: Path) -> Recording:
             bodies=tuple(words["bodies"]),
             **{name: found[f"skin_{name}"] for name in _SKIN_ARRAYS},
         )
-        places = (Place(**{**one, "centre": np.array(one["centre"])}) for one in words["places"])
+        places = (
+            Place(**{**entry, "centre": np.array(entry["centre"])}) for entry in words["places"]
+        )
         return Recording(
             robot=words["robot"],
             part=words["part"],
             skin=skin,
             places=tuple(places),
-            presses=tuple(Press(**one) for one in words["presses"]),
-            answers=tuple(Answer(**one) for one in words["answers"]),
+            presses=tuple(Press(**entry) for entry in words["presses"]),
+            answers=tuple(Answer(**entry) for entry in words["answers"]),
             rest=words["rest"],
             **{name: found[name] for name in _ARRAYS},
         )
 
 
-def _plain(one: Place) -> dict[str, Any]:
-    return {field.name: getattr(one, field.name) for field in fields(one)}
+def _plain(place: Place) -> dict[str, Any]:
+    return {field.name: getattr(place, field.name) for field in fields(place)}

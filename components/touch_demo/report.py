@@ -10,14 +10,14 @@ from math import isnan
 from pathlib import Path
 
 from body import Body
-from outcome import Outcome, outcomes, table
+from figure import PHOTO_PIXELS, draw
+from metrics import TouchMetrics, outcomes, table
+from panel import Column
 from photograph import before_and_after, best_seen
-from poster import PHOTO_PIXELS, draw
 from recording import Recording
-from sheet import Column
 from subject import Subject
 
-from robocomp_dsl.hardware.view.screenless import NoRendering
+from robocomp_dsl.hardware.devices.errors import NoRendering
 
 TITLE = "A finger touches, the arm withdraws: one reflex, two robots"
 _LEAST_SCALE = 0.1  # N
@@ -27,7 +27,7 @@ def report(
     subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
 ) -> list[str]:
     """Print the table, draw the picture; returns what went wrong."""
-    highest = max(_LEAST_SCALE, *(float(one.force.max(initial=0.0)) for one in recordings))
+    highest = max(_LEAST_SCALE, *(float(item.force.max(initial=0.0)) for item in recordings))
     columns = [
         _column(subject, recording, highest)
         for subject, recording in zip(subjects, recordings, strict=True)
@@ -37,7 +37,7 @@ def report(
     for line in table(rows):
         print(line)
     print()
-    for why in dict.fromkeys(one.why_not for one in columns if one.why_not):
+    for why in dict.fromkeys(item.why_not for item in columns if item.why_not):
         print(f"no photographs in the picture: {why}")
     draw(columns, TITLE, facts(rows), highest, picture)
     print(f"picture: {picture.resolve()}")
@@ -57,21 +57,21 @@ def _column(subject: Subject, recording: Recording, highest: float) -> Column:
     return Column(recording, found, shown, photos)
 
 
-def facts(rows: Sequence[Outcome]) -> str:
+def facts(rows: Sequence[TouchMetrics]) -> str:
     """The outcomes of all touches in one line."""
     good = [row for row in rows if not row.trouble]
-    said = [f"{len(good)} of {len(rows)} touches: the arm withdrew"]
+    parts = [f"{len(good)} of {len(rows)} touches: the arm withdrew"]
     for before, values, after in (
         ("by ", [row.withdrawn for row in good], "mm"),
         ("first motion ", [row.moved_after for row in good], "ms after the contact"),
         ("free after ", [row.cleared_after for row in good], "ms"),
     ):
-        known = [one for one in values if not isnan(one)]
+        known = [value for value in values if not isnan(value)]
         if known:
-            said.append(f"{before}{_span(known)} {after}")
-    return said[0] + (" " + " · ".join(said[1:]) if good else "")
+            parts.append(f"{before}{_span(known)} {after}")
+    return parts[0] + (" " + " · ".join(parts[1:]) if good else "")
 
 
 def _span(values: Sequence[float]) -> str:
-    ends = dict.fromkeys(f"{one:.0f}" for one in (min(values), max(values)))
+    ends = dict.fromkeys(f"{end:.0f}" for end in (min(values), max(values)))
     return " to ".join(ends)

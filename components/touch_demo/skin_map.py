@@ -106,14 +106,14 @@ def extent(it: Recording, limb: str) -> tuple[float, float]:
 
 def vertical(it: Recording, limb: str) -> tuple[float, float]:
     """From where to where the map goes along the limb, in mm: all taxels and fields are on it."""
-    fields = [(one.centre[0], one.radius) for one in it.places if one.limb == limb]
+    fields = [(place.centre[0], place.radius) for place in it.places if place.limb == limb]
     taxels = it.skin.points[it.skin.of(limb), 0]
     ends = [*taxels, *(x - r for x, r in fields), *(x + r for x, r in fields)]
     return 1000 * min(ends) - _MARGIN, 1000 * max(ends) + _MARGIN
 
 
 def _pressed(it: Recording, limb: str, numbers: Mapping[str, int]) -> list[Place]:
-    return [one for one in it.places if one.limb == limb and one.name in numbers]
+    return [place for place in it.places if place.limb == limb and place.name in numbers]
 
 
 def _dot(axes: Axes, it: Recording, limb: str) -> float:
@@ -147,7 +147,7 @@ def _frame(axes: Axes, sheet: Sheet, ends: tuple[float, float], limb: str) -> No
     axes.set(xlim=(0, 2000 * math.pi * sheet.radius), ylim=ends, aspect="equal")
     degrees = np.array([-90, 0, 90, 180])
     across = 1000 * sheet.radius * around(np.radians(degrees), sheet.cut)
-    axes.set_xticks(across, [f"{one}°" for one in degrees])
+    axes.set_xticks(across, [f"{degree}°" for degree in degrees])
     axes.set_ylabel(f"along the {limb.rpartition('/')[2].replace('_', ' ')} [mm]", color=SOFT)
     axes.tick_params(length=2, colors=SOFT)
     for side in axes.spines.values():

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.model import GenericPart
 from robocomp_dsl.tactile.description.read import load_robot
 
 HERE = Path(__file__).parent
-KEPT = HERE.parents[1] / "build" / "touch_demo"
+RECORDINGS = HERE.parents[1] / "build" / "touch_demo"
 PART = "left_arm"
 
 
@@ -22,14 +22,14 @@ class Subject:
     world: Path
 
     @property
-    def part(self) -> Part:
+    def part(self) -> GenericPart:
         """The arm that is touched, by the description beside the world."""
         return load_robot(self.world.with_name("tactile.yaml")).part(PART)
 
     @property
-    def kept(self) -> Path:
+    def recording_path(self) -> Path:
         """What its recording and its log are called, but for the ending."""
-        return KEPT / self.ddsl.stem
+        return RECORDINGS / self.ddsl.stem
 
 
 SUBJECTS = {

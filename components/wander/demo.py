@@ -15,17 +15,28 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from shutil import which
 
-import yaml
-from observer import Observer
-from picture import draw
-from summary import Look, length, lines, obstacle, read_drive, speed
+try:
+    import yaml
+    from observer import Observer
+    from picture import draw
+    from summary import Look, length, lines, obstacle, read_drive, speed
 
-from robocomp_dsl.hardware.mujoco.floor_plan import outlines
-from robocomp_dsl.hardware.mujoco.room import Room
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.runtime.component_interface import LifeState
-from robocomp_dsl.runtime.errors import MiddlewareError
+    from robocomp_dsl.runtime.component.component_interface import LifeState
+    from robocomp_dsl.runtime.errors import MiddlewareError
+    from robocomp_dsl.simulation.scene.floor_plan import outlines
+    from robocomp_dsl.simulation.scene.room import Room
+    from robocomp_dsl.simulation.world.world import World
+except ModuleNotFoundError as error:
+    python = Path(which("rcgen") or "rcgen").resolve().with_name("python3")
+    other = python.is_file() and python.parent != Path(sys.executable).parent
+    place = f", {python}" if other else ""
+    sys.exit(
+        f"demo.py cannot run with {sys.executable}, which lacks the module `{error.name}`.\n"
+        f"Install the package: {sys.executable} -m pip install 'robocomp_dsl[all]'\n"
+        f"or use the Python of the environment that has rcgen{place}."
+    )
 
 HERE = Path(__file__).parent
 BASE = HERE.parent / "mobile_base"
@@ -46,12 +57,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="A simulated robot wanders through a room.")
     parser.add_argument("--seconds", type=float, default=30.0, help="of simulated time (30)")
     parser.add_argument("--picture", type=Path, default=Path("demo.png"), help="(demo.png)")
-    given = parser.parse_args()
+    options = parser.parse_args()
     name = f"demo-{os.getpid()}"
     try:
         with deployed(name) as process:
-            first, last = watched(name, given.seconds, process)
-        report(first, last, given.picture)
+            first, last = watched(name, options.seconds, process)
+        report(first, last, options.picture)
     except DemoFailed as error:
         print(f"demo: {error}", file=sys.stderr)
         return 1
@@ -102,7 +113,7 @@ def until(
         if process.poll() is not None:
             raise DemoFailed(f"rcdeploy ended early, with exit code {process.returncode}")
         try:
-            states = {one.getInfo().state for one in running}
+            states = {component.getInfo().state for component in running}
             if states == {LifeState.Compute} and heard().time >= seconds:
                 return
         except MiddlewareError:

@@ -10,17 +10,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.runtime.onlooker import Onlooker, interfaces
+from robocomp_dsl.runtime.client import DomainClient, load_generated_interfaces
 
 LOGGER = Path(__file__).parents[1] / "path_logger"
 
 
-class Observer(Onlooker):
+class Observer(DomainClient):
     """Proxies of one domain; `close` it at the end."""
 
     def path(self, name: str = "path_logger") -> Callable[[], Any]:
         """Asks the logger called `name` for the `PathSummary` of what it has recorded."""
-        summary: Callable[[], Any] = self.calls(
-            interfaces(LOGGER).PATHLOG, name, "PathLog"
+        summary: Callable[[], Any] = self.operations(
+            load_generated_interfaces(LOGGER).PATHLOG, name, "PathLog"
         ).getSummary
         return summary

@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.mujoco.floor_plan import Outline
+from robocomp_dsl.simulation.scene.floor_plan import Outline
 
 INK, SOFT, PAPER, FLOOR = "#22303c", "#7b8894", "#ffffff", "#f4f1ea"
 WALL, THING, EDGE, ALARM = "#3b4956", "#d8cdb8", "#a89a80", "#d1495b"
@@ -47,7 +47,7 @@ class Drive:
 
 def draw(room: Sequence[Outline], drive: Drive, title: str, subtitle: str, file: Path) -> None:
     """Write the picture to `file`."""
-    corners = np.concatenate([one.corners for one in room])
+    corners = np.concatenate([outline.corners for outline in room])
     low, high = corners.min(axis=0) - MARGIN, corners.max(axis=0) + np.array([MARGIN, MARGIN / 4])
     wide, deep = high - low
     with mpl.rc_context({"font.family": "DejaVu Sans", "font.size": 9}):
@@ -67,18 +67,22 @@ def draw(room: Sequence[Outline], drive: Drive, title: str, subtitle: str, file:
 
 
 def _room(axes: Axes, room: Sequence[Outline]) -> None:
-    corners = np.concatenate([one.corners for one in room if one.name.startswith("wall")])
+    corners = np.concatenate(
+        [outline.corners for outline in room if outline.name.startswith("wall")]
+    )
     low, high = corners.min(axis=0), corners.max(axis=0)
     floor = np.array([low, (high[0], low[1]), high, (low[0], high[1])])
     axes.add_patch(Polygon(floor, facecolor=FLOOR, edgecolor="none", zorder=0))
-    for one in room:
-        if one.name.startswith("wall"):
-            axes.add_patch(Polygon(one.corners, facecolor=WALL, edgecolor=WALL, zorder=3))
+    for outline in room:
+        if outline.name.startswith("wall"):
+            axes.add_patch(Polygon(outline.corners, facecolor=WALL, edgecolor=WALL, zorder=3))
             continue
-        axes.add_patch(Polygon(one.corners, facecolor=THING, edgecolor=EDGE, linewidth=1, zorder=2))
-        name = one.name.split(maxsplit=2)[-1]
-        middle = ((one.corners.min(axis=0) + one.corners.max(axis=0)) / 2).tolist()
-        tall = np.ptp(one.corners[:, 1]) > 1.6 * np.ptp(one.corners[:, 0])
+        axes.add_patch(
+            Polygon(outline.corners, facecolor=THING, edgecolor=EDGE, linewidth=1, zorder=2)
+        )
+        name = outline.name.split(maxsplit=2)[-1]
+        middle = ((outline.corners.min(axis=0) + outline.corners.max(axis=0)) / 2).tolist()
+        tall = np.ptp(outline.corners[:, 1]) > 1.6 * np.ptp(outline.corners[:, 0])
         axes.text(
             middle[0],
             middle[1],

@@ -86,8 +86,8 @@ def decide(
         return Decision(it.advance, 0.0, None, nearest)
     longest = max(it.turn_min, it.turn_max)
     lasting = chance.uniform(it.turn_min, longest) / 1000
-    made = Turning(_side(angles, distances, it.side, chance), now + lasting)
-    return Decision(0.0, it.turn * made.sense, made, nearest)
+    new_turn = Turning(_side(angles, distances, it.side, chance), now + lasting)
+    return Decision(0.0, it.turn * new_turn.sense, new_turn, nearest)
 
 
 def _side(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 
-from generated.genericworker import GenericWorker
 from reaction import Turning, decide
+from wander_generated.genericworker import GenericWorker
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 
@@ -20,14 +20,14 @@ class SpecificWorker(GenericWorker):
         """Begin by going ahead."""
         self.chance = random.Random(self.params.seed)  # noqa: S311 - no secret
         self.turning: Turning | None = None
-        self.epoch = self.clock.epoch
+        self.epoch = self.clock.reset_count
 
     def compute(self) -> None:
         """Look, decide, drive."""
         scan = self.laser_proxy.getLaserData()
         now = self.clock.now()
-        if self.clock.epoch != self.epoch:
-            self.epoch, self.turning = self.clock.epoch, None
+        if self.clock.reset_count != self.epoch:
+            self.epoch, self.turning = self.clock.reset_count, None
         found = decide(scan.angle, scan.dist, now, self.turning, it=self.params, chance=self.chance)
         if found.turning is not None and self.turning is None:
             side = "right" if found.turning.sense > 0 else "left"

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from picture import Drive
 
-from robocomp_dsl.hardware.mujoco.floor_plan import Outline, clearance
-from robocomp_dsl.hardware.planar import Pose
-from robocomp_dsl.runtime.component_interface import OperationStatistics, Statistics
+from robocomp_dsl.hardware.kinematics.planar import Pose
+from robocomp_dsl.runtime.component.component_interface import OperationStatistics, Statistics
+from robocomp_dsl.simulation.scene.floor_plan import Outline, clearance
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,14 +33,14 @@ def read_drive(file: Path, room: Sequence[Outline], start: Pose, radius: float) 
     table = table[table["run"] == 0]
     path = np.stack([table["x_mm"], table["z_mm"]], axis=1)
     wheels = np.stack([table[f"odometry_{name}"] for name in ("x_mm", "z_mm", "alpha_rad")], axis=1)
-    told = [start.then(Pose(*row)) for row in wheels.tolist()]
+    poses = [start.then(Pose(*row)) for row in wheels.tolist()]
     distances, feet = clearance(path, room)
     nearest = int(distances.argmin())
     return Drive(
         time=table["time_s"],
         path=path,
         heading=table["alpha_rad"],
-        odometry=np.array([(pose.x, pose.z) for pose in told]),
+        odometry=np.array([(pose.x, pose.z) for pose in poses]),
         radius=radius,
         nearest=nearest,
         touching=feet[nearest],
@@ -56,7 +56,7 @@ def length(drive: Drive) -> float:
 def obstacle(drive: Drive, room: Sequence[Outline]) -> str:
     """What the robot came nearest to."""
     place = drive.path[drive.nearest : drive.nearest + 1]
-    name = min(room, key=lambda one: float(clearance(place, (one,))[0][0])).name
+    name = min(room, key=lambda outline: float(clearance(place, (outline,))[0][0])).name
     kind, *rest = name.split(maxsplit=2)
     return rest[1] if len(rest) > 1 else kind
 
@@ -76,13 +76,13 @@ def lines(first: Look, last: Look, drive: Drive, room: Sequence[Outline]) -> Ite
         cycles = last.statistics[name].cycles - first.statistics[name].cycles
         if cycles:
             yield f"  {name + ' computes':<42}{cycles / seconds:>12.1f}"
-    for told, component, operation in (
+    for label, component, operation in (
         ("laser scans, wander from mobile_base", "wander", "getLaserData"),
         ("speed commands, wander to mobile_base", "wander", "setSpeedBase"),
         ("base states, mobile_base to path_logger", "path_logger", "pushBaseState"),
     ):
         calls = _of(last, component, operation).calls - _of(first, component, operation).calls
-        yield f"  {told:<42}{calls / seconds:>12.1f}"
+        yield f"  {label:<42}{calls / seconds:>12.1f}"
     yield ""
     yield f"{'round trip of a query, ms':<44}{'median':>12}{'90 %':>9}{'99 %':>9}"
     for operation in ("getLaserData", "setSpeedBase"):

@@ -7,8 +7,8 @@ from editors.highlight.files import ROOT, files, table_file
 
 def main() -> None:
     """First the table, since the other files are made from the written one."""
-    for made in (table_file, files):
-        for path, text in made().items():
+    for outputs in (table_file, files):
+        for path, text in outputs().items():
             target = ROOT / path
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")

@@ -19,14 +19,14 @@ def table_file() -> dict[str, str]:
 
 def files() -> dict[str, str]:
     """The files of the editors, from the table as it is written."""
-    made = {"editors/emacs/robocomp-words.el": emacs.lisp()}
+    outputs = {"editors/emacs/robocomp-words.el": emacs.lisp()}
     for language in LANGUAGES:
-        made[f"editors/vscode/syntaxes/{language}.tmLanguage.json"] = _json(
+        outputs[f"editors/vscode/syntaxes/{language}.tmLanguage.json"] = _json(
             textmate.grammar(language)
         )
-        made[f"editors/vim/syntax/{language}.vim"] = vim.syntax(language)
-        made[f"editors/kate/syntax/{language}.xml"] = kate.definition(language)
-    return made
+        outputs[f"editors/vim/syntax/{language}.vim"] = vim.syntax(language)
+        outputs[f"editors/kate/syntax/{language}.xml"] = kate.definition(language)
+    return outputs
 
 
 def _json(data: object) -> str:

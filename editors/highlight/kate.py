@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from xml.sax.saxutils import quoteattr
 
-from robocomp_dsl.highlight.rules import NAME, Context, Rule, contexts
+from robocomp_dsl.highlight.rules import NAME, Context, HighlightRule, contexts
 from robocomp_dsl.highlight.table import words
 
 STYLES = {
@@ -59,8 +59,8 @@ _FRAME = """<?xml version="1.0" encoding="UTF-8"?>
 
 def definition(language: str) -> str:
     """The definition of one language."""
-    made = contexts(words(language))
-    lines = [line for name, one in made.items() for line in _context(name, one)]
+    contexts_by_name = contexts(words(language))
+    lines = [line for name, item in contexts_by_name.items() for line in _context(name, item)]
     styles = [f'      <itemData name="{name}" defStyleNum="{to}"/>' for name, to in STYLES.items()]
     return _FRAME.format(
         NAME=language.upper(),
@@ -83,7 +83,7 @@ def _context(name: str, context: Context) -> Iterator[str]:
             yield from _declared(rule)
 
 
-def _rule(rule: Rule) -> Iterator[str]:
+def _rule(rule: HighlightRule) -> Iterator[str]:
     declares = bool(rule.push) and len(rule.styles) > 1
     target = rule.push or ("#pop" if rule.pop else "#stay")
     pattern = rule.pattern
@@ -96,7 +96,7 @@ def _rule(rule: Rule) -> Iterator[str]:
     yield f'        <RegExpr {shown} context="{target}" String={quoteattr(pattern)}/>'
 
 
-def _declared(rule: Rule) -> Iterator[str]:
+def _declared(rule: HighlightRule) -> Iterator[str]:
     """What is behind the first word of a statement that declares something."""
     rest = f"#pop!{rule.push}"
     yield (

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_dsl.highlight.rules import Context, Rule, contexts
+from robocomp_dsl.highlight.rules import Context, HighlightRule, contexts
 from robocomp_dsl.highlight.table import words
 
 SCOPES = {
@@ -36,7 +36,7 @@ SCOPES = {
 
 def grammar(language: str) -> dict[str, Any]:
     """The grammar of one language."""
-    made = contexts(words(language))
+    contexts_by_name = contexts(words(language))
     return {
         "name": language.upper(),
         "scopeName": f"source.{language}",
@@ -44,20 +44,26 @@ def grammar(language: str) -> dict[str, Any]:
         "patterns": [{"include": "#root"}],
         "repository": {
             name: {
-                "patterns": [_pattern(rule, made, language) for rule in one.rules if not rule.pop]
+                "patterns": [
+                    _pattern(rule, contexts_by_name, language)
+                    for rule in item.rules
+                    if not rule.pop
+                ]
             }
-            for name, one in made.items()
+            for name, item in contexts_by_name.items()
         },
     }
 
 
-def _pattern(rule: Rule, made: dict[str, Context], language: str) -> dict[str, Any]:
+def _pattern(
+    rule: HighlightRule, contexts_by_name: dict[str, Context], language: str
+) -> dict[str, Any]:
     if not rule.push:
         return {"match": rule.pattern} | _captures(rule, "captures", language)
-    inside = made[rule.push]
-    ends = [one for one in inside.rules if one.pop]
+    inside = contexts_by_name[rule.push]
+    ends = [item for item in inside.rules if item.pop]
     region: dict[str, Any] = {"begin": rule.pattern} | _captures(rule, "beginCaptures", language)
-    region["end"] = "|".join(one.pattern for one in ends)
+    region["end"] = "|".join(end.pattern for end in ends)
     if inside.style:
         return {
             "name": f"{SCOPES[inside.style]}.{language}",
@@ -69,7 +75,7 @@ def _pattern(rule: Rule, made: dict[str, Context], language: str) -> dict[str, A
     return region
 
 
-def _captures(rule: Rule, key: str, language: str) -> dict[str, Any]:
+def _captures(rule: HighlightRule, key: str, language: str) -> dict[str, Any]:
     numbers = range(1, len(rule.styles) + 1) if len(rule.styles) > 1 else (0,)
     named = {
         str(number): {"name": f"{SCOPES[style]}.{language}"}

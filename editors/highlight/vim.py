@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_dsl.highlight.table import Statement, Words, words
+from robocomp_dsl.highlight.table import StatementKeywords, Words, words
 
 _GROUPS = {
     "Keyword": "Statement",
@@ -67,9 +67,11 @@ def syntax(language: str) -> str:
 def _body(of: Words) -> Iterator[str]:
     """Later lines win, so the general comes first."""
     yield from _items(of)
-    yield from _region(of, Statement("", False, False, of.plain, ()), _plain_start(of))
-    for one in of.statements:
-        yield from _region(of, one, rf"\<{one.word}\>" + _ahead(of.keywords[one.word]))
+    yield from _region(of, StatementKeywords("", False, False, of.plain, ()), _plain_start(of))
+    for statement in of.statements:
+        yield from _region(
+            of, statement, rf"\<{statement.word}\>" + _ahead(of.keywords[statement.word])
+        )
     yield from _comments(of.language)
 
 
@@ -106,24 +108,24 @@ def _items(of: Words) -> Iterator[str]:
     yield f"syn cluster {name}Any contains={','.join(name + kind for kind in kinds)},{name}String"
 
 
-def _region(of: Words, one: Statement, start: str) -> Iterator[str]:
+def _region(of: Words, item: StatementKeywords, start: str) -> Iterator[str]:
     """A statement; the groups inside it have its first word in their name, so none is mixed up."""
-    name, own = of.language, f"{of.language}_{one.word or 'plain'}"
+    name, own = of.language, f"{of.language}_{item.word or 'plain'}"
     inside = [f"@{name}Any", f"{name}Comment", f"{name}Doc"]
-    group = "Legacy" if one.legacy else "Declaration" if one.opens else "Keyword"
-    for word in one.inner:
+    group = "Legacy" if item.legacy else "Declaration" if item.opens else "Keyword"
+    for word in item.inner:
         yield rf"syn match {own}_inner contained /\.\@<!\<{word}\>\.\@!{_ahead(of.keywords[word])}/"
-    if one.values:
-        yield rf"syn match {own}_value contained /\.\@<!{_alternatives(one.values)}/"
-    if one.opens and "name" in of.keywords[one.word] and one.word != "connect":
-        yield rf"syn match {own}_name contained /\%(\<{one.word}\s\+\)\@<=\h\w*/"
-    if of.language == "pdsl" and not one.word:
+    if item.values:
+        yield rf"syn match {own}_value contained /\.\@<!{_alternatives(item.values)}/"
+    if item.opens and "name" in of.keywords[item.word] and item.word != "connect":
+        yield rf"syn match {own}_name contained /\%(\<{item.word}\s\+\)\@<=\h\w*/"
+    if of.language == "pdsl" and not item.word:
         yield rf"syn match {own}_field contained /\%([;{{]\_s*\|\*\/\_s*\|^\s*\)\@<=\h\w*/"
     for kind, group_of in _KINDS.items():
         inside.append(f"{own}_{kind}")
         yield f"hi def link {own}_{kind} {name}{group_of}"
     brace = r"\%({[A-Za-z0-9_, \t\n]*}\)\@![{}]" if of.language == "pdsl" else "[{}]"
-    first = f"matchgroup={name}{group} " if one.word else ""
+    first = f"matchgroup={name}{group} " if item.word else ""
     yield (
         f"syn region {own} {first}start=/{start}/ matchgroup=NONE end=/;/ "
         f"end=/{brace}/me=s-1 contains={','.join(inside)}"
@@ -151,5 +153,5 @@ def _alternatives(listed: Iterable[str]) -> str:
 
 
 def _ahead(behind: Iterable[str]) -> str:
-    chars = r"\|".join(sorted(_BEHIND.get(one, one) for one in behind))
+    chars = r"\|".join(sorted(_BEHIND.get(item, item) for item in behind))
     return rf"\%(\s*\%({chars}\|\/[*\/]\|$\)\)\@="

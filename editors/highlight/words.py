@@ -13,15 +13,15 @@ from typing import Any
 from lark import Lark
 from lark.grammar import Symbol, Terminal
 
-from robocomp_dsl.check.qos import PRIORITIES
-from robocomp_dsl.check.units import KNOWN
-from robocomp_dsl.check.workspace import MIDDLEWARES
+from robocomp_dsl.check.ddsl.qos import PRIORITIES
+from robocomp_dsl.check.idsl.units import KNOWN
+from robocomp_dsl.check.workspace.workspace import MIDDLEWARES
 from robocomp_dsl.model.types import PRIMITIVES
-from robocomp_dsl.syntax.cdsl_settings import LANGUAGES, OPTIONS, WIDGETS
-from robocomp_dsl.syntax.ddsl_instances import POLICIES, UNITS
-from robocomp_dsl.syntax.idsl_operations import PATTERNS
-from robocomp_dsl.syntax.tabulate import LANGUAGES as NAMES
-from robocomp_dsl.syntax.tabulate import lark, tabulate
+from robocomp_dsl.syntax.grammar.build_tables import LANGUAGES as NAMES
+from robocomp_dsl.syntax.grammar.build_tables import build_tables, lark_parser
+from robocomp_dsl.syntax.languages.cdsl_settings import LANGUAGES, OPTIONS, WIDGETS
+from robocomp_dsl.syntax.languages.ddsl_instances import POLICIES, TIME_UNITS
+from robocomp_dsl.syntax.languages.idsl_operations import PATTERNS
 
 VALUES = {
     "language": LANGUAGES,
@@ -55,20 +55,20 @@ class Grammar:
     """The rules of one language, asked for statements."""
 
     def __init__(self, language: str) -> None:
-        made: Lark = lark(language)
-        tables = tabulate(language)
+        outputs: Lark = lark_parser(language)
+        tables = build_tables(language)
         self.any_case: bool = tables["any_case"]
-        self.terminals: dict[str, str] = {t: w for w, t in self._spelling(made, tables).items()}
+        self.terminals: dict[str, str] = {t: w for w, t in self._spelling(outputs, tables).items()}
         self._actions: list[dict[str, int]] = tables["actions"]
         self._rules: dict[str, list[tuple[tuple[Symbol, ...], str]]] = defaultdict(list)
-        for rule in made.rules:
+        for rule in outputs.rules:
             self._rules[rule.origin.name].append((tuple(rule.expansion), rule.alias or ""))
 
     @staticmethod
-    def _spelling(made: Lark, tables: dict[str, Any]) -> dict[str, str]:
+    def _spelling(outputs: Lark, tables: dict[str, Any]) -> dict[str, str]:
         """The words as the grammar spells them, to the names of their terminals."""
         known = set(tables["keywords"].values())
-        return {t.pattern.value: t.name for t in made.terminals if t.name in known}
+        return {t.pattern.value: t.name for t in outputs.terminals if t.name in known}
 
     def statements(self) -> dict[str, tuple[set[str], bool, bool]]:
         """By the first keyword (or none): the keywords behind it, whether a block opens, legacy."""
@@ -138,16 +138,16 @@ def words(language: str) -> dict[str, Any]:
             spelt[terminal]: {
                 "opens": opens,
                 "legacy": legacy,
-                "inner": sorted(spelt[one] for one in inner),
+                "inner": sorted(spelt[item] for item in inner),
                 "values": list(VALUES.get(spelt[terminal], ())),
             }
             for terminal, (inner, opens, legacy) in sorted(found.items(), key=lambda i: spelt[i[0]])
         },
-        "plain": sorted(spelt[one] for one in plain[0] if spelt[one] not in types),
+        "plain": sorted(spelt[item] for item in plain[0] if spelt[item] not in types),
         "types": sorted(types),
         "truth": list(_TRUTH.get(language, ())),
         "patterns": list(PATTERNS) if language == "idsl" else [],
-        "durations": list(UNITS) if language in ("ddsl", "smdsl") else [],
+        "durations": list(TIME_UNITS) if language in ("ddsl", "smdsl") else [],
         "units": sorted(KNOWN) if language in ("idsl", "pdsl") else [],
     }
 

@@ -1,87 +1,92 @@
-"""Automatic fixes: from the findings about a text to the text without them.
+"""Applies safe fixes to a text.
 
-In: a source and findings. Out: the new text and the findings whose fixes are in it; nothing is
-written. A fix is automatic when its finding is a warning or a note: such a text is understood
-already, and the fix says the same in today's form. What would cure an error is a guess at what
-was meant, which is the user's to take.
+In: a source and diagnostics. Out: the new text and the diagnostics that were fixed; no file is
+written. Fixes of warnings and notes are safe: they keep the meaning and update the syntax. The fix
+of an error is a guess, which the user has to confirm.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from robocomp_dsl.check import codes
+from robocomp_dsl.check.codes import types as codes
 from robocomp_dsl.diagnostics import Diagnostic, Edit, Severity
-from robocomp_dsl.record import Value
+from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source
 
-ROUNDS = 20
-"""A fix may uncover or collide with another one, so a text is judged again this often at most."""
+MAX_ROUNDS = 20
+"""A fix may reveal or overlap another one, so a text is checked again up to this often."""
 
-_CHANGES_INTERFACE = (codes.UNHEARD_EXCEPTION,)
+_CHANGES_INTERFACE = (codes.EXCEPTION_WITHOUT_REPLY,)
 
 Change = tuple[int, int, str]
-"""Put the text in the place [start, end)."""
+"""Replace the range [start, end) by the text."""
 
 
-class Fixed(Value):
-    """A text after its fixes: what was fixed, and what is still found in it."""
+class FixResult(ValueRecord):
+    """A text after its fixes, the fixed diagnostics and the remaining ones."""
 
     text: str
     applied: tuple[Diagnostic, ...]
     remaining: tuple[Diagnostic, ...]
 
 
-def is_automatic(one: Diagnostic, source: Source) -> bool:
-    """Whether the fix of a finding may be applied to `source` without asking."""
+def is_safe(diagnostic: Diagnostic, source: Source) -> bool:
+    """Whether the fix may be applied to `source` without confirmation."""
     return (
-        one.fix is not None
-        and one.severity is not Severity.ERROR
-        and one.code not in _CHANGES_INTERFACE
-        and all(edit.span.source is source for edit in one.fix.edits)
+        diagnostic.fix is not None
+        and diagnostic.severity is not Severity.ERROR
+        and diagnostic.code not in _CHANGES_INTERFACE
+        and all(edit.span.source is source for edit in diagnostic.fix.edits)
     )
 
 
-def fix_all(source: Source, judge: Callable[[str], tuple[Source, list[Diagnostic]]]) -> Fixed:
-    """The text of `source` with all automatic fixes.
+def fix_all(source: Source, check: Callable[[str], tuple[Source, list[Diagnostic]]]) -> FixResult:
+    """Apply all safe fixes to the text of `source`.
 
-    `judge` gives the findings about a text and the source that they point into. A round that would
-    lead to more errors is not taken.
+    `judge` returns the diagnostics of a text and its source. A round that would
+    cause more errors is discarded.
     """
     text = source.text
     applied: tuple[Diagnostic, ...] = ()
-    judged, found = judge(text)
-    for _ in range(ROUNDS):
-        changed, done = apply(judged, found)
+    judged, found = check(text)
+    for _ in range(MAX_ROUNDS):
+        changed, done = apply_safe_fixes(judged, found)
         if not done or changed == text:
             break
-        next_judged, next_found = judge(changed)
+        next_judged, next_found = check(changed)
         if _errors(next_found) > _errors(found):
             break
         text, judged, found = changed, next_judged, next_found
         applied += done
-    return Fixed(text, applied, tuple(found))
+    return FixResult(text, applied, tuple(found))
 
 
-def apply(source: Source, findings: Iterable[Diagnostic]) -> tuple[str, tuple[Diagnostic, ...]]:
-    """One round: the automatic fixes that do not collide, first come first served.
+def apply_safe_fixes(
+    source: Source, findings: Iterable[Diagnostic]
+) -> tuple[str, tuple[Diagnostic, ...]]:
+    """One round: apply the safe fixes that do not overlap, in order.
 
-    A fix never takes away what an error is about: the user has still to say what it means.
+    A fix is skipped if it would delete the text of an error.
     """
     findings = list(findings)
-    wrong = [one.span for one in findings if one.severity is Severity.ERROR]
-    broken = [(one.start, one.end, "") for one in wrong if one.source is source]
+    wrong = [diagnostic.span for diagnostic in findings if diagnostic.severity is Severity.ERROR]
+    broken = [
+        (diagnostic.start, diagnostic.end, "")
+        for diagnostic in wrong
+        if diagnostic.source is source
+    ]
     taken: list[Change] = []
     done: list[Diagnostic] = []
-    for one in findings:
-        if one.fix is None or not is_automatic(one, source):
+    for diagnostic in findings:
+        if diagnostic.fix is None or not is_safe(diagnostic, source):
             continue
-        changes = [_change(source, edit) for edit in one.fix.edits]
+        changes = [_change(source, edit) for edit in diagnostic.fix.edits]
         if any(_covers(a, b) for a in changes for b in broken):
             continue
         if not any(_collide(a, b) for a in changes for b in taken):
             taken += changes
-            done.append(one)
+            done.append(diagnostic)
     text = source.text
     for start, end, new in sorted(taken, reverse=True):
         text = text[:start] + new + text[end:]
@@ -89,11 +94,11 @@ def apply(source: Source, findings: Iterable[Diagnostic]) -> tuple[str, tuple[Di
 
 
 def _errors(findings: Iterable[Diagnostic]) -> int:
-    return sum(one.severity is Severity.ERROR for one in findings)
+    return sum(diagnostic.severity is Severity.ERROR for diagnostic in findings)
 
 
-def _collide(one: Change, other: Change) -> bool:
-    return one[0] == other[0] or max(one[0], other[0]) < min(one[1], other[1])
+def _collide(diagnostic: Change, other: Change) -> bool:
+    return diagnostic[0] == other[0] or max(diagnostic[0], other[0]) < min(diagnostic[1], other[1])
 
 
 def _covers(change: Change, wrong: Change) -> bool:
@@ -101,7 +106,7 @@ def _covers(change: Change, wrong: Change) -> bool:
 
 
 def _change(source: Source, edit: Edit) -> Change:
-    """The edit with the line ends of the file; a line of which nothing would be left goes whole."""
+    """The edit with the line ends of the file; a line that would become empty is deleted."""
     text, start, end = source.text, edit.span.start, edit.span.end
     if edit.text:
         new = edit.text.replace("\r\n", "\n")

@@ -1,6 +1,6 @@
-"""Written values as values of a kind: defaults of fields and parameters, settings of a deployment.
+"""Converts literals to values of a type: defaults of fields and parameters, `set` in deployments.
 
-In: a literal of a tree. Out: the plain value, or `Misfit` with what is wrong in words.
+In: a literal of a tree. Out: the value; raises `TypeMismatch` with a message for the user.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from collections.abc import Sequence
 
 from robocomp_dsl.diagnostics import did_you_mean
 from robocomp_dsl.model import types
-from robocomp_dsl.syntax.ast_base import Bool, Literal, Name, Number, Text
+from robocomp_dsl.syntax.ast.base import Bool, Literal, Name, Number, Text
 
 
-class Misfit(Exception):
-    """The value is of another kind. `label` goes beside the carets, `replacement` mends it."""
+class TypeMismatch(Exception):
+    """The value has the wrong type; `label` is for the carets, `replacement` is a fix."""
 
     def __init__(self, message: str, label: str = "", replacement: str | None = None) -> None:
         super().__init__(message)
@@ -22,8 +22,8 @@ class Misfit(Exception):
         self.replacement = replacement
 
 
-class OutOfRange(Misfit):
-    """The kind is right, the value is not."""
+class OutOfRange(TypeMismatch):
+    """The type is right, the value is out of range."""
 
 
 def as_bool(literal: Literal) -> bool:
@@ -32,15 +32,15 @@ def as_bool(literal: Literal) -> bool:
         return literal.value
     if isinstance(literal, Name) and literal.text.lower() in ("true", "false"):
         return literal.text.lower() == "true"
-    raise Misfit(f"{_described(literal)}, but a `bool` is `true` or `false`")
+    raise TypeMismatch(f"{_describe(literal)}, but a `bool` is `true` or `false`")
 
 
 def as_int(literal: Literal, bits: int = 64) -> int:
     """A whole number that fits into a signed integer of `bits` bits; a byte is 0 to 255."""
     if not isinstance(literal, Number):
-        raise Misfit(f"{_described(literal)}, not a whole number")
+        raise TypeMismatch(f"{_describe(literal)}, not a whole number")
     if isinstance(literal.value, float) and not literal.value.is_integer():
-        raise Misfit(f"`{literal.span.text}` has a fraction, an integer has none")
+        raise TypeMismatch(f"`{literal.span.text}` is not an integer")
     low, high = (0, 255) if bits == 8 else (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)
     if not low <= literal.value <= high:
         raise OutOfRange(f"`{literal.span.text}` is outside {low} to {high}")
@@ -50,7 +50,7 @@ def as_int(literal: Literal, bits: int = 64) -> int:
 def as_float(literal: Literal) -> float:
     """A finite number."""
     if not isinstance(literal, Number):
-        raise Misfit(f"{_described(literal)}, not a number")
+        raise TypeMismatch(f"{_describe(literal)}, not a number")
     try:
         value = float(literal.value)
     except OverflowError:
@@ -61,28 +61,28 @@ def as_float(literal: Literal) -> float:
 
 
 def as_string(literal: Literal) -> str:
-    """A quoted text."""
+    """A string in quotes."""
     if isinstance(literal, Text):
         return literal.value
     written = literal.span.text
-    raise Misfit(f"{_described(literal)}, not a text in quotes", replacement=f'"{written}"')
+    raise TypeMismatch(f"{_describe(literal)}, not a string in quotes", replacement=f'"{written}"')
 
 
 def as_choice(literal: Literal, among: Sequence[str]) -> str:
-    """One of some names; also accepted in quotes, or as `Enumeration::name`."""
+    """One of the names `among`; quotes and `Enumeration::name` are accepted."""
     if isinstance(literal, (Name, Text)):
         word = literal.text if isinstance(literal, Name) else literal.value
         word = word.rpartition("::")[2]
         if word in among:
             return word
         raise OutOfRange(
-            f"`{word}` is not one of {listing(among)}", label=did_you_mean(word, among)
+            f"`{word}` is not one of {join_names(among)}", label=did_you_mean(word, among)
         )
-    raise Misfit(f"{_described(literal)}, not one of {listing(among)}")
+    raise TypeMismatch(f"{_describe(literal)}, not one of {join_names(among)}")
 
 
 def as_type(literal: Literal, type_: types.Type) -> types.Literal:
-    """The default of a field of this type."""
+    """The default value of a field of this type."""
     match type_:
         case types.BOOL:
             return as_bool(literal)
@@ -93,20 +93,20 @@ def as_type(literal: Literal, type_: types.Type) -> types.Literal:
         case types.Primitive():
             return as_int(literal, type_.bits)
         case types.Enum():
-            return as_choice(literal, [one.name for one in type_.enumerators])
-    raise Misfit(f"a `{type_.name}` begins empty and cannot be given a default")
+            return as_choice(literal, [enumerator.name for enumerator in type_.enumerators])
+    raise TypeMismatch(f"a `{type_.name}` cannot have a default; it starts empty")
 
 
-def listing(names: Sequence[str], most: int = 8) -> str:
-    """Names for a message: the first ones, and how many more there are."""
+def join_names(names: Sequence[str], most: int = 8) -> str:
+    """Names for a message: the first `most` names and the number of further ones."""
     shown = ", ".join(f"`{name}`" for name in names[:most])
     return f"{shown} and {len(names) - most} more" if len(names) > most else shown
 
 
-def _described(literal: Literal) -> str:
+def _describe(literal: Literal) -> str:
     match literal:
         case Text():
-            return f"`{literal.span.text}` is a text"
+            return f"`{literal.span.text}` is a string"
         case Bool():
             return f"`{literal.span.text}` is a bool"
         case Number():

@@ -1,4 +1,4 @@
-"""Options that several commands share, and what they say to users."""
+"""Options and messages that several commands share."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import click
 from robocomp_dsl.diagnostics import Diagnostic, Severity
 
 FORMATS = ("full", "concise", "json", "github", "sarif")
-FOR_PEOPLE = ("full", "concise")
-"""Forms that list only the first of very many findings."""
-WHOLE = ("json", "sarif")
-"""Forms that are one document, also when there is nothing in it."""
+HUMAN_FORMATS = ("full", "concise")
+"""Formats that list only the first findings of a file."""
+DOCUMENT_FORMATS = ("json", "sarif")
+"""Formats that print a complete document, also without findings."""
 
 files = click.argument(
     "files",
@@ -31,49 +31,49 @@ folders = click.option(
     multiple=True,
     type=click.Path(readable=False, path_type=Path),
     metavar="DIR",
-    help="Look for imported interfaces here, too; may be repeated.",
+    help="Also search imported interfaces in DIR; repeatable.",
 )
 packages = click.option(
     "--packages",
     multiple=True,
     type=click.Path(readable=False, path_type=Path),
     metavar="DIR",
-    help="Look for package://… here; may be repeated.",
+    help="Resolve package:// URLs in DIR; repeatable.",
 )
 output_format = click.option(
     "--format",
-    "form",
+    "output_format",
     type=click.Choice(FORMATS),
     default="full",
     show_default=True,
-    help="How findings are written.",
+    help="Output format of the findings.",
 )
 
 Command = Callable[..., Any]
 
 
-def colours_on(stream: TextIO) -> bool:
-    """Whether colours are wanted there: a terminal, and not told otherwise (no-color.org)."""
+def use_colours(stream: TextIO) -> bool:
+    """Whether to use colours: on a terminal, unless `NO_COLOR` is set (no-color.org)."""
     if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb":
         return False
     return stream.isatty()
 
 
-def show(findings: Sequence[Diagnostic], form: str, stream: TextIO) -> None:
-    """Print findings in one of `FORMATS`; a `WHOLE` one is printed even when it is empty."""
-    if not findings and form not in WHOLE:
+def print_findings(findings: Sequence[Diagnostic], output_format: str, stream: TextIO) -> None:
+    """Print findings in one of `FORMATS`; `DOCUMENT_FORMATS` are printed without findings, too."""
+    if not findings and output_format not in DOCUMENT_FORMATS:
         return
-    from robocomp_dsl.cli import formats, render  # noqa: PLC0415 - most runs find nothing
+    from robocomp_dsl.cli.output import formats, render  # noqa: PLC0415 - most runs find nothing
 
-    if form == "full":
-        text = render.full(findings, colours=colours_on(stream))
+    if output_format == "full":
+        text = render.full(findings, colours=use_colours(stream))
     else:
-        text = formats.FORMATS[form](findings)
+        text = formats.FORMATS[output_format](findings)
     write_text(text, stream)
 
 
 def write_text(text: str, stream: TextIO) -> None:
-    """Write `text`; what the encoding of the stream lacks must not end the program."""
+    """Write `text`, with escapes for characters that the stream cannot encode."""
     encoding = stream.encoding or "utf-8"
     stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
 
@@ -85,9 +85,9 @@ def summary(findings: Sequence[Diagnostic]) -> str:
     return ", ".join(parts) or "no findings"
 
 
-def complain(message: str) -> None:
-    """A line about something that has no place in a file."""
-    from robocomp_dsl.cli.render import harmless  # noqa: PLC0415
+def print_error(message: str) -> None:
+    """Print an error that has no location in a file."""
+    from robocomp_dsl.cli.output.render import strip_control_chars  # noqa: PLC0415
 
-    label = "\x1b[1;31merror\x1b[0m" if colours_on(sys.stderr) else "error"
-    print(f"{label}: {harmless(message)}", file=sys.stderr)
+    label = "\x1b[1;31merror\x1b[0m" if use_colours(sys.stderr) else "error"
+    print(f"{label}: {strip_control_chars(message)}", file=sys.stderr)

@@ -1,8 +1,8 @@
-"""How the commands run: sub-commands loaded when they are called, exits and failures of a program.
+"""Runs the commands: lazy loading of sub-commands, error messages and exit codes.
 
-In: a table of sub-commands. Out: a click group, and `run`, which turns everything that can happen
-into an exit code: 0 clean, 1 findings, 2 usage, 70 a mistake of ours, 130 Ctrl-C, 141 nobody reads
-the output any more, 143 SIGTERM.
+In: a table of sub-commands. Out: a click group, and `run`, the only exit of the process with code 0
+(success), 1 (findings), 2 (usage), 70 (internal error), 130 (Ctrl-C), 141 (broken pipe) or 143
+(SIGTERM).
 """
 
 from __future__ import annotations
@@ -17,22 +17,32 @@ from typing import Any, NoReturn
 
 import click
 
-FINDINGS = 1
-USAGE = 2
-OUR_MISTAKE = 70
-INTERRUPTED = 130
-NO_READER = 141
-TERMINATED = 143
-YOUNG = 20_000
-"""New objects before the garbage collector looks through them; a command makes few that become
-garbage in circles."""
+from robocomp_dsl.extras import MissingExtra
+
+EXIT_FINDINGS = 1
+EXIT_USAGE = 2
+EXIT_SOFTWARE = 70
+EXIT_INTERRUPTED = 130
+EXIT_BROKEN_PIPE = 141
+EXIT_TERMINATED = 143
+GC_GEN0_THRESHOLD = 20_000
+"""New objects before a garbage collection; commands create few reference cycles."""
 DEBUG = "ROBOCOMP_DEBUG"
 
 
-class LazyGroup(click.Group):
-    """A group whose sub-commands are modules of this package, each with a `command`.
+class CliError(Exception):
+    """Ends the command with exit code `code`; `run` prints `message`, if any, to stderr."""
 
-    `table` has the name, the module and the line for `--help` of each, so that help loads none.
+    def __init__(self, code: int, message: str = "") -> None:
+        super().__init__(message)
+        self.code = code
+
+
+class LazyGroup(click.Group):
+    """A group whose sub-commands are modules of `robocomp_dsl.cli`, each with a `command`.
+
+    `table` maps the name of a command to its module and its line in `--help`. The help loads no
+    module.
     """
 
     def __init__(self, *args: Any, table: dict[str, tuple[str, str]], **kwargs: Any) -> None:
@@ -59,7 +69,7 @@ class LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does, with the nearest name for an unknown one."""
+        """As in click, but suggests the nearest name for an unknown command."""
         if args and not args[0].startswith("-") and args[0] not in self.table:
             from robocomp_dsl.diagnostics import did_you_mean  # noqa: PLC0415 - not for --help
 
@@ -68,7 +78,7 @@ class LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """As click does; when nobody reads the output any more, the rest of it goes nowhere."""
+        """As in click, but a broken pipe ends the command; remaining output is discarded."""
         try:
             try:
                 return super().invoke(ctx)
@@ -76,7 +86,7 @@ class LazyGroup(click.Group):
                 sys.stdout.flush()
         except BrokenPipeError:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            ctx.exit(NO_READER)
+            raise CliError(EXIT_BROKEN_PIPE) from None
 
     def format_commands(
         self,
@@ -89,10 +99,10 @@ class LazyGroup(click.Group):
 
 
 def terminal_width() -> int:
-    """Columns for help texts; asked here, because what click asks takes long to load."""
-    given = os.environ.get("COLUMNS", "")
-    if given.isdigit() and int(given):
-        return int(given)
+    """Columns for help texts; computed here, because click's own way loads slow modules."""
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdigit() and int(columns):
+        return int(columns)
     try:
         return os.get_terminal_size(sys.stdout.fileno()).columns
     except (OSError, ValueError, AttributeError):
@@ -100,58 +110,73 @@ def terminal_width() -> int:
 
 
 def run(program: click.Command, name: str) -> NoReturn:
-    """Run `program` on the command line and leave the process with its exit code."""
+    """Run `program` on the command line and exit the process with its exit code."""
     signal.signal(signal.SIGTERM, _terminated)
-    gc.set_threshold(YOUNG)
+    # Python does so itself, except where a script starts it in the background with SIGINT ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    gc.set_threshold(GC_GEN0_THRESHOLD)
     try:
         sys.exit(_exit_code(program, name))
     finally:
-        gc.freeze()  # or the interpreter looks through everything once more before it ends
+        gc.freeze()  # avoids a last full collection when the interpreter exits
 
 
 def _exit_code(program: click.Command, name: str) -> int:
     try:
-        code = program.main(prog_name=name, standalone_mode=False)
-    except click.exceptions.Exit as leaving:
-        return leaving.exit_code
+        code: object = program.main(prog_name=name, standalone_mode=False)
+    except click.exceptions.Exit as request:
+        code = request.exit_code
     except click.ClickException as error:
         error.show()
-        return error.exit_code
+        code = error.exit_code
+    except CliError as error:
+        _print_message(error)
+        code = error.code
     except (click.Abort, KeyboardInterrupt):
         print(f"{name}: interrupted", file=sys.stderr)
-        return INTERRUPTED
+        code = EXIT_INTERRUPTED
     except SystemExit:
         raise
+    except MissingExtra as error:
+        _print_message(error)
+        code = EXIT_FINDINGS
     except BaseException as error:
         if os.environ.get(DEBUG):
             raise
         print(bug_report(name, error), file=sys.stderr)
-        return OUR_MISTAKE
+        code = EXIT_SOFTWARE
     return code if isinstance(code, int) else 0
 
 
+def _print_message(error: Exception) -> None:
+    if message := str(error):
+        from robocomp_dsl.cli.options import print_error  # noqa: PLC0415 - only for errors
+
+        print_error(message)
+
+
 def bug_report(name: str, error: BaseException) -> str:
-    """A mistake of ours in one line: what, where in our code, and how to see more."""
-    said = " ".join(str(error).split())[:200]
-    what = f"{type(error).__name__}: {said}" if said else type(error).__name__
+    """An internal error in one line: the exception, its location, and how to get the traceback."""
+    message = " ".join(str(error).split())[:200]
+    cause = f"{type(error).__name__}: {message}" if message else type(error).__name__
     return (
-        f"{name}: internal error, please report it: {what} at {_place(error.__traceback__)} "
-        f"({DEBUG}=1 shows the whole trace)"
+        f"{name}: internal error, please report it: {cause} at {_location(error.__traceback__)} "
+        f"({DEBUG}=1 shows the whole traceback)"
     )
 
 
-def _place(trace: TracebackType | None) -> str:
-    """The innermost place in this package that the exception went through."""
-    found = "unknown place"
+def _location(trace: TracebackType | None) -> str:
+    """The innermost frame of this package in the traceback."""
+    location = "unknown location"
     package = f"{os.sep}robocomp_dsl{os.sep}"
     while trace:
         file = trace.tb_frame.f_code.co_filename
         if package in file:
-            found = f"robocomp_dsl/{file.rpartition(package)[2]}:{trace.tb_lineno}"
+            location = f"robocomp_dsl/{file.rpartition(package)[2]}:{trace.tb_lineno}"
         trace = trace.tb_next
-    return found
+    return location
 
 
 def _terminated(*_: object) -> NoReturn:
-    # An exception, so that half-written files are taken back on the way out.
-    sys.exit(TERMINATED)
+    # Raises SystemExit, so that partially written files are rolled back.
+    sys.exit(EXIT_TERMINATED)

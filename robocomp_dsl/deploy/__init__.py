@@ -1,5 +1,5 @@
-"""From a resolved deployment to running processes.
+"""Turns a resolved deployment into running processes.
 
-`plan` (pure) says what to start and how; `preflight` says what this machine lacks for it; `session`
-runs it with an engine; `folder` and `control` let other terminals find it and talk to it.
+`plan` (pure) computes the processes; `preflight` checks this machine; `session` runs the plan with
+a supervisor; `instances` and `control` let other terminals find the deployment and control it.
 """

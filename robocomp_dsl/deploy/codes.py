@@ -1,4 +1,4 @@
-"""The findings of rcdeploy: what this machine lacks to run a deployment that is right in itself."""
+"""Finding codes of rcdeploy: reasons why a valid deployment cannot run on this machine."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from robocomp_dsl.diagnostics import Code, Severity
 CONFIGURATION = Code(
     "RC901",
     Severity.ERROR,
-    "a configuration does not fit the parameters of its component",
+    "invalid component configuration",
     """\
-The file named by `config` (or the component's own `etc/config.yaml`) and the `set` lines are
-checked against the PDSL file of the component before anything is started.
+rcdeploy checks the file named by `config` (or the component's own `etc/config.yaml`) and the `set`
+lines against the component's PDSL file before it starts any process.
 
 Wrong, where the PDSL says `rate float 50 1:1000;`:
 
@@ -26,12 +26,12 @@ Right:
 EXECUTABLE = Code(
     "RC902",
     Severity.ERROR,
-    "the executable of a component is not there",
+    "missing component executable",
     """\
-`executable` is a command line that runs in the folder of the component's CDSL file; its program is
-searched there and in PATH. `python3` means the Python that runs rcdeploy.
+`executable` is a command line that runs in the folder of the component's CDSL file. rcdeploy looks
+for the program in that folder and in PATH. `python3` is the Python that runs rcdeploy.
 
-Wrong, where nothing called `main` was built:
+Wrong, if no program `main` was built:
 
     component arm { executable "./main"; };
 
@@ -44,9 +44,9 @@ Right:
 NOT_GENERATED = Code(
     "RC903",
     Severity.ERROR,
-    "a component has not been generated",
+    "component not generated",
     """\
-A deployment starts `main.py` beside the CDSL file, which `rcgen component` writes.
+A deployment starts `main.py` in the folder of the CDSL file. `rcgen component` writes that file:
 
     rcgen component components/arm/arm.cdsl
 """,
@@ -55,21 +55,21 @@ A deployment starts `main.py` beside the CDSL file, which `rcgen component` writ
 PORT_TAKEN = Code(
     "RC904",
     Severity.ERROR,
-    "the port of a component is in use",
+    "TCP port in use",
     """\
-`port N` makes a component listen on a fixed TCP port of this machine. Another process listens there
-already: an earlier run, or another component of the deployment. Without `port` any free one is
-used.
+`port N` makes a component listen on a fixed TCP port of this machine. Another process already
+listens there: an earlier run, or another component of the deployment. Without `port` the component
+uses any free port.
 """,
 )
 
 OUTDATED = Code(
     "RC905",
     Severity.WARNING,
-    "the generated code is older than its description",
+    "outdated generated code",
     """\
-The files under `generated/` are not those that `rcgen component` would write now; the component may
-speak another interface or know other parameters than the deployment assumes.
+The generated files differ from what `rcgen component` would write now. The component may
+use other interfaces or parameters than the deployment was checked with. Generate it again:
 
     rcgen component components/arm/arm.cdsl
 """,
@@ -78,10 +78,10 @@ speak another interface or know other parameters than the deployment assumes.
 MIDDLEWARE = Code(
     "RC906",
     Severity.ERROR,
-    "a middleware that cannot connect processes",
+    "middleware cannot connect processes",
     """\
-A deployment runs each component in a process of its own and watches it over the middleware of the
-deployment. That takes `zenoh`; `inproc` connects components within one process.
+A deployment runs each component in its own process and monitors it through the middleware of the
+deployment. This requires `zenoh`; `inproc` connects components within one process only.
 
 Wrong:
 
@@ -96,17 +96,17 @@ Right:
 OTHER_MACHINE = Code(
     "RC907",
     Severity.ERROR,
-    "a component is placed on another machine",
+    "component on another machine",
     """\
-rcdeploy starts components on the machine that it runs on, and on no other yet. What is on
-`localhost`, or on a host with that address, is started.
+rcdeploy starts components only on the machine it runs on: those without a host, on `localhost`, or
+on a host whose address is this machine. Remote hosts are not supported yet.
 
-Not yet:
+Wrong:
 
     host robot { address "10.0.0.2"; };
     component arm on robot;
 
-For now:
+Right:
 
     component arm on localhost;
 """,

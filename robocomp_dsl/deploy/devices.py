@@ -1,4 +1,4 @@
-"""The devices of an instance: for its process as an environment variable, for people as lines."""
+"""Describes the devices of an instance: as an environment variable, and as text lines."""
 
 from __future__ import annotations
 
@@ -7,37 +7,41 @@ from typing import Any
 
 from robocomp_dsl.model.devices import Action, Devices
 
-VARIABLE = "ROBOCOMP_DEVICES"
+DEVICES_VARIABLE = "ROBOCOMP_DEVICES"
 
 
 def devices_environment(devices: Devices) -> tuple[tuple[str, str], ...]:
-    """The variable with the description as JSON; nothing where there are no devices."""
+    """The environment variable that holds the devices as JSON; empty without devices."""
     if not devices:
         return ()
     data: dict[str, Any] = {
         "devices": [
-            {**dict(one.parameters), "name": one.name, "kind": one.kind} for one in devices.devices
+            {**dict(device.parameters), "name": device.name, "kind": device.kind}
+            for device in devices.devices
         ],
-        "attach": {one.device: list(one.to) for one in devices.attachments},
-        "actions": [_action(one) for one in devices.actions],
+        "attach": {attached.device: list(attached.to) for attached in devices.attachments},
+        "actions": [_action_data(action) for action in devices.actions],
     }
-    return ((VARIABLE, json.dumps(data)),)
+    return ((DEVICES_VARIABLE, json.dumps(data)),)
 
 
-def _action(one: Action) -> dict[str, Any]:
-    made: dict[str, Any] = {"phase": one.phase, "level": one.level, one.verb: one.device}
-    return {**made, "by": one.by} if one.by else made
+def _action_data(action: Action) -> dict[str, Any]:
+    data: dict[str, Any] = {
+        "phase": action.phase,
+        "level": action.level,
+        action.verb: action.device,
+    }
+    return {**data, "by": action.by} if action.by else data
 
 
-def devices_shown(devices: Devices) -> tuple[str, ...]:
+def describe_devices(devices: Devices) -> tuple[str, ...]:
     """`arm: control_board`, `hand: cartesian on arm`, `startup 5: calibrate arm by zeroing`."""
-    on = {one.device: one.to for one in devices.attachments}
-    things = (
-        f"{one.name}: {one.kind}" + (f" on {', '.join(on[one.name])}" if one.name in on else "")
-        for one in devices.devices
-    )
-    actions = (
-        f"{one.phase} {one.level}: {one.verb} {one.device}" + (f" by {one.by}" if one.by else "")
-        for one in devices.actions
-    )
-    return (*things, *actions)
+    targets = {attached.device: attached.to for attached in devices.attachments}
+    lines = []
+    for device in devices.devices:
+        on = f" on {', '.join(targets[device.name])}" if device.name in targets else ""
+        lines.append(f"{device.name}: {device.kind}{on}")
+    for action in devices.actions:
+        by = f" by {action.by}" if action.by else ""
+        lines.append(f"{action.phase} {action.level}: {action.verb} {action.device}{by}")
+    return tuple(lines)

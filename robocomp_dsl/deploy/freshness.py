@@ -1,7 +1,8 @@
-"""Whether generated code is what its description would give now.
+"""Finds components whose generated code is outdated.
 
-In: a deployment. Out: a warning for each component whose `generated/` is older than its sources:
-it would run, but may know other parameters and interfaces than the deployment was checked with.
+In: a deployment. Out: a warning for each component whose generated code differs from what rcgen
+would write now. Such a component runs, but its interfaces and parameters may not be those that the
+deployment was checked with.
 """
 
 from __future__ import annotations
@@ -9,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.deploy import codes
-from robocomp_dsl.deploy.preflight import short
+from robocomp_dsl.deploy.preflight import short_path
 from robocomp_dsl.diagnostics import Diagnostic
-from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.write import CannotWrite, compare
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.deployment import Deployment
@@ -19,36 +20,40 @@ from robocomp_dsl.model.deployment import Deployment
 LANGUAGE = "python"
 
 
-def outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterator[Diagnostic]:
-    """One warning for a component, however many instances it has."""
+def find_outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterator[Diagnostic]:
+    """One warning per outdated component, at its first instance."""
     known = tuple(middlewares)
-    judged: set[Component] = set()
+    checked: set[Component] = set()
     for instance in deployment.instances:
         component = instance.component
-        if component in judged:
+        if component in checked:
             continue
-        judged.add(component)
-        changed = _changed(component, known)
+        checked.add(component)
+        changed = _changed_files(component, known)
         if changed:
             yield Diagnostic(
                 codes.OUTDATED,
                 instance.span,
-                f"the generated code of `{component.name}` is not what its description gives now",
+                f"the generated code of `{component.name}` is outdated",
                 label=", ".join(changed),
-                help=f"rcgen component {short(component.path)}",
+                help=f"rcgen component {short_path(component.path)}",
             )
 
 
-def _changed(component: Component, middlewares: tuple[str, ...]) -> list[str]:
-    """The files that would change; it may have been generated for another middleware."""
+def _changed_files(component: Component, middlewares: tuple[str, ...]) -> list[str]:
+    """The files that would change, for the middleware with the fewest changes.
+
+    The component may have been generated for another middleware than its default.
+    """
     best: list[str] | None = None
     for middleware in dict.fromkeys((component.middleware, *middlewares)):
-        files = [f for f in plan(component, language=LANGUAGE, middleware=middleware) if not f.keep]
+        planned = plan(component, language=LANGUAGE, middleware=middleware)
+        files = [file for file in planned if not file.write_once]
         try:
             changes = compare(component.path.parent, files)
         except CannotWrite:
             return []
-        found = [one.file.path for one in changes if one.pending]
+        found = [change.file.path for change in changes if change.pending]
         if best is None or len(found) < len(best):
             best = found
         if not best:

@@ -1,7 +1,7 @@
-"""The parameters of a PDSL file as the schema that the runtime checks configurations with.
+"""Converts the parameters of a PDSL file to the schema that the runtime checks configurations with.
 
-In: the model of a PDSL file. Out: the same constants that the generated `params.py` holds, so that
-a configuration is judged before anything runs exactly as the component will judge it.
+In: the model of a PDSL file. Out: the constants that the generated `params.py` holds, so a
+configuration is checked before the start exactly as the component checks it.
 """
 
 from __future__ import annotations
@@ -14,25 +14,29 @@ from robocomp_dsl.runtime import parameters as runtime
 from robocomp_dsl.runtime.parameters import schema as schemas
 
 
-def schema(parameters: Sequence[Parameter]) -> runtime.Schema:
+def runtime_schema(parameters: Sequence[Parameter]) -> runtime.Schema:
     """One entry for each of `parameters`."""
-    return tuple(_entry(one) for one in parameters)
+    return tuple(_runtime_entry(parameter) for parameter in parameters)
 
 
-def _entry(one: Parameter) -> schemas.Entry:
-    if one.kind is Kind.GROUP:
-        low, high = (None if bound is None else int(bound) for bound in (one.low, one.high))
-        members = {"SCHEMA": schema(one.members)}
-        kind = type(f"{one.name}_group", (runtime.ParameterGroup,), members)
-        return runtime.Group(one.name, kind, low, high, single=one.single, doc=one.doc)
+def _runtime_entry(parameter: Parameter) -> schemas.Entry:
+    if parameter.kind is Kind.GROUP:
+        low, high = (
+            None if bound is None else int(bound) for bound in (parameter.low, parameter.high)
+        )
+        members = {"SCHEMA": runtime_schema(parameter.members)}
+        kind = type(f"{parameter.name}_group", (runtime.ParameterGroup,), members)
+        return runtime.Group(
+            parameter.name, kind, low, high, single=parameter.single, doc=parameter.doc
+        )
     return runtime.Parameter(
-        one.name,
-        cast("schemas.Kind", one.kind.value),
-        default=one.default,
-        low=one.low,
-        high=one.high,
-        unit=one.unit,
-        choices=one.choices,
-        live=one.live,
-        doc=one.doc,
+        parameter.name,
+        cast("schemas.Kind", parameter.kind.value),
+        default=parameter.default,
+        low=parameter.low,
+        high=parameter.high,
+        unit=parameter.unit,
+        choices=parameter.choices,
+        live=parameter.live,
+        doc=parameter.doc,
     )

@@ -1,7 +1,7 @@
-"""What this machine lacks to run a deployment; nothing is started if there is anything.
+"""Checks whether this machine can run a deployment, before any process is started.
 
-In: the deployment and its plan. Out: findings, at the component in the DDSL file or at the place in
-the configuration file. Reads files and tries ports, changes nothing.
+In: the deployment and its plan. Out: findings, located at the component in the DDSL file or in the
+configuration file. Reads files and probes ports; changes nothing.
 """
 
 from __future__ import annotations
@@ -13,151 +13,151 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from robocomp_dsl.deploy import codes
-from robocomp_dsl.deploy.parameters import schema
+from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.model.deployment import Deployment, Instance
-from robocomp_dsl.runtime.config import Asked, choose, surroundings
-from robocomp_dsl.runtime.parameters import ConfigError, Finding, load_values, overrides
+from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
+from robocomp_dsl.runtime.parameters import ConfigError, ConfigFinding, load_values, overrides
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
-OWN_CONFIG = Path("etc") / "config.yaml"
-"""What a component reads without being told to, if it is there."""
-WATCHED = ("zenoh",)
-"""Middlewares over which rcdeploy sees whether a component is ready."""
+DEFAULT_CONFIG = Path("etc") / "config.yaml"
+"""The configuration that a component reads by default, if the file exists."""
+MONITORED_MIDDLEWARES = ("zenoh",)
+"""Middlewares through which rcdeploy can monitor whether a component is ready."""
 
 
 def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list[Diagnostic]:
-    """Everything that would keep `plan` from running here. `ports`: they must be free."""
-    found: list[Diagnostic] = []
-    if deployment.middleware not in WATCHED:
-        said = f"components on `{deployment.middleware}` cannot be deployed as processes"
-        way_out = f"leave `middleware` out, or write one of: {', '.join(WATCHED)}"
-        found.append(Diagnostic(codes.MIDDLEWARE, deployment.span, said, help=way_out))
+    """All reasons why `plan` cannot run here. With `ports`, fixed ports must be free."""
+    findings: list[Diagnostic] = []
+    if deployment.middleware not in MONITORED_MIDDLEWARES:
+        message = f"middleware `{deployment.middleware}` cannot connect processes"
+        help_text = f"remove `middleware`, or use one of: {', '.join(MONITORED_MIDDLEWARES)}"
+        findings.append(Diagnostic(codes.MIDDLEWARE, deployment.span, message, help=help_text))
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
-        if not instance.host.is_here:
-            found.append(_elsewhere(instance))
+        if not instance.host.is_local:
+            findings.append(_remote_host(instance))
             continue
-        missing = list(_executable(instance, process))
-        found += missing or configuration(instance, process)
-    found += _ports(deployment) if ports else ()
-    return found
+        missing = list(_check_executable(instance, process))
+        findings += missing or check_configuration(instance, process)
+    findings += _check_ports(deployment) if ports else ()
+    return findings
 
 
-def _elsewhere(instance: Instance) -> Diagnostic:
+def _remote_host(instance: Instance) -> Diagnostic:
     host = instance.host
-    where = host.address or "an unknown address"
+    address = host.address or "an unknown address"
     notes = (Note(host.span, f"`{host.name}` is declared here"),) if host.span else ()
     return Diagnostic(
         codes.OTHER_MACHINE,
-        instance.placed or instance.span,
-        f"`{instance.name}` is on `{host.name}` ({where}), and nothing can be started there yet",
+        instance.host_span or instance.span,
+        f"`{instance.name}` is on `{host.name}` ({address}); remote hosts are not supported yet",
         label="rcdeploy starts components on this machine only",
         notes=notes,
-        help="write `on localhost`, or run a deployment of its own on that machine",
+        help="write `on localhost`, or run a separate deployment on that machine",
     )
 
 
-def _executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
+def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnostic]:
     if not process.cwd.is_dir():
-        yield _at(instance, codes.EXECUTABLE, f"there is no folder {process.cwd}")
+        yield _diagnostic(instance, codes.EXECUTABLE, f"folder not found: {process.cwd}")
         return
     program = process.argv[0]
-    if not _found(program, process):
-        yield _at(instance, codes.EXECUTABLE, f"there is no program `{program}` for it")
+    if not _program_exists(program, process):
+        yield _diagnostic(instance, codes.EXECUTABLE, f"program not found: `{program}`")
     script = process.argv[1]
     if not script.endswith(".py") or (process.cwd / script).is_file():
         return
-    cdsl = short(instance.component.path)
+    cdsl = short_path(instance.component.path)
     if script == "main.py":
-        said = f"its code has not been generated, there is no {script} beside {cdsl}"
-        yield _at(instance, codes.NOT_GENERATED, said, f"rcgen component {cdsl}")
+        message = f"component not generated: no {script} in the folder of {cdsl}"
+        yield _diagnostic(instance, codes.NOT_GENERATED, message, f"rcgen component {cdsl}")
     else:
-        yield _at(instance, codes.EXECUTABLE, f"there is no {script} in {short(process.cwd)}")
+        message = f"no {script} in {short_path(process.cwd)}"
+        yield _diagnostic(instance, codes.EXECUTABLE, message)
 
 
-def _found(program: str, process: Process) -> bool:
+def _program_exists(program: str, process: Process) -> bool:
     path = dict(process.env).get("PATH", os.environ.get("PATH"))
-    beside = process.cwd / program
-    return bool(shutil.which(str(beside) if os.sep in program else program, path=path))
+    local = process.cwd / program
+    return bool(shutil.which(str(local) if os.sep in program else program, path=path))
 
 
-def configuration(instance: Instance, process: Process) -> list[Diagnostic]:
-    """What is wrong with the values that an instance would get.
-
-    The component would refuse it at its start; here it is told before anything starts.
-    """
-    own = instance.component.parameters
-    known = schema(own.parameters) if own else ()
-    beside = process.cwd / OWN_CONFIG
+def check_configuration(instance: Instance, process: Process) -> list[Diagnostic]:
+    """Errors in the configuration of an instance, as the component would report them."""
+    parameters = instance.component.parameters
+    schema = runtime_schema(parameters.parameters) if parameters else ()
+    default = process.cwd / DEFAULT_CONFIG
     try:
-        found = process.config or _found_by(instance.name, process)
-        config = found or (beside if beside.is_file() else None)
+        config = process.config or _search_config(instance.name, process)
+        config = config or (default if default.is_file() else None)
     except ConfigError as error:
-        return [_in_configuration(instance, None, one) for one in error.findings]
+        return [_config_diagnostic(instance, None, finding) for finding in error.findings]
     try:
-        load_values(known, config, process.settings)
+        load_values(schema, config, process.settings)
     except ConfigError as error:
-        return [_in_configuration(instance, config, one) for one in error.findings]
+        return [_config_diagnostic(instance, config, finding) for finding in error.findings]
     return []
 
 
-def _found_by(name: str, process: Process) -> Path | None:
-    """What the instance `name` would find; None: its own. Raises `ConfigError`."""
-    if not (process.context or process.searched):
+def _search_config(name: str, process: Process) -> Path | None:
+    """The file that the instance finds in its context; None: its default. Raises `ConfigError`."""
+    if not (process.context or process.config_name):
         return None
     names = tuple(dict.fromkeys((process.name, name, process.component)))
-    asked = Asked(process.context, process.searched, names)
-    around = surroundings(os.environ | dict(process.env), process.cwd)
-    return choose(asked, around).path
+    request = ConfigRequest(process.context, process.config_name, names)
+    environment = SearchEnvironment.from_environ(os.environ | dict(process.env), process.cwd)
+    return resolve_config(request, environment).path
 
 
-def _in_configuration(instance: Instance, config: Path | None, finding: Finding) -> Diagnostic:
+def _config_diagnostic(
+    instance: Instance, config: Path | None, finding: ConfigFinding
+) -> Diagnostic:
     place = finding.place
     span = instance.span
     message = f"{finding.message} (`{instance.name}`)"
     if config and place.text.name == str(config):
-        span = _span(config, place.line, place.column, place.width)
-    elif place.text.name == overrides.NAME:
+        span = _config_span(config, place.line, place.column, place.width)
+    elif place.text.name == overrides.SOURCE_NAME:
         message = f"{finding.message} (`set {place.excerpt}` of `{instance.name}`)"
     return Diagnostic(codes.CONFIGURATION, span, message, label=finding.label, help=finding.help)
 
 
-def _span(path: Path, line: int, column: int, width: int) -> Span:
+def _config_span(path: Path, line: int, column: int, width: int) -> Span:
     try:
         source = Source.read(path)
     except UnreadableSource:
-        return Source(path, "").whole
+        return Source(path, "").file_span
     if line > len(source.line_starts):
         return source.span(len(source.text), len(source.text))
     start = source.line_starts[line - 1] + column - 1
     return source.span(start, min(start + width, len(source.text)))
 
 
-def _ports(deployment: Deployment) -> Iterator[Diagnostic]:
+def _check_ports(deployment: Deployment) -> Iterator[Diagnostic]:
     for instance in deployment.instances:
-        if instance.port and instance.host.is_here and (reason := _taken(instance.port)):
-            said = f"port {instance.port} cannot be used: {reason}"
-            yield _at(instance, codes.PORT_TAKEN, said)
+        if instance.port and instance.host.is_local and (reason := _bind_error(instance.port)):
+            message = f"port {instance.port} cannot be used: {reason}"
+            yield _diagnostic(instance, codes.PORT_TAKEN, message)
 
 
-def _taken(port: int) -> str:
-    """Why nobody can listen on `port` of the loopback address now, or an empty text."""
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as one:
-        one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+def _bind_error(port: int) -> str:
+    """Why `port` of the loopback address cannot be bound now; empty if it can."""
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            one.bind(("127.0.0.1", port))
+            probe.bind(("127.0.0.1", port))
         except (OSError, OverflowError) as error:
             return getattr(error, "strerror", None) or str(error)
     return ""
 
 
-def _at(instance: Instance, code: Code, message: str, help: str = "") -> Diagnostic:
+def _diagnostic(instance: Instance, code: Code, message: str, help: str = "") -> Diagnostic:
     return Diagnostic(code, instance.span, f"`{instance.name}`: {message}", help=help)
 
 
-def short(path: Path) -> str:
-    """`path` for people: without detours, and from here if it is below the working folder."""
-    whole = path.resolve()
+def short_path(path: Path) -> str:
+    """`path` for messages: resolved, and relative if it is below the working folder."""
+    resolved = path.resolve()
     here = Path.cwd()
-    return str(whole.relative_to(here) if whole.is_relative_to(here) else whole)
+    return str(resolved.relative_to(here) if resolved.is_relative_to(here) else resolved)

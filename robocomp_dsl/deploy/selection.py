@@ -1,8 +1,8 @@
-"""One group of a deployment as a deployment of its own. Pure.
+"""Selects one group of a deployment as a deployment. Pure.
 
-In: a deployment and the name of a group. Out: the deployment with what is in that group alone: the
-wires inside of it, and what its components wait for there. What they use elsewhere, they find in
-the domain, if it runs there.
+In: a deployment and the name of a group. Out: a deployment with the components of that group, the
+connections between them, and the start order among them. Components outside the group are found in
+the domain if they run there.
 """
 
 from __future__ import annotations
@@ -11,36 +11,36 @@ from robocomp_dsl.model.deployment import Connection, Deployment
 
 
 class NoSuchGroup(Exception):
-    """The deployment has no group of that name; the message says which it has."""
+    """The deployment has no group of that name; the message lists its groups."""
 
 
-def only(deployment: Deployment, name: str) -> Deployment:
-    """What is in the group called `name` (`arm`, or `arm-hand` inside of it).
+def select_group(deployment: Deployment, name: str) -> Deployment:
+    """The deployment of the group `name` (`arm`, or `arm-hand` for a nested group).
 
     Raises `NoSuchGroup`.
     """
-    group = next((one for one in deployment.groups if one.name == name), None)
+    group = next((group for group in deployment.groups if group.name == name), None)
     if group is None:
-        known = ", ".join(one.name for one in deployment.groups) or "none"
-        raise NoSuchGroup(f"`{deployment.name}` has no group `{name}`; it has {known}")
+        known = ", ".join(group.name for group in deployment.groups) or "none"
+        raise NoSuchGroup(f"`{deployment.name}` has no group `{name}`; its groups: {known}")
     clock = deployment.clock
     inside = set(group.instances)
-    made = {
-        one.name: one.replaced(after=tuple(n for n in one.after if n in inside))
-        for one in deployment.instances
-        if one.name in inside
+    selected = {
+        instance.name: instance.replace(after=tuple(n for n in instance.after if n in inside))
+        for instance in deployment.instances
+        if instance.name in inside
     }
-    return deployment.replaced(
-        instances=tuple(made.values()),
+    return deployment.replace(
+        instances=tuple(selected.values()),
         connections=tuple(
-            wire.replaced(source=made[wire.source.name], target=made[wire.target.name])
+            wire.replace(source=selected[wire.source.name], target=selected[wire.target.name])
             for wire in deployment.connections
-            if _is_within(wire, inside)
+            if _is_internal(wire, inside)
         ),
         # Without the source of the time a group lives by the clock of the machine.
-        clock=clock.replaced(source=made.get(clock.source.name)) if clock.source else clock,
+        clock=clock.replace(source=selected.get(clock.source.name)) if clock.source else clock,
     )
 
 
-def _is_within(wire: Connection, inside: set[str]) -> bool:
+def _is_internal(wire: Connection, inside: set[str]) -> bool:
     return wire.source.name in inside and wire.target.name in inside

@@ -1,6 +1,7 @@
-"""A deployment from its claim to its end: engine, sentinel, control socket and signals together.
+"""Runs a deployment in the foreground: supervisor, reaper, control socket and signals.
 
-In: a plan, a watch, where records go. Out: the outcome; nothing of it is left, however it ended.
+In: a plan, a lock on its name, a lifecycle monitor, a display. Out: the outcome. All processes of
+the deployment have exited when it returns.
 """
 
 from __future__ import annotations
@@ -17,14 +18,14 @@ from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 
-from robocomp_dsl.deploy import folder
-from robocomp_dsl.deploy.control import Journal, Server
-from robocomp_dsl.deploy.engines import sentinel
-from robocomp_dsl.deploy.engines.local import Local, Options, Outcome
-from robocomp_dsl.deploy.engines.watch import Watch
-from robocomp_dsl.deploy.logs import Record
+from robocomp_dsl.deploy import instances
+from robocomp_dsl.deploy.control import ControlServer, LogJournal
+from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Plan
-from robocomp_dsl.deploy.status import Row
+from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.deploy.supervisor import reaper
+from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 
 _SIGNALS = {
     signal.SIGINT: "Ctrl-C",
@@ -34,56 +35,72 @@ _SIGNALS = {
 
 
 class Display:
-    """Where a session shows itself; this one shows nothing."""
+    """Shows the output of a session; this base class shows nothing."""
 
-    def record(self, record: Record) -> None:
-        """A line of output."""
+    def record(self, record: LogRecord) -> None:
+        """Show a line of output."""
 
-    def attach(self, rows: Callable[[], list[Row]], stop: Callable[[str], object]) -> None:
-        """How to get the status, and how to stop when nobody reads any more; from any thread."""
+    def attach(
+        self, statuses: Callable[[], list[ProcessStatus]], stop: Callable[[str], object]
+    ) -> None:
+        """Receive functions that get the status and stop the run; callable from any thread."""
 
     def changed(self) -> None:
-        """The status is another one now."""
+        """A status has changed."""
 
 
 def run(
-    plan: Plan, claim: folder.Claim, watch: Watch, display: Display, options: Options
+    plan: Plan,
+    lock: instances.InstanceLock,
+    monitor: LifecycleMonitor,
+    display: Display,
+    options: Options,
 ) -> Outcome:
     """Run `plan` in the foreground until it ends or is stopped."""
-    journal = Journal()
+    journal = LogJournal()
 
-    def emit(record: Record) -> None:
+    def emit(record: LogRecord) -> None:
         journal.add(record)
         display.record(record)
 
     token = f"{plan.domain}.{os.getpid()}"
-    engine = Local(plan, token, watch, emit=emit, changed=display.changed, options=options)
-    with _sentinel(token, options.grace_s):
-        return asyncio.run(_run(engine, journal, claim, display))
+    supervisor = Supervisor(
+        plan, token, monitor, emit=emit, changed=display.changed, options=options
+    )
+    with _reaper_process(token, options.grace_s):
+        return asyncio.run(_run(supervisor, journal, lock, display))
 
 
-async def _run(engine: Local, journal: Journal, claim: folder.Claim, display: Display) -> Outcome:
+async def _run(
+    supervisor: Supervisor, journal: LogJournal, lock: instances.InstanceLock, display: Display
+) -> Outcome:
     loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
-        loop.add_signal_handler(number, engine.stop, reason)
-    plan = engine.plan
-    server = Server(journal, engine.rows, engine.stop, engine.time)
-    await server.open(claim.folder / folder.SOCKET)
+        loop.add_signal_handler(number, supervisor.stop, reason)
+    plan = supervisor.plan
+    server = ControlServer(journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time)
+    await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())
-    claim.tell(folder.Running(plan.name, path, plan.domain, os.getpid(), time.time()))
-    display.attach(engine.rows, lambda why: loop.call_soon_threadsafe(partial(engine.stop, why)))
+    lock.publish(
+        instances.RunningDeployment(plan.name, path, plan.domain, os.getpid(), time.time())
+    )
+
+    def stop(reason: str) -> None:
+        loop.call_soon_threadsafe(partial(supervisor.stop, reason))
+
+    display.attach(supervisor.statuses, stop)
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
-        outcome = await engine.run()
+        outcome = await supervisor.run()
     finally:
         await server.close(asdict(outcome))
     return outcome
 
 
 @contextlib.contextmanager
-def _sentinel(token: str, grace_s: float) -> Iterator[None]:
-    """A process that ends ours should we be killed; it lives as long as our end of the pipe."""
-    script = Path(sentinel.__file__)
+def _reaper_process(token: str, grace_s: float) -> Iterator[None]:
+    """Run the reaper, which terminates the components if this process is killed."""
+    script = Path(reaper.__file__)
     command = [sys.executable, "-I", "-S", str(script), token, str(grace_s)]
     process = subprocess.Popen(  # noqa: S603 - our own script
         command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
@@ -93,4 +110,4 @@ def _sentinel(token: str, grace_s: float) -> Iterator[None]:
     except BaseException:
         process.communicate()
         raise
-    process.communicate(sentinel.NOTHING_LEFT)
+    process.communicate(reaper.CLEAN_SHUTDOWN)

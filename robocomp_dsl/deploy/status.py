@@ -1,4 +1,4 @@
-"""The state of a running deployment as rows, a table and JSON. Pure."""
+"""Status of the processes of a deployment: as objects, as a table and as JSON. Pure."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from typing import Any
 WAITING = "waiting"
 STARTING = "starting"
 READY = "ready"
-UNSEEN = "unseen"
+UNKNOWN = "unknown"
 BACKOFF = "restarting"
 STOPPING = "stopping"
-ENDED = "ended"
+EXITED = "exited"
 FAILED = "failed"
 
-_COLOURS = {READY: "32", FAILED: "1;31", BACKOFF: "33", UNSEEN: "33", STARTING: "36"}
-_HEADS = ("NAME", "STATE", "LIFE", "MACHINE", "PID", "UP", "RESTARTS", "CPU", "MEMORY", "")
-_SOMETIMES = ("MACHINE",)
-"""Columns that are left out where nobody has anything in them."""
-_NONE = "-"
+_COLOURS = {READY: "32", FAILED: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
+_COLUMNS = ("NAME", "STATE", "LIFE", "MACHINE", "PID", "UP", "RESTARTS", "CPU", "MEMORY", "")
+_OPTIONAL_COLUMNS = ("MACHINE",)
+"""Columns that are left out if all their cells are empty."""
+_EMPTY = "-"
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
-    """One component.
+class ProcessStatus:
+    """Status of one component's process.
 
-    `up_s`: seconds since its process started; `cpu` 1.0 is one core; `memory` in bytes. `life` is
-    the state of its life cycle; `machine` are the active states of its state machine, outer ones
-    first, where they were asked for. `note` says why it is in this state.
+    `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
+    lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
+    were queried. `note` is the reason for the state.
     """
 
     name: str
@@ -43,15 +43,15 @@ class Row:
     machine: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """The fields as a dictionary, for JSON."""
         return asdict(self)
 
 
 @dataclass(frozen=True, slots=True)
-class Time:
-    """Simulated time of a deployment, in s since the last of `resets`.
+class SimulatedTime:
+    """Simulated time of a deployment, in s since the last reset.
 
-    `factor`: simulated seconds per second of late.
+    `factor` is the recent real-time factor: simulated seconds per second of wall time.
     """
 
     seconds: float
@@ -60,41 +60,45 @@ class Time:
     paused: bool = False
 
     def as_dict(self) -> dict[str, Any]:
-        """For JSON."""
+        """The fields as a dictionary, for JSON."""
         return asdict(self)
 
-    def shown(self) -> str:
-        """In words."""
-        pace = "stands still" if self.paused else f"{self.factor:.2f} times real time"
+    def format(self) -> str:
+        """As text: `simulated time 4.20 s, 1.00 times real time`."""
+        speed = "paused" if self.paused else f"{self.factor:.2f} times real time"
         resets = f", reset {self.resets} times" if self.resets else ""
-        return f"simulated time {self.seconds:.2f} s, {pace}{resets}"
+        return f"simulated time {self.seconds:.2f} s, {speed}{resets}"
 
 
-def table(rows: Sequence[Row], width: int, *, colours: bool) -> list[str]:
-    """`rows` as lines of at most `width` columns, a head above them."""
-    cells = [_HEADS, *(_cells(row) for row in rows)]
-    shown = [i for i, head in enumerate(_HEADS) if head not in _SOMETIMES or _any(cells, i)]
-    widths = {i: max(len(line[i]) for line in cells) for i in shown}
-    made = []
+def format_table(rows: Sequence[ProcessStatus], width: int, *, colours: bool) -> list[str]:
+    """`rows` as text lines of at most `width` characters, with a header."""
+    cells = [_COLUMNS, *(_cells(row) for row in rows)]
+    columns = [
+        i
+        for i, name in enumerate(_COLUMNS)
+        if name not in _OPTIONAL_COLUMNS or _has_values(cells, i)
+    ]
+    widths = {i: max(len(line[i]) for line in cells) for i in columns}
+    lines = []
     for position, line in enumerate(cells):
-        text = "  ".join(line[i].ljust(widths[i]) for i in shown).rstrip()[:width]
+        text = "  ".join(line[i].ljust(widths[i]) for i in columns).rstrip()[:width]
         style = "2" if position == 0 else _COLOURS.get(rows[position - 1].state, "")
-        made.append(f"\x1b[{style}m{text}\x1b[0m" if colours and style else text)
-    return made
+        lines.append(f"\x1b[{style}m{text}\x1b[0m" if colours and style else text)
+    return lines
 
 
-def _any(cells: Sequence[tuple[str, ...]], column: int) -> bool:
-    return any(line[column] != _NONE for line in cells[1:])
+def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
+    return any(line[column] != _EMPTY for line in cells[1:])
 
 
-def _cells(row: Row) -> tuple[str, ...]:
-    where = (row.name, row.state, row.life or _NONE, ", ".join(row.machine) or _NONE)
+def _cells(row: ProcessStatus) -> tuple[str, ...]:
+    states = (row.name, row.state, row.life or _EMPTY, ", ".join(row.machine) or _EMPTY)
     if not row.pid:
-        return (*where, _NONE, _NONE, str(row.restarts), _NONE, _NONE, row.note)
+        return (*states, _EMPTY, _EMPTY, str(row.restarts), _EMPTY, _EMPTY, row.note)
     return (
-        *where,
+        *states,
         str(row.pid),
-        duration(row.up_s),
+        format_duration(row.up_s),
         str(row.restarts),
         f"{row.cpu * 100:.0f} %",
         f"{row.memory / 1e6:.0f} MB",
@@ -102,7 +106,7 @@ def _cells(row: Row) -> tuple[str, ...]:
     )
 
 
-def duration(seconds: float) -> str:
+def format_duration(seconds: float) -> str:
     """`4.2 s`, `3 min 20 s`, `5 h 12 min`."""
     if seconds < 60:
         return f"{seconds:.1f} s"

@@ -1,7 +1,7 @@
-"""What of a text belongs together: statements, and the blocks in them.
+"""Groups tokens into statements and blocks.
 
-In: pieces. Out: statements, nested as their braces are. It knows nothing of any language but that a
-statement ends with `;` or before a `}`: what the words mean does not change how they look.
+In: tokens. Out: statements, nested as the braces are. The grouping is the same for all languages: a
+statement ends with `;` or before a `}`.
 """
 
 from __future__ import annotations
@@ -10,132 +10,134 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from robocomp_dsl.format.pieces import Piece
+from robocomp_dsl.format.tokens import FormatToken
 
 
 @dataclass(slots=True)
 class Block:
-    """`{ … }`. `opening` are comments that follow the brace on its line and end that.
+    """`{ … }`. `opening` are the comments after the brace up to the end of its line.
 
-    `flat` says that its content and the `}` are on the line of the `{`.
+    `flat`: the content and the `}` are on the same line as the `{`.
     """
 
-    opening: list[Piece]
+    opening: list[FormatToken]
     items: list[Statement]
-    close: Piece
+    close: FormatToken
     flat: bool
 
 
 @dataclass(slots=True)
 class Statement:
-    """Everything up to a `;` and the comments behind it on its line; or comments alone.
+    """The tokens up to a `;` with the trailing comments on its line, or comments alone.
 
-    `listed` says that it ends without a `;` before a `}`, as enumerators do.
+    `in_list`: it ends without a `;` before a `}`, as enumerators do.
     """
 
-    parts: list[Piece | Block] = field(default_factory=list)
-    listed: bool = False
+    parts: list[FormatToken | Block] = field(default_factory=list)
+    in_list: bool = False
 
 
-Part: TypeAlias = Piece | Block
+Part: TypeAlias = FormatToken | Block
 
 
-def fills_line(comment: Piece) -> bool:
-    """Whether nothing may follow a comment on its line."""
+def ends_with_line_break(comment: FormatToken) -> bool:
+    """Whether a comment must be the last token of its line."""
     return comment.kind == "LINE" or "\n" in comment.text
 
 
-def ends_line(comment: Piece, following: Piece | None) -> bool:
-    """Whether nothing may follow a comment on its line, or nothing does."""
-    return fills_line(comment) or following is None or following.breaks > 0
+def ends_line(comment: FormatToken, following: FormatToken | None) -> bool:
+    """Whether a comment is the last token of its line, by its kind or by what follows."""
+    return ends_with_line_break(comment) or following is None or following.breaks > 0
 
 
-def read(pieces: Sequence[Piece], *, inline_braces: bool) -> list[Statement]:
-    """The statements of a text. With `inline_braces`, those around a mere list are no block."""
-    return _Reader(pieces, inline_braces).items(inside=False)
+def parse_statements(tokens: Sequence[FormatToken], *, inline_braces: bool) -> list[Statement]:
+    """The statements of a text; with `inline_braces`, braces around a plain list are no block."""
+    return _Reader(tokens, inline_braces).items(inside=False)
 
 
 class _Reader:
-    def __init__(self, pieces: Sequence[Piece], inline_braces: bool) -> None:
-        self._pieces = pieces
-        self._at = 0
+    def __init__(self, tokens: Sequence[FormatToken], inline_braces: bool) -> None:
+        self._tokens = tokens
+        self._position = 0
         self._inline_braces = inline_braces
 
     def items(self, *, inside: bool) -> list[Statement]:
         """The statements up to the `}` that closes the block, or up to the end."""
         found = []
-        while self._at < len(self._pieces) and not (inside and self._is("}")):
+        while self._position < len(self._tokens) and not (inside and self._is("}")):
             found.append(self._statement(inside))
         return found
 
     def _statement(self, inside: bool) -> Statement:
-        made = Statement()
+        result = Statement()
         bare = True  # nothing but comments so far
-        while self._at < len(self._pieces):
+        while self._position < len(self._tokens):
             if inside and self._is("}"):
-                made.listed = not bare
+                result.in_list = not bare
                 break
             if self._is("{"):
-                made.parts += self._braces()
+                result.parts += self._braces()
                 bare = False
                 continue
-            one = self._take()
-            made.parts.append(one)
-            if one.kind == "_SEMI":
-                made.parts += self._comments_behind(or_brace=True)
+            token = self._take()
+            result.parts.append(token)
+            if token.kind == "_SEMI":
+                result.parts += self._trailing_comments(or_brace=True)
                 break
-            bare = bare and one.comment
-            if bare and ends_line(one, self._peek(0)):
+            bare = bare and token.is_comment
+            if bare and ends_line(token, self._peek(0)):
                 break
-        return made
+        return result
 
-    def _braces(self) -> list[Piece] | list[Block]:
-        size = self._mere_list() if self._inline_braces else 0
+    def _braces(self) -> list[FormatToken] | list[Block]:
+        size = self._list_length() if self._inline_braces else 0
         if size:
             return [self._take() for _ in range(size)]
         self._take()
-        first = self._at
-        opening = self._comments_behind(or_brace=False)
+        first = self._position
+        opening = self._trailing_comments(or_brace=False)
         items = self.items(inside=True)
-        close = self._take() if self._at < len(self._pieces) else Piece("SIGN", "", 0, 0, 0)
-        inner = self._pieces[first : self._at]
-        flat = not any(p.breaks or fills_line(p) for p in inner)
+        close = (
+            self._take() if self._position < len(self._tokens) else FormatToken("SIGN", "", 0, 0, 0)
+        )
+        inner = self._tokens[first : self._position]
+        flat = not any(p.breaks or ends_with_line_break(p) for p in inner)
         return [Block(opening, items, close, flat)]
 
-    def _mere_list(self) -> int:
-        """How many pieces the braces are, with all inside, if no statement is; else 0."""
+    def _list_length(self) -> int:
+        """The number of tokens of braces with a plain list; 0 if they contain statements."""
         words = False
-        for at in range(self._at + 1, len(self._pieces)):
-            one = self._pieces[at]
-            if one.text == "}":
-                return at + 1 - self._at if words else 0
-            if one.kind == "_SEMI" or one.text == "{":
+        for at in range(self._position + 1, len(self._tokens)):
+            token = self._tokens[at]
+            if token.text == "}":
+                return at + 1 - self._position if words else 0
+            if token.kind == "_SEMI" or token.text == "{":
                 return 0
-            words = words or not one.comment
+            words = words or not token.is_comment
         return 0
 
-    def _comments_behind(self, *, or_brace: bool) -> list[Piece]:
-        """The comments that end the line begun, also those in front of its `}` if `or_brace`.
+    def _trailing_comments(self, *, or_brace: bool) -> list[FormatToken]:
+        """The comments at the end of the current line; with `or_brace` also those before its `}`.
 
-        Comments in front of another token on the same line belong to that.
+        Comments before another token on the same line belong to that token.
         """
         count = 0
-        while (one := self._peek(count)) and one.comment and not one.breaks:
+        while (token := self._peek(count)) and token.is_comment and not token.breaks:
             count += 1
         following = self._peek(count)
         if not count:
             return []
-        last = self._pieces[self._at + count - 1]
+        last = self._tokens[self._position + count - 1]
         closing = or_brace and following is not None and following.text == "}"
         return [self._take() for _ in range(count)] if closing or ends_line(last, following) else []
 
-    def _is(self, sign: str) -> bool:
-        return self._pieces[self._at].text == sign
+    def _is(self, symbol: str) -> bool:
+        return self._tokens[self._position].text == symbol
 
-    def _peek(self, ahead: int) -> Piece | None:
-        at = self._at + ahead
-        return self._pieces[at] if at < len(self._pieces) else None
+    def _peek(self, ahead: int) -> FormatToken | None:
+        at = self._position + ahead
+        return self._tokens[at] if at < len(self._tokens) else None
 
-    def _take(self) -> Piece:
-        self._at += 1
-        return self._pieces[self._at - 1]
+    def _take(self) -> FormatToken:
+        self._position += 1
+        return self._tokens[self._position - 1]

@@ -1,18 +1,18 @@
-"""Where everything goes: statements to lines.
+"""Lays out statements in lines.
 
-In: the statements of a text and the `Style` of its language. Out: lines. A block that its user
-wrote on one line stays there if it fits; a line break behind a comma is the user's; all others are
-made here, so is every blank.
+In: the statements of a text and the `Style` of its language. Out: lines. A block on one line stays
+on one line if it fits, and line breaks after commas are kept; all other line breaks and spaces are
+set here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from robocomp_dsl.format.items import Block, Part, Statement, ends_line, fills_line
-from robocomp_dsl.format.lines import Line, reindented
-from robocomp_dsl.format.pieces import Piece
+from robocomp_dsl.format.items import Block, Part, Statement, ends_line, ends_with_line_break
+from robocomp_dsl.format.lines import Line, reindent
 from robocomp_dsl.format.style import INDENT, WIDTH, Style
+from robocomp_dsl.format.tokens import FormatToken
 
 
 def lay_out(items: Iterable[Statement], style: Style) -> list[Line]:
@@ -23,14 +23,14 @@ def lay_out(items: Iterable[Statement], style: Style) -> list[Line]:
 
 
 def _place(items: Iterable[Statement], depth: int, style: Style, lines: list[Line]) -> None:
-    for number, one in enumerate(items):
-        first = one.parts[0]
-        if number and isinstance(first, Piece) and first.breaks > 1:
+    for number, item in enumerate(items):
+        first = item.parts[0]
+        if number and isinstance(first, FormatToken) and first.breaks > 1:
             lines.append(Line())
-        _Rows(one, depth, style, lines).place()
+        _RowLayout(item, depth, style, lines).place()
 
 
-class _Rows:
+class _RowLayout:
     """Places one statement. A row is what goes on one line unless that gets too long.
 
     `row` are its parts: between them, and nowhere else, it may be broken, first of all in front of
@@ -39,17 +39,17 @@ class _Rows:
 
     def __init__(self, item: Statement, depth: int, style: Style, lines: list[Line]) -> None:
         self.parts: Sequence[Part] = item.parts
-        self.listed = item.listed
+        self.in_list = item.in_list
         self.depth = depth
         self.style = style
         self.lines = lines
         self.indent = INDENT * depth
-        self.further = self.indent if item.listed else self.indent + INDENT
+        self.further = self.indent if item.in_list else self.indent + INDENT
         self.broken = _broken(item.parts)
         self.row: list[str] = []
         self.heads: set[int] = set()
         self.begun = False  # a row has ended already
-        self.left: Piece | None = None
+        self.left: FormatToken | None = None
         self.tokens = 0
 
     def place(self) -> None:
@@ -59,7 +59,7 @@ class _Rows:
             part = self.parts[at]
             if isinstance(part, Block):
                 self._block(part)
-            elif part.comment:
+            elif part.is_comment:
                 at += self._comments(at)
                 continue
             else:
@@ -67,43 +67,43 @@ class _Rows:
             at += 1
         self._end_row()
 
-    def _token(self, one: Piece) -> None:
+    def _token(self, token: FormatToken) -> None:
         behind_comma = self.left is not None and self.left.text == ","
-        if behind_comma and one.breaks:
+        if behind_comma and token.breaks:
             self._end_row()
-            self._blank(one)
+            self._blank(token)
         # A comment at the end of a line would be one about that line.
-        commented = self.left is not None and self.left.comment
-        head = one.text in self.style.breaks and not commented
+        commented = self.left is not None and self.left.is_comment
+        head = token.text in self.style.breaks and not commented
         if head:
             self.heads.add(len(self.row))
-        self._append(one, may_break=behind_comma or head)
+        self._append(token, may_break=behind_comma or head)
         self.tokens += 1
 
-    def _append(self, one: Piece, *, may_break: bool = False) -> None:
-        gap = self.style.separator(self.left, one, self.tokens) if self.left else ""
+    def _append(self, token: FormatToken, *, may_break: bool = False) -> None:
+        gap = self.style.separator(self.left, token, self.tokens) if self.left else ""
         if self.row and not (may_break and gap):
-            self.row[-1] += gap + one.text
+            self.row[-1] += gap + token.text
         else:
-            self.row.append(one.text)
-        self.left = one
+            self.row.append(token.text)
+        self.left = token
 
     def _comments(self, at: int) -> int:
-        """Place the comments that stand together from part `at` on; returns how many."""
+        """Place the adjacent comments from part `at` on; returns their number."""
         group = _together(self.parts, at)
-        behind = at + len(group)
-        following = self.parts[behind] if behind < len(self.parts) else None
+        previous_end = at + len(group)
+        following = self.parts[previous_end] if previous_end < len(self.parts) else None
         if group[0].breaks and at:
             self._end_row()
             self._blank(group[0])
         if not isinstance(following, Block | None) and not ends_line(group[-1], following):
-            for one in group:
-                self._append(one)
+            for token in group:
+                self._append(token)
         elif self.row:
-            self._end_row(" ".join(one.text for one in group))
+            self._end_row(" ".join(token.text for token in group))
         else:
-            first = reindented(group[0], self.indent)
-            self.row = [" ".join((first, *(one.text for one in group[1:])))]
+            first = reindent(group[0], self.indent)
+            self.row = [" ".join((first, *(token.text for token in group[1:])))]
             self._end_row()
         return len(group)
 
@@ -115,7 +115,7 @@ class _Rows:
         else:
             self._end_row()
             self.indent = INDENT * self.depth
-            note = " ".join(one.text for one in block.opening)
+            note = " ".join(token.text for token in block.opening)
             self.lines.append(Line(self.indent + "{", note))
             _place(block.items, self.depth + 1, self.style, self.lines)
             self.row = [block.close.text]
@@ -140,30 +140,30 @@ class _Rows:
         self.begun = True
         self.indent = self.further
 
-    def _blank(self, one: Piece) -> None:
+    def _blank(self, token: FormatToken) -> None:
         """Between the items of a list an empty line stays, too."""
-        if self.listed and one.breaks > 1:
+        if self.in_list and token.breaks > 1:
             self.lines.append(Line())
 
 
 def _broken(parts: Sequence[Part]) -> bool:
-    """Whether there is a line break behind a comma, by the user or for a comment."""
+    """Whether there is a line break after a comma, by the user or for a comment."""
     behind_comma = False
     for part in parts:
         if isinstance(part, Block):
             behind_comma = False
-        elif behind_comma and (part.breaks or (part.comment and fills_line(part))):
+        elif behind_comma and (part.breaks or (part.is_comment and ends_with_line_break(part))):
             return True
-        elif not part.comment:
+        elif not part.is_comment:
             behind_comma = part.text == ","
     return False
 
 
-def _together(parts: Sequence[Part], at: int) -> list[Piece]:
+def _together(parts: Sequence[Part], at: int) -> list[FormatToken]:
     """The comment that is part `at`, and those that follow it on its line."""
-    group: list[Piece] = []
+    group: list[FormatToken] = []
     for part in parts[at:]:
-        if isinstance(part, Block) or not part.comment or (group and part.breaks):
+        if isinstance(part, Block) or not part.is_comment or (group and part.breaks):
             break
         group.append(part)
     return group
@@ -175,19 +175,19 @@ def flat_block(block: Block, style: Style) -> str | None:
         return "{}"
     if not block.flat:
         return None
-    return f"{{ {' '.join(_flat_statement(one, style) for one in block.items)} }}"
+    return f"{{ {' '.join(_flat_statement(item, style) for item in block.items)} }}"
 
 
 def _flat_statement(item: Statement, style: Style) -> str:
-    made = ""
-    left: Piece | None = None
+    result = ""
+    left: FormatToken | None = None
     tokens = 0
     for part in item.parts:
         if isinstance(part, Block):
-            made += f"{' ' if made else ''}{flat_block(part, style)}"
+            result += f"{' ' if result else ''}{flat_block(part, style)}"
             left = part.close
         else:
-            made += (style.separator(left, part, tokens) if left else "") + part.text
+            result += (style.separator(left, part, tokens) if left else "") + part.text
             left = part
-        tokens += not (isinstance(part, Piece) and part.comment)
-    return made
+        tokens += not (isinstance(part, FormatToken) and part.is_comment)
+    return result

@@ -1,6 +1,6 @@
-"""Lines of the new text, and how comments stand on them.
+"""The lines of the new text, and the alignment of trailing comments.
 
-In: lines with the comments behind them. Out: the text.
+In: lines with their trailing comments. Out: the text.
 """
 
 from __future__ import annotations
@@ -9,52 +9,52 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from robocomp_dsl.format.pieces import Piece
 from robocomp_dsl.format.style import WIDTH
+from robocomp_dsl.format.tokens import FormatToken
 
 _GAP = 2
-"""Blanks in front of a comment that stands behind something."""
+"""Spaces before a trailing comment."""
 
 
 @dataclass(slots=True)
 class Line:
-    """A line, or several where a comment or a text has them; `note` is the comment behind it."""
+    """A line (several for a multi-line comment or string); `note` is its trailing comment."""
 
     code: str = ""
     note: str = ""
 
 
 def text_of(lines: Iterable[Line]) -> str:
-    """The lines as one text; comments behind neighbouring statements begin in the same column."""
-    made: list[str] = []
+    """The lines as text; trailing comments of adjacent statements start in the same column."""
+    result: list[str] = []
     for _, run in groupby(lines, key=_neighbourhood):
-        made += _aligned(list(run))
-    return "".join(f"{one}\n" for one in made)
+        result += _aligned(list(run))
+    return "".join(f"{token}\n" for token in result)
 
 
-def _neighbourhood(one: Line) -> tuple[bool, int, bool]:
-    """What neighbouring lines must share to be aligned; braces stand for themselves."""
-    if not one.note:
+def _neighbourhood(token: Line) -> tuple[bool, int, bool]:
+    """The key that adjacent lines must share to be aligned; lines with braces are separate."""
+    if not token.note:
         return False, 0, False
-    words = one.code.lstrip()
-    return True, len(one.code) - len(words), words.startswith(("{", "}"))
+    words = token.code.lstrip()
+    return True, len(token.code) - len(words), words.startswith(("{", "}"))
 
 
 def _aligned(run: Sequence[Line]) -> Iterator[str]:
-    widths = [len(one.code.rpartition("\n")[2]) for one in run]
+    widths = [len(token.code.rpartition("\n")[2]) for token in run]
     column = max(widths)
-    if any(column + _GAP + len(one.note.partition("\n")[0]) > WIDTH for one in run):
+    if any(column + _GAP + len(token.note.partition("\n")[0]) > WIDTH for token in run):
         column = 0
-    for one, width in zip(run, widths, strict=True):
+    for token, width in zip(run, widths, strict=True):
         blanks = " " * (max(column - width, 0) + _GAP)
-        yield f"{one.code}{blanks}{one.note}" if one.note else one.code
+        yield f"{token.code}{blanks}{token.note}" if token.note else token.code
 
 
-def reindented(comment: Piece, indent: str) -> str:
-    """A comment in front of which `indent` will stand; its further lines move as the first does.
+def reindent(comment: FormatToken, indent: str) -> str:
+    """The text of a comment after `indent`; its further lines move with the first line.
 
-    Rows of stars are put in line. Lines that do not begin with what stands in front of the first
-    are left alone: nobody knows what they are aligned with.
+    Columns of stars are aligned. Lines that do not start with the margin of the first line stay
+    unchanged, because their alignment is unknown.
     """
     first, *others = comment.text.split("\n")
     if not others or comment.margin is None:

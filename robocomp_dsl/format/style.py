@@ -1,7 +1,7 @@
-"""The look of each language as data: what stands close together, and where a long line may end.
+"""The style of each language as data: spacing, and where long lines may break.
 
-In: the name of a language. Out: its `Style`. The signs that all languages share are in `_BEFORE`
-and `_AFTER`; a language adds its own.
+In: the name of a language. Out: its `Style`. `_BEFORE` and `_AFTER` have the punctuation of all
+languages; each language adds its own.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from robocomp_dsl.format.pieces import Piece
+from robocomp_dsl.format.tokens import FormatToken
 
 WIDTH = 100
-"""Columns of a line; only what cannot be broken is longer."""
+"""Maximum columns of a line, except for lines that cannot be broken."""
 INDENT = "    "
 
 _BEFORE = frozenset((",", "_SEMI", ")", "(", "::", "."))
@@ -21,11 +21,11 @@ _AFTER = frozenset(("(", "::", "."))
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """No space goes in front of `before` and behind `after`, nor between the `pairs`.
+    """There is no space before tokens in `before`, after tokens in `after`, and between `pairs`.
 
-    All are texts of signs or kinds of tokens. `second` are kinds that stand close to the first word
-    of a statement. `breaks` are words in front of which a long line may end, as it may behind every
-    comma. Where `inline_braces` is set, braces around a mere list are no block.
+    All are punctuation or kinds of tokens. `second` are kinds without a space after the first word
+    of a statement. A long line may break before `breaks` and after commas. With `inline_braces`,
+    braces around a plain list are not a block.
     """
 
     before: frozenset[str] = _BEFORE
@@ -35,13 +35,13 @@ class Style:
     breaks: frozenset[str] = frozenset()
     inline_braces: bool = False
 
-    def separator(self, left: Piece, right: Piece, place: int) -> str:
-        """What goes between two tokens; `right` is number `place` (from 0) of its statement."""
-        if right.sign in self.before or left.sign in self.after:
+    def separator(self, left: FormatToken, right: FormatToken, place: int) -> str:
+        """The text between two tokens; `right` is token `place` (from 0) of its statement."""
+        if right.symbol in self.before or left.symbol in self.after:
             return ""
-        if place == 1 and right.sign in self.second:
+        if place == 1 and right.symbol in self.second:
             return ""
-        return "" if (left.sign, right.sign) in self.pairs else " "
+        return "" if (left.symbol, right.symbol) in self.pairs else " "
 
 
 STYLES: Mapping[str, Style] = {

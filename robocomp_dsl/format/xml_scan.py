@@ -1,14 +1,14 @@
-"""The pieces of an InnerModel or SCXML text.
+"""Scanner of InnerModel and SCXML files.
 
-In: a text that the parser found well-formed. Out: pieces. A tag is several: its name with the `<`,
-its attributes, its end. Blanks around the `=` of an attribute and in a closing tag are no part.
+In: a well-formed text. Out: tokens. A tag has several tokens: its name with the `<`, its
+attributes, its end. They do not include spaces around the `=` of an attribute or in a closing tag.
 """
 
 from __future__ import annotations
 
 import re
 
-from robocomp_dsl.format.pieces import Piece, make
+from robocomp_dsl.format.tokens import FormatToken, make
 
 _BETWEEN = re.compile(
     r"""\s*(?:(?P<BLOCK><!--[\s\S]*?-->)|(?P<INSTRUCTION><\?[\s\S]*?(?:\?>|\Z))"""
@@ -25,23 +25,23 @@ _EQUALS = re.compile(r"\s*=\s*")
 _NAME = re.compile(r"\s+")
 
 
-def scan_xml(text: str) -> list[Piece]:
-    """The pieces of `text`."""
-    pieces: list[Piece] = []
+def scan_xml(text: str) -> list[FormatToken]:
+    """The tokens of `text`."""
+    tokens: list[FormatToken] = []
     pattern, at, end_of_text = _BETWEEN, 0, len(text.rstrip())
     while at < end_of_text and (match := pattern.match(text, at, end_of_text)):
         kind = match.lastgroup or ""
         written = match[kind].rstrip()
         start = match.end() - len(match[kind])
-        one = make(kind, text, start, start + len(written), at)
-        if kind == "ATTRIBUTE" and not _TIGHT.match(one.text):
-            one.text = _EQUALS.sub("=", one.text, count=1)
+        token = make(kind, text, start, start + len(written), at)
+        if kind == "ATTRIBUTE" and not _TIGHT.match(token.text):
+            token.text = _EQUALS.sub("=", token.text, count=1)
         elif kind == "CLOSE":
-            one.text = _NAME.sub("", one.text)
+            token.text = _NAME.sub("", token.text)
         elif kind == "OPEN":
             pattern = _INSIDE
         elif kind in ("ENDED", "EMPTY"):
             pattern = _BETWEEN
-        pieces.append(one)
-        at = one.end
-    return pieces
+        tokens.append(token)
+        at = token.end
+    return tokens

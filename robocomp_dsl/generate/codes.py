@@ -1,4 +1,4 @@
-"""The findings of this stage."""
+"""Finding codes of code generation, export and simulation."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from robocomp_dsl.diagnostics import Code, Severity
 NO_TARGET = Code(
     "RC601",
     Severity.ERROR,
-    "nothing is generated for this language",
-    """The component says `language Cpp;` or another language that there is no generator for yet.
-There is one for Python. Either write `language Python;` into the CDSL file, or leave it as it is
-and ask for Python on the command line:
+    "no generator for this language",
+    """The component declares `language Cpp;` or another language without a generator. Only Python
+has one. Write `language Python;` in the CDSL file, or keep the file and select Python on the
+command line:
 
     rcgen component robot.cdsl --language python
 
@@ -20,117 +20,150 @@ The generated component talks to components of any language through its middlewa
 MISSING_METHOD = Code(
     "RC611",
     Severity.WARNING,
-    "an operation or state had no method in the user's class",
+    "missing method: an operation or state has no method in your class",
     """The component implements or subscribes to an interface, or has a state machine, and
-`specificworker.py` had no method for one of its operations or states. rcgen puts a stub behind
-the last statement of the class, and the imports it needs behind yours; nothing else of the
-file is touched. Put your code into the stub:
+`specificworker.py` has no method for one of its operations or states. rcgen appends a stub to the
+class, and the necessary imports to yours; it changes nothing else in the file. Put your code into
+the stub:
 
     def Speech_say(self, req: DatasayReq) -> tuple[int, DatasayResp]:
         return 0, DatasayResp()
 
-Until you do, a caller gets `RemoteError`, and a message of a topic is dropped.""",
+Until then a caller receives `RemoteError`, and messages of a topic are dropped.""",
 )
 
 STALE_METHOD = Code(
     "RC614",
     Severity.WARNING,
-    "a method belongs to something that is gone",
-    """An operation was removed from its interface, a port from the component, or a state from its
-state machine; the method that served it is still in `specificworker.py`. Nothing calls it. If
-the operation was renamed, a stub with the new name is at the end of the class: move your code
-there. rcgen never deletes code of yours; when you have deleted the method, this is not said
-any more.""",
+    "stale method: its operation or state no longer exists",
+    """An operation was removed from its interface, a port from the component, or a state from the
+state machine, but the method is still in `specificworker.py`. Nothing calls it. If the operation
+was renamed, a stub with the new name is at the end of the class: move your code there. rcgen never
+deletes your code; delete the method to remove this warning.""",
 )
 
 CHANGED_SIGNATURE = Code(
     "RC615",
     Severity.WARNING,
-    "the signature of a method has changed",
-    """The operation has other inputs or results than the method was written for. Both signatures
-are shown, the one in your file and the one there should be:
+    "the signature of an operation has changed",
+    """The operation has other inputs or results than your method. The finding shows both
+signatures, the one in your file and the required one:
 
     old: def Speech_say(self, text: str) -> int
     new: def Speech_say(self, text: str, loud: bool) -> int
 
-Change the method; rcgen leaves it as it is. Parameters that you named or annotated in a way of your
-own are not reported, as long as the call works.""",
+Change the method; rcgen does not edit it. Parameters with names or annotations of your own are not
+reported, as long as the call works.""",
 )
 
 UNKNOWN_PARAMETER = Code(
     "RC616",
     Severity.WARNING,
-    "the code uses a parameter that there is not",
-    """`self.params.<name>` names no parameter of the PDSL file: it was renamed or removed there, or
-it is misspelt. The line raises `AttributeError` when it runs.""",
+    "unknown parameter",
+    """`self.params.<name>` names no parameter of the PDSL file: the parameter was renamed or
+removed, or its name is misspelt. The line raises `AttributeError` when it runs.""",
 )
 
 UNKNOWN_OPERATION = Code(
     "RC617",
     Severity.WARNING,
-    "the code calls an operation that there is not",
-    """`self.<port>_proxy.<operation>` names no operation of the interface: it was renamed or
-removed in the IDSL file, or it is misspelt. The line raises `AttributeError` when it runs.""",
+    "unknown operation",
+    """`self.<port>_proxy.<operation>` names no operation of the interface: the operation was
+renamed or removed in the IDSL file, or its name is misspelt. The line raises `AttributeError` when
+it runs.""",
 )
 
 UNKNOWN_EVENT = Code(
     "RC624",
     Severity.WARNING,
-    "the code names an event or a state that the machine has not",
-    """`self.machine.go("<event>")` or `self.machine.is_in("<state>")` names nothing of the state
-machine: it was renamed or removed in the SMDSL or SCXML file, or it is misspelt. The line raises
-`UnknownEvent` when it runs.""",
+    "unknown event or state",
+    """`self.machine.send("<event>")` or `self.machine.is_in("<state>")` names no event or state of
+the state machine: it was renamed or removed in the SMDSL or SCXML file, or it is misspelt. The
+line raises `UnknownEvent` when it runs.""",
 )
 
 MERGED = Code(
     "RC618",
     Severity.NOTE,
-    "a file of yours was merged with its new output",
-    """`README.md` and `etc/config.yaml` are written once and then yours. What the descriptions say
-of them has changed, you have changed them too, and the changes are in different places: both are in
-the file now. `.rcgen/pristine` holds the output without your changes; keep `.rcgen` under version
-control, for it is what the next merge starts from.""",
+    "one of your files was merged with the new output",
+    """`README.md` and `etc/config.yaml` are written once; then they are yours. Both you and the
+descriptions have changed the file, in different places: it now holds both changes.
+`.rcgen/pristine` holds the output without your changes. Keep `.rcgen` under version control,
+because the next merge starts from it.""",
 )
 
 NOT_MERGED = Code(
     "RC619",
     Severity.WARNING,
-    "a file of yours could not be merged with its new output",
-    """You and rcgen changed the same lines of a file that is yours. It stays as it is. The folder
-`.rcgen/conflicts` holds what a merge gives, with your lines, those before, and the new ones between
-conflict markers: take what you need from there.""",
+    "one of your files could not be merged with the new output",
+    """You and rcgen changed the same lines of one of your files. rcgen does not change it. The
+folder `.rcgen/conflicts` holds the merge result, with your lines, the previous ones and the new
+ones between conflict markers: copy what you need from it.""",
 )
 
-BROKEN_RECORD = Code(
+UNREADABLE_MANIFEST = Code(
     "RC620",
     Severity.WARNING,
-    "the record of the last generation cannot be read",
-    """`.rcgen/methods.json` holds the methods and signatures of the last generation; with it rcgen
-knows which methods of yours are stale and whose signatures have changed. It is damaged, for example
-by conflict markers of a merge. It is written anew from the descriptions as they are now.""",
+    "the manifest of the last generation cannot be read",
+    """`.rcgen/methods.json` holds the methods and signatures of the last generation. rcgen uses it
+to find stale methods and changed signatures. The file is damaged, for example by conflict markers
+of a merge. rcgen writes it again from the current descriptions.""",
+)
+
+PACKAGE_RENAMED = Code(
+    "RC625",
+    Severity.NOTE,
+    "the generated code moves to a package named after the component",
+    """Earlier versions of rcgen wrote the generated code of every component to the folder
+`generated/`. Two components could not be imported into one process, because both packages had that
+name. Now the package is named after the component:
+
+    from generated.interfaces import TLaserData            before
+    from wander_generated.interfaces import TLaserData     now
+
+rcgen changes only the import statements of your files, and removes the files that it wrote to
+`generated/`. Update `.gitignore` and the configuration of other tools that name the folder.""",
+)
+
+OLD_PACKAGE_REFERENCED = Code(
+    "RC626",
+    Severity.WARNING,
+    "one of your files still names the folder `generated`",
+    """The generated code is now in a package named after the component. rcgen could not change this
+place: a string that may be a path, an import of a module that rcgen did not write, or a file that
+rcgen cannot read or write. Change it by hand.""",
+)
+
+OLD_PACKAGE_NOT_REMOVED = Code(
+    "RC627",
+    Severity.NOTE,
+    "the folder `generated` holds files that rcgen did not write",
+    """The generated code is now in a package named after the component. rcgen removes only the
+files that it wrote itself from the old folder; it recognises them by their first line. The other
+files are yours: move them, and change their imports.""",
 )
 
 NO_WORKER = Code(
     "RC612",
     Severity.WARNING,
-    "the user's file has no class `SpecificWorker`",
+    "your file has no class `SpecificWorker`",
     """`main.py` runs the class `SpecificWorker` of `specificworker.py`. The file exists, so rcgen
-left it alone, but the class is not in it:
+does not overwrite it, but it lacks the class:
 
-    from generated.genericworker import GenericWorker
+    from wander_generated.genericworker import GenericWorker
 
     class SpecificWorker(GenericWorker):
         ...
 
-If the file should be made anew, move it away and run rcgen again.""",
+To generate the file again, move it away and run rcgen.""",
 )
 
 UNREADABLE_WORKER = Code(
     "RC613",
     Severity.WARNING,
-    "the user's file could not be examined",
-    """`specificworker.py` has a syntax error or is not a text, so it is not known which operations
-it implements. rcgen left it as it is. The component does not start before it is mended.""",
+    "your file could not be parsed",
+    """`specificworker.py` has a syntax error or is not a text file, so rcgen cannot tell which
+operations it implements, and does not change it. The component does not start until you fix it.""",
 )
 
 
@@ -138,14 +171,14 @@ RENAMED_IN_EXPORT = Code(
     "RC621",
     Severity.WARNING,
     "a name is spelled differently in the exported files",
-    """The format that the interface is exported to does not allow this name, or takes it for the
-same as another one: Slice and ROS 2 do not tell `Pose` from `pose`, and Slice keeps names that
-begin with `Ice` or end in `Prx`, `Ptr`, `Helper` or `Holder` for itself.
+    """The target format does not allow this name, or does not distinguish it from another one:
+Slice and ROS 2 do not distinguish `Pose` and `pose`, and Slice reserves names that begin with
+`Ice` or end in `Prx`, `Ptr`, `Helper` or `Holder`.
 
-Fields and parameters have no names on the wire, so a new one only matters to who writes code with
-it. Ice sends the names of modules, interfaces, operations and exceptions: who was generated from
-the exported file does not understand who uses the old name. Choose a name in the IDSL file that
-all formats can keep:
+Fields and parameters have no names on the wire, so a new name only affects code that uses it. Ice
+sends the names of modules, interfaces, operations and exceptions: a peer generated from the
+exported file cannot communicate with one that uses the old name. Choose a name in the IDSL file
+that is valid in all formats:
 
     struct IceCream { int scoops; };      wrong for Slice
     struct Gelato { int scoops; };        right""",
@@ -154,10 +187,9 @@ all formats can keep:
 RESHAPED_IN_EXPORT = Code(
     "RC622",
     Severity.WARNING,
-    "a type has another shape in the exported files",
-    """The format that the interface is exported to has no such type. Slice has no struct without
-fields; it gets one that means nothing. Bytes that were written with one shape cannot be read with
-the other.
+    "a type has another layout in the exported files",
+    """The target format has no such type. Slice has no struct without fields; the export adds a
+dummy field. Data encoded with one layout cannot be decoded with the other.
 
     struct Nothing { };                   wrong for Slice
     struct Nothing { bool unused; };      right: the same everywhere""",
@@ -167,8 +199,8 @@ NOT_EXPORTABLE = Code(
     "RC623",
     Severity.ERROR,
     "the format cannot express this",
-    """The format that the interface is exported to has no way to say this, and a guess would mean
-something else. Slice has no negative values in enumerations:
+    """The target format cannot represent this, and an approximation would change the meaning.
+Slice has no negative values in enumerations:
 
     enum Level { Low = -1, High };        wrong for Slice
     enum Level { Low, High };             right""",
@@ -177,8 +209,8 @@ something else. Slice has no negative values in enumerations:
 NO_SIMULATION = Code(
     "RC631",
     Severity.ERROR,
-    "worlds cannot be built here",
-    """A simulator needs MuJoCo, which an installation without the extra `simulation` lacks:
+    "MuJoCo is not installed",
+    """A simulator needs MuJoCo, which is installed with the extra `simulation`:
 
     pip install 'robocomp_dsl[simulation]'""",
 )
@@ -187,35 +219,36 @@ IMPOSSIBLE_WORLD = Code(
     "RC632",
     Severity.ERROR,
     "the world cannot be simulated",
-    """The file is well formed, but MuJoCo cannot build what it describes; the message is MuJoCo's
-or says which node is in the way. Usual causes are two nodes with one id and sizes or masses that
-are not finite.""",
+    """The syntax of the file is valid, but MuJoCo cannot build the model; the message is MuJoCo's
+or names the node that causes the error. Usual causes are two nodes with the same id, and sizes or
+masses that are not finite.""",
 )
 
 SIMPLIFIED_WORLD = Code(
     "RC633",
     Severity.WARNING,
-    "something is simulated otherwise than described",
-    """The world is built, with something simpler in the place of what was described: a mesh whose
-file is missing or in a format that only OpenSceneGraph reads becomes a box, a node with
-`engine="bullet"` inside another one moves with that instead of falling.""",
+    "part of the world is simplified",
+    """The world is built, but a part is replaced by something simpler: a mesh becomes a box if its
+file is missing or in a format that only OpenSceneGraph reads; a node with `engine="bullet"` inside
+another node is attached to that node instead of falling.""",
 )
 
-NOTHING_ASKED = Code(
+OPT_IN_WITHOUT_DEVICE = Code(
     "RC635",
     Severity.WARNING,
-    "what was asked for has no device in this world",
-    """`rcgen simulator --also JointMotorSimple` serves joints by that interface, too, and
-`--also Camera` cameras; a world without them has nothing to serve.""",
+    "this world has no device for an interface of `--also`",
+    """`rcgen simulator --also JointMotorSimple` also serves joints through that interface, and
+`--also Camera` cameras; this world has no such device. Remove the option.""",
 )
 
-UNDERSTOOD_WORLD = Code(
+REPAIRED_WORLD = Code(
     "RC634",
     Severity.WARNING,
-    "a world with errors is simulated as far as it is understood",
-    """What is wrong in a description does not keep the rest from being simulated: a second node of
-the same id gets a number (`wall#2`), a value that cannot be read is the default of its attribute,
-unknown tags and attributes and files that are not there are left out. Each is told at its place.
+    "a world with errors is simulated with repairs",
+    """Errors in a description do not prevent the simulation of the rest: a second node with the
+same id gets a number (`wall#2`), an invalid value is replaced by the default of its attribute, and
+unknown tags, unknown attributes and missing files are ignored. Each error is reported at its
+place.
 
-`rcgen simulator --strict` makes nothing then; `rcgen check` fails in any case.""",
+With `rcgen simulator --strict` nothing is generated; `rcgen check` fails in any case.""",
 )

@@ -1,4 +1,4 @@
-"""The findings about models in URDF and MJCF, and about worlds that are looked at."""
+"""Findings about models in URDF and MJCF, and about simulated worlds."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from robocomp_dsl.diagnostics import Code, Severity
 MODEL_FILE = Code(
     "RC651",
     Severity.ERROR,
-    "there is no model in the file",
+    "the file contains no model",
     """\
 A model is InnerModel (`<innerModel>`), URDF (`<robot>`) or MJCF (`<mujoco>`). The links of a robot
-make one tree: each hangs on one joint at most, and never on itself by way of others. What MuJoCo
-says about its own format is passed on with the line. A xacro file must be expanded first:
+form a tree: each has at most one parent joint, and there are no cycles. MuJoCo's errors about MJCF
+are reported with their line. Expand a xacro file first:
 
     xacro robot.urdf.xacro > robot.urdf
 """,
@@ -20,28 +20,28 @@ says about its own format is passed on with the line. A xacro file must be expan
 MODEL_SIMPLIFIED = Code(
     "RC652",
     Severity.WARNING,
-    "something is otherwise than described",
+    "the model was simplified",
     """\
-There is a model, with something simpler in place of what was described: a mesh that is missing or
-in a format that is not read becomes a box (`.obj` and `.stl` are read; of `.dae`, `.osg` and
-`.3ds` the size), a missing texture is left out, a body that moves and has no mass gets one.
+The model is used with a simplification: a mesh that is missing or in an unsupported format becomes
+a box (`.obj` and `.stl` are supported; of `.dae`, `.osg` and `.3ds` only the size), a missing
+texture is left out, a moving body without mass gets one.
 
-`rcgen simulator` tells so, too, when a joint is too light for the torque of its motor at the step
-of the file (it gets more `armature`: no regulator could hold it), when a joint is in the tuples of
-two boards, and when a `speed_JOINT` or `coupling_BOARD` is none.
+`rcgen simulator` also reports a joint that is too light for the torque of its motor at the time
+step of the file (it gets more `armature`, because no controller could hold it), a joint in the
+tuples of two boards, and an invalid `speed_JOINT` or `coupling_BOARD`.
 
-`package://NAME/…` is looked for in the folders given with `--packages`, in those that
-ROBOCOMP_PACKAGE_PATH, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and GAZEBO_MODEL_PATH list, and in the
-folders above the file and beside those.
+`package://NAME/…` is searched in the folders of `--packages`, in the folders of
+ROBOCOMP_PACKAGE_PATH, ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and GAZEBO_MODEL_PATH, and in the parent
+folders of the file and their subfolders.
 """,
 )
 
 MODEL_OVERLAP = Code(
     "RC653",
     Severity.WARNING,
-    "bodies are in each other at the start",
+    "bodies overlap at the start",
     """\
-As soon as time runs, they push each other apart, often violently. Move them, give the joints
-another start, or exclude the pair from collisions (in InnerModel: `collide="0"`).
+When the simulation starts, they push each other apart, often violently. Move them, change the
+start positions of the joints, or exclude the pair from collisions (in InnerModel: `collide="0"`).
 """,
 )

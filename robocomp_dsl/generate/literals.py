@@ -1,19 +1,25 @@
-"""The user's texts as source text: nothing in a comment, default or name can become code.
+"""Quote user text for source files, so that no comment, default or name can become code.
 
-In: any text. Out: Python, YAML or Markdown that holds exactly it; what does not print (control,
-direction and line separator characters) is written as an escape.
+In: any text. Out: Python, YAML or Markdown that represents exactly this text; non-printable
+characters (control, direction and line separator characters) are escaped.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from textwrap import dedent
+import textwrap
+from collections.abc import Iterator
+from itertools import groupby
 
+from robocomp_dsl.generate.python.layout import WIDTH
 from robocomp_dsl.model.types import Literal
 
 _YAML_WORDS = {"", "~", "null", "true", "false", "yes", "no", "on", "off", "y", "n"}
 _YAML_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
+
+_ITEM = re.compile(r" *([-*+|>#]|\d+[.)]) ")
+"""A line that does not run on from the one above."""
 
 
 def _escaped(character: str) -> str:
@@ -24,18 +30,18 @@ def _escaped(character: str) -> str:
 
 
 def printable(text: str) -> str:
-    """`text` with an escape for each character that does not print (tabs and line ends too)."""
+    """`text` with non-printable characters escaped, including tabs and newlines."""
     return "".join(c if c.isprintable() else _escaped(c) for c in text)
 
 
 def quoted(text: str) -> str:
-    """`text` in double quotes; valid in Python and in YAML alike, and short as ruff writes it."""
+    """`text` in double quotes; valid in Python and in YAML, in ruff's format."""
     inner = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "\\t")
     return f'"{printable(inner)}"'
 
 
 def python_string(text: str) -> str:
-    """`text` as a Python literal with the quotes that need fewer escapes, as the formatter does."""
+    """`text` as a Python literal with the quotes that need fewer escapes, in ruff's format."""
     if text.count('"') <= text.count("'"):
         return quoted(text)
     inner = text.replace("\\", "\\\\").replace("'", "\\'")
@@ -53,7 +59,7 @@ def python_value(value: Literal) -> str:
 
 
 def yaml_value(value: Literal) -> str:
-    """A default as a YAML scalar that versions 1.1 and 1.2 read alike."""
+    """A default as a YAML scalar with the same value in YAML 1.1 and 1.2."""
     match value:
         case bool():
             return str(value).lower()
@@ -69,33 +75,37 @@ def yaml_value(value: Literal) -> str:
 
 
 def yaml_key(name: str) -> str:
-    """`name` as a key, quoted where some reader would take it for a bool or nothing."""
+    """`name` as a key, quoted if a parser might read it as a boolean or null."""
     plain = _YAML_PLAIN.fullmatch(name) and name.lower() not in _YAML_WORDS
     return name if plain else quoted(name)
 
 
 def lines(text: str) -> list[str]:
     """The lines of a doc comment: dedented, ends trimmed, tabs expanded, everything printable."""
-    # Only these line ends: the others that splitlines() knows become escapes.
+    # Only these newlines: other separators of splitlines() are escaped.
     raw = re.sub(r"\r\n?", "\n", text).expandtabs(4)
     first, _, rest = raw.strip().partition("\n")
-    kept = [printable(line.rstrip()) for line in (first, *dedent(rest).split("\n"))]
-    while kept and not kept[-1]:
-        kept.pop()
-    return kept
+    cleaned = [printable(line.rstrip()) for line in (first, *textwrap.dedent(rest).split("\n"))]
+    while cleaned and not cleaned[-1]:
+        cleaned.pop()
+    return cleaned
 
 
 def sentence(text: str) -> str:
-    """The first line of a doc comment, for one-line places; empty for none."""
+    """The first line of a doc comment; empty for none."""
     return (lines(text) or [""])[0]
 
 
 def docstring(text: str, indent: str, instead: str = "") -> str:
     """`text`, or `instead` if it says nothing, as a docstring that the formatter leaves as it is.
 
-    The first indentation is not in it. `inspect.getdoc` of it gives `lines(text)` back.
+    The first indentation is not in it. `inspect.getdoc` of it gives `lines(text)` back, those that
+    are longer than `WIDTH` wrapped.
     """
     rows = lines(text) or lines(instead) or [""]
+    width = WIDTH - len(indent) - len('"""')
+    if len(rows) > 1 or len(rows[0]) + len('"""') > width:
+        rows = list(_reflowed(rows, width))
     single = len(rows) == 1
     first = _docstring_row(rows[0], opens=True, closes=single)
     if single:
@@ -103,6 +113,17 @@ def docstring(text: str, indent: str, instead: str = "") -> str:
     rest = [_docstring_row(row) for row in rows[1:]]
     body = "".join(f"{indent}{row}\n" if row else "\n" for row in rest)
     return f'"""{first}\n{body}{indent}"""'
+
+
+def _reflowed(rows: list[str], width: int) -> Iterator[str]:
+    """`rows` with each paragraph that has a longer line wrapped anew; lists keep their lines."""
+    for _, grouped in groupby(rows, key=lambda row: len(row) - len(row.lstrip(" ")) if row else -1):
+        paragraph = list(grouped)
+        is_text = not any(_ITEM.match(row) for row in paragraph)
+        if is_text and any(len(row) > width for row in paragraph):
+            first, *others = paragraph
+            paragraph = [" ".join([first, *(row.lstrip(" ") for row in others)])]
+        yield from (part for row in paragraph for part in wrapped(row, width))
 
 
 def _docstring_row(row: str, *, opens: bool = False, closes: bool = False) -> str:
@@ -117,8 +138,27 @@ def _docstring_row(row: str, *, opens: bool = False, closes: bool = False) -> st
 
 
 def comment(text: str, indent: str = "") -> list[str]:
-    """`text` as comment lines, for Python and YAML; its empty lines are left out."""
+    """`text` as comment lines for Python and YAML, without empty lines."""
     return [f"{indent}# {row}" for row in lines(text) if row]
+
+
+def wrapped(row: str, width: int, hang: str = "") -> list[str]:
+    """A line of text as lines of at most `width` characters where its words allow it.
+
+    The others start where the first one does, and `hang` further in.
+    """
+    text = row.lstrip(" ")
+    indent = row[: len(row) - len(text)]
+    if len(row) <= width:
+        return [row]
+    return textwrap.wrap(
+        text,
+        width,
+        initial_indent=indent,
+        subsequent_indent=indent + hang,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
 
 
 def markdown_cell(text: str) -> str:
@@ -128,7 +168,7 @@ def markdown_cell(text: str) -> str:
 
 
 def markdown_code(text: str) -> str:
-    """`text` as code in one cell of a Markdown table; empty for nothing."""
+    """`text` as code in one cell of a Markdown table; empty for an empty text."""
     fence = "``" if "`" in text else "`"
     space = " " if "`" in text else ""
     inner = printable(text).replace("|", "\\|")

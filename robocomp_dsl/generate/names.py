@@ -1,16 +1,16 @@
-"""Names of a model as Python names: the rules by which they change, all in one place.
+"""Convert names of a model to Python names: all rules in one place.
 
-In: names of IDSL, CDSL and PDSL. Out: identifiers that clash with nothing. Most names stay as they
-are; `id`, `type` and `len` do too. The wire, the interfaces and the configuration always keep the
-name as written. The rules, in order:
+In: names of IDSL, CDSL and PDSL. Out: identifiers without clashes. Most names are unchanged, also
+`id`, `type` and `len`. Messages, interfaces and configurations always use the original names.
+The rules, in order:
 
-1. Leading underscores move to the end: `_x` is `x_`. (Python gives them a meaning in classes.)
+1. Leading underscores move to the end: `_x` is `x_`. (They have a meaning in Python classes.)
 2. A keyword and `self` get a trailing underscore: `None_`, `lambda_`.
-3. So does what the place itself needs: a type that is called as a Python builtin or as a name that
-   generated modules use (`list_`), a field or operation that is called as a member of its base
-   class (`close_`).
+3. So do names that the scope reserves: a type named like a Python builtin or like a name that
+   generated modules use (`list_`), a field or operation named like a member of its base class
+   (`close_`).
 4. Two modules that declare the same name: both become `<Module>_<Name>`.
-5. What still clashes gets further underscores, in order of declaration.
+5. Names that still clash get further underscores, in order of declaration.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ setattr slice sorted staticmethod str sum super tuple type vars zip"""
 BUILTINS = frozenset(_BUILTINS.split())
 """Python's own names; a list, because `dir(builtins)` differs between versions."""
 
-_MODULE = """INTERFACE SCHEMA SPEC annotations np rt main generated interfaces params genericworker
+_MODULE = """INTERFACE SCHEMA SPEC annotations np rt main interfaces params genericworker
 specificworker Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
 CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
 finalize"""
@@ -76,7 +76,7 @@ ENUM_MEMBERS = frozenset(
 """What an `IntEnum` has itself."""
 
 
-STRUCT_MEMBERS = frozenset(("np",))
+STRUCT_MEMBERS = frozenset(("rt",))
 """Names that a struct needs itself: a field of that name gets an underscore."""
 
 ERROR_MEMBERS = STRUCT_MEMBERS | {"add_note", "args", "with_traceback"}
@@ -105,7 +105,9 @@ ARRAY_MEMBERS = frozenset(
 )
 """Public members of the base of all arrays of records."""
 
-PROXY_MEMBERS = frozenset(("INTERFACE", "is_heard", "set_timeout", "wait_for_server"))
+PROXY_MEMBERS = frozenset(
+    ("INTERFACE", "has_subscribers", "is_heard", "set_timeout", "wait_for_server")
+)
 """Public members of the base of all proxies."""
 
 COMPONENT_MEMBERS = frozenset(
@@ -128,16 +130,16 @@ COMPONENT_MEMBERS = frozenset(
         "set_period",
     )
 )
-"""Public members of the base of all components; an operation or proxy never hides one."""
+"""Public members of the base of all components; operations and proxies never hide them."""
 
 PARAMETER_MEMBERS = frozenset(
     ("SCHEMA", "bind", "describe", "load", "save", "set", "set_text", "values", "Literal")
 )
-"""Public members of the base of all parameters, and what the annotations mention."""
+"""Public members of the base of all parameters, and names in annotations."""
 
 
 def identifier(name: str, reserved: Iterable[str] = ()) -> str:
-    """`name` by the rules 1 to 3; `reserved` is what the place itself needs."""
+    """`name` by the rules 1 to 3; `reserved` are the names that the scope reserves."""
     bare = name.lstrip("_")
     moved = bare + "_" * (len(name) - len(bare))
     if not bare or bare[0].isdigit():
@@ -146,39 +148,46 @@ def identifier(name: str, reserved: Iterable[str] = ()) -> str:
     return f"{moved}_" if hurts else moved
 
 
-class Scope:
-    """The names of one place; rule 5."""
+class NameScope:
+    """The names of one scope; rule 5."""
 
     def __init__(self, reserved: Iterable[str] = ()) -> None:
         self.reserved = frozenset(reserved)
         self.taken = set(self.reserved)
 
     def claim(self, name: str) -> str:
-        """A free identifier for `name`, which is taken from now on."""
-        found = identifier(name, self.reserved)
-        while found in self.taken:
-            found += "_"
-        self.taken.add(found)
-        return found
+        """A free identifier for `name`; it is reserved from now on."""
+        free = identifier(name, self.reserved)
+        while free in self.taken:
+            free += "_"
+        self.taken.add(free)
+        return free
 
 
 def unique(names: Sequence[str], reserved: Iterable[str] = ()) -> tuple[str, ...]:
-    """Identifiers for the names of one place, in order."""
-    scope = Scope(reserved)
+    """Identifiers for the names of one scope, in order."""
+    scope = NameScope(reserved)
     return tuple(scope.claim(name) for name in names)
 
 
-def of_declarations(declarations: Sequence[Declaration]) -> tuple[dict[Declaration, str], Scope]:
-    """Names for the types of all modules together, and the scope for what else stands there."""
-    scope = Scope(BUILTINS | MODULE)
+def of_declarations(
+    declarations: Sequence[Declaration],
+) -> tuple[dict[Declaration, str], NameScope]:
+    """Names for the types of all modules, and the scope for further names."""
+    scope = NameScope(BUILTINS | MODULE)
     count = Counter(d.name for d in declarations)
-    wanted = {d: f"{d.module}_{d.name}" if count[d.name] > 1 else d.name for d in declarations}
-    # Those that need no change keep their names, whoever was declared first.
-    order = sorted(declarations, key=lambda d: identifier(wanted[d], scope.reserved) != d.name)
-    found = {d: scope.claim(wanted[d]) for d in order}
-    return found, scope
+    candidates = {d: f"{d.module}_{d.name}" if count[d.name] > 1 else d.name for d in declarations}
+    # Valid names are claimed first, so that they stay unchanged.
+    order = sorted(declarations, key=lambda d: identifier(candidates[d], scope.reserved) != d.name)
+    names = {d: scope.claim(candidates[d]) for d in order}
+    return names, scope
 
 
 def camel(name: str) -> str:
     """`my_arm` as `MyArm`: the first part of the name of a class."""
     return "".join(part[:1].upper() + part[1:] for part in name.split("_"))
+
+
+def package_of(component: str) -> str:
+    """The package of the generated code of a component, in lower case as Python packages are."""
+    return f"{component.lower()}_generated"

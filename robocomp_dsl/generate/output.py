@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.record import Value
+from robocomp_dsl.record import ValueRecord
 
-RECORD = ".rcgen/"
+MANIFEST_FOLDER = ".rcgen/"
 """The folder in which rcgen remembers what it generated."""
 
 
-class OutputFile(Value):
+class OutputFile(ValueRecord):
     """One file. `path` is relative to the output folder, with `/`.
 
     A file with `keep` is written once and then belongs to the user. One that was made from a file
-    of the user has the bytes of that in `seen`: it is only written over those.
+    that is there already has the bytes of that in `seen`: it is only written over those. One that
+    `is_removed` is deleted if it still holds the bytes in `seen`.
     """
 
     path: str
     text: str
-    keep: bool = False
+    write_once: bool = False
     encoding: str = "utf-8"
-    seen: bytes | None = None
+    expected_bytes: bytes | None = None
+    is_removed: bool = False
 
     @property
-    def own(self) -> bool:
+    def is_internal(self) -> bool:
         """Whether it is rcgen's record of what it did, which nobody needs to look at."""
-        return self.path.startswith(RECORD)
+        return self.path.startswith(MANIFEST_FOLDER)
 
     @property
     def data(self) -> bytes:

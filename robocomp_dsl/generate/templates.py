@@ -18,6 +18,7 @@ from typing import Any
 from jinja2 import BytecodeCache, Environment, FileSystemLoader, StrictUndefined, select_autoescape
 from jinja2.bccache import Bucket
 
+from robocomp_dsl.generate.python.line_breaking import break_lines
 from robocomp_dsl.resources import TEMPLATES
 
 MARKED_UP = ("html.jinja", "svg.jinja")
@@ -26,15 +27,15 @@ MARKED_UP = ("html.jinja", "svg.jinja")
 
 def cache_folder() -> Path:
     """Where compiled templates are kept (XDG Base Directory Specification)."""
-    given = os.environ.get("XDG_CACHE_HOME")
+    configured = os.environ.get("XDG_CACHE_HOME")
     try:
-        home = Path(given) if given else Path.home() / ".cache"
+        home = Path(configured) if configured else Path.home() / ".cache"
     except RuntimeError:  # a user without a home
         home = Path(os.devnull)
     return home / "robocomp_dsl" / "templates"
 
 
-class _Kept(BytecodeCache):
+class _FileCache(BytecodeCache):
     """Compiled templates in files; what cannot be read or written is compiled again each time.
 
     Jinja2 itself checks that a file was made from the same source by the same version.
@@ -64,7 +65,7 @@ def _environment() -> Environment:
     return Environment(
         autoescape=select_autoescape(MARKED_UP, default_for_string=False),
         loader=FileSystemLoader(TEMPLATES),
-        bytecode_cache=_Kept(),
+        bytecode_cache=_FileCache(),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -74,5 +75,6 @@ def _environment() -> Environment:
 
 
 def render(template: str, **context: Any) -> str:
-    """The text of `templates/<template>`."""
-    return _environment().get_template(template).render(context)
+    """The text of `templates/<template>`; Python with its long lines broken."""
+    text = _environment().get_template(template).render(context)
+    return break_lines(text) if template.endswith(".py.jinja") else text

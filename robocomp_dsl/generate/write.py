@@ -17,7 +17,7 @@ from pathlib import Path
 from threading import Thread
 
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.record import Value
+from robocomp_dsl.record import ValueRecord
 
 try:
     import fcntl
@@ -26,55 +26,64 @@ except ImportError:  # no such locks on this system: renames still keep each fil
 
 TEMPORARY = ".rcgen-new"
 """Suffix of files that are not in their places yet."""
-LOCK_PATIENCE_S = 10.0
+LOCK_TIMEOUT_S = 10.0
 
 
 class CannotWrite(Exception):
     """The files cannot be written; the message says which and why, in words for the user."""
 
 
-class Action(StrEnum):
+class FileAction(StrEnum):
     """What happens to a file."""
 
     CREATE = "create"
     UPDATE = "update"
+    DELETE = "delete"
     SAME = "unchanged"
     KEEP = "keep"
 
 
-class Change(Value):
+class Change(ValueRecord):
     """One file, what happens to it, and its bytes until now (None if there is none)."""
 
     file: OutputFile
-    action: Action
+    action: FileAction
     old: bytes | None
 
     @property
     def pending(self) -> bool:
         """Whether there is something to write."""
-        return self.action in (Action.CREATE, Action.UPDATE)
+        return self.action in (FileAction.CREATE, FileAction.UPDATE, FileAction.DELETE)
 
 
 def compare(folder: Path, files: Iterable[OutputFile]) -> list[Change]:
     """What writing would do. Raises `CannotWrite`; writes nothing."""
-    with _explained(folder):
+    with _translate_os_errors(folder):
         _refuse_file(folder)
-        return [_compared(folder, one) for one in files]
+        return [_compared(folder, file) for file in files]
 
 
 def write(folder: Path, files: Sequence[OutputFile]) -> list[Change]:
     """Write what differs. Raises `CannotWrite`; then the folder is as it was before."""
-    undo = _Undo()
-    with _explained(folder), undo:
+    undo = _Rollback()
+    with _translate_os_errors(folder), undo:
         _refuse_file(folder)
         undo.make_folder(folder)
         with _locked(folder):
-            changes = [_compared(folder, one) for one in files]
-            pending = [one for one in changes if one.pending]
-            made = [(undo.write_beside(folder / c.file.path, c), c) for c in pending]
-            _sync(temporary for temporary, _ in made)
-            for temporary, change in made:
+            changes = [_compared(folder, file) for file in files]
+            pending = [planned for planned in changes if planned.pending]
+            temporaries = [
+                (undo.write_beside(folder / c.file.path, c), c)
+                for c in pending
+                if c.action is not FileAction.DELETE
+            ]
+            _sync(temporary for temporary, _ in temporaries)
+            for temporary, change in temporaries:
                 undo.put_in_place(temporary, folder / change.file.path, change)
+            removed = [c for c in pending if c.action is FileAction.DELETE]
+            for change in removed:
+                undo.remove(folder / change.file.path, change)
+            _remove_leftovers({(folder / c.file.path) for c in removed})
             with suppress(OSError):  # some systems cannot do this with folders
                 _sync({(folder / c.file.path).parent for c in pending})
     return changes
@@ -87,8 +96,8 @@ def _refuse_file(folder: Path) -> None:
 
 def _compared(folder: Path, file: OutputFile) -> Change:
     path = folder / file.path
-    if file.keep and os.path.lexists(path):
-        return Change(file, Action.KEEP, None)
+    if file.write_once and os.path.lexists(path):
+        return Change(file, FileAction.KEEP, None)
     if not path.parent.resolve().is_relative_to(folder.resolve()):
         raise CannotWrite(f"`{path.parent}` is a link that leads out of `{folder}`")
     if path.is_symlink():
@@ -98,13 +107,15 @@ def _compared(folder: Path, file: OutputFile) -> Change:
     try:
         old = path.read_bytes()
     except FileNotFoundError:
-        return Change(file, Action.CREATE, None)
-    if file.seen is not None and old not in (file.seen, file.data):
+        return Change(file, FileAction.SAME if file.is_removed else FileAction.CREATE, None)
+    if file.is_removed and old == file.expected_bytes:
+        return Change(file, FileAction.DELETE, old)
+    if file.expected_bytes is not None and old not in (file.expected_bytes, file.data):
         raise CannotWrite(f"`{path}` was saved by somebody else meanwhile; run rcgen again")
-    return Change(file, Action.SAME if old == file.data else Action.UPDATE, old)
+    return Change(file, FileAction.SAME if old == file.data else FileAction.UPDATE, old)
 
 
-class _Undo:
+class _Rollback:
     """Remembers what was done; leaving it with an exception takes everything back."""
 
     def __init__(self) -> None:
@@ -154,6 +165,22 @@ class _Undo:
         temporary.replace(path)
         self._placed.append((path, change))
 
+    def remove(self, path: Path, change: Change) -> None:
+        path.unlink()
+        self._placed.append((path, change))
+
+
+def _remove_leftovers(removed: Iterable[Path]) -> None:
+    """Delete what Python compiled from removed modules, and folders that are empty then."""
+    for path in removed:
+        for compiled in (path.parent / "__pycache__").glob(f"{path.stem}.*.pyc"):
+            with suppress(OSError):
+                compiled.unlink()
+    for folder in {path.parent for path in removed}:
+        for empty in (folder / "__pycache__", folder):
+            with suppress(OSError):
+                empty.rmdir()
+
 
 def _sync(paths: Iterable[Path]) -> None:
     """Wait until files or folders are safe on the disk; it takes those together that come together.
@@ -162,10 +189,10 @@ def _sync(paths: Iterable[Path]) -> None:
     """
     failed: list[OSError] = []
     threads = [Thread(target=_sync_one, args=(path, failed)) for path in paths]
-    for one in threads:
-        one.start()
-    for one in threads:
-        one.join()
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
     if failed:
         raise failed[0]
 
@@ -196,7 +223,7 @@ def _locked(folder: Path) -> Iterator[None]:
 
 
 def _lock(descriptor: int, folder: Path) -> None:
-    deadline = time.monotonic() + LOCK_PATIENCE_S
+    deadline = time.monotonic() + LOCK_TIMEOUT_S
     while True:
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -221,16 +248,16 @@ _REASONS = {
 
 
 @contextmanager
-def _explained(folder: Path) -> Iterator[None]:
+def _translate_os_errors(folder: Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
         reason = _REASONS.get(error.errno or 0) or error.strerror or str(error)
-        named = _meant(Path(str(error.filename or folder)))
+        named = _target_path(Path(str(error.filename or folder)))
         raise CannotWrite(f"cannot write `{named}`: {reason}") from None
 
 
-def _meant(path: Path) -> Path:
+def _target_path(path: Path) -> Path:
     """The file of the user, for what was to be written beside it first."""
     if not path.name.endswith(TEMPORARY):
         return path

@@ -1,4 +1,4 @@
-"""Colours for the languages: the words and where they stand, rules over them, a Pygments lexer.
+"""Syntax highlighting of the languages: keyword tables, rules, and a Pygments lexer.
 
-The rules are the same for every editor; the files under `editors/` are written from them.
+All editors use the same rules; the files in `editors/` are generated from them.
 """

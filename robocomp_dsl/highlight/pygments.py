@@ -1,6 +1,6 @@
 """Pygments lexers of the languages, found by Sphinx and MkDocs as `idsl`, `cdsl` and so on.
 
-In: a text. Out: tokens of Pygments. Needs Pygments, which nothing else of this project does.
+In: a text. Out: tokens of Pygments. This is the only module that needs Pygments.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from pygments import token
 from pygments.lexer import RegexLexer, bygroups
 
-from robocomp_dsl.highlight.rules import Rule, contexts
+from robocomp_dsl.highlight.rules import HighlightRule, contexts
 from robocomp_dsl.highlight.table import words
 
 STYLES = {
@@ -37,8 +37,8 @@ STYLES = {
 }
 
 
-def _entry(rule: Rule) -> tuple[Any, ...]:
-    kinds = [STYLES[one] for one in rule.styles]
+def _entry(rule: HighlightRule) -> tuple[Any, ...]:
+    kinds = [STYLES[item] for item in rule.styles]
     style = bygroups(*kinds) if len(kinds) > 1 else kinds[0] if kinds else token.Text  # type: ignore[no-untyped-call]
     step = (rule.push,) if rule.push else ("#pop",) if rule.pop else ()
     return (rule.pattern, style, *step)
@@ -47,11 +47,11 @@ def _entry(rule: Rule) -> tuple[Any, ...]:
 def _states(language: str) -> dict[str, list[Any]]:
     return {
         name: [
-            *map(_entry, one.rules),
+            *map(_entry, context.rules),
             (r"\s+", token.Whitespace),
-            (r"[^\s*/]+|." if one.style else ".", STYLES[one.style]),
+            (r"[^\s*/]+|." if context.style else ".", STYLES[context.style]),
         ]
-        for name, one in contexts(words(language)).items()
+        for name, context in contexts(words(language)).items()
     }
 
 

@@ -1,11 +1,11 @@
-"""How a text of a language is coloured: a small machine of contexts, the same for all editors.
+"""Highlighting rules: a stack machine of contexts, common to all editors.
 
-In: the words of a language. Out: contexts of rules. The first rule that matches wins; it gives
-styles, and pushes a context or goes back to the one before. The expressions keep to what Python,
-Oniguruma and PCRE read alike, and none but that of a context spans lines.
+In: the keywords of a language. Out: contexts of rules. The first matching rule wins; it assigns
+styles, and pushes a context or pops the current one. The expressions use only syntax that Python,
+Oniguruma and PCRE share, and only contexts span lines.
 
-A statement is a context of its own, so a keyword is one only where it begins a statement, or behind
-the keyword that it belongs to; elsewhere it is a name, as for the parser.
+Each statement is a context, so a word is a keyword only at the start of a statement or after the
+keyword that it belongs to; elsewhere it is a name, as in the parser.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from robocomp_dsl.highlight.table import Statement, Words
+from robocomp_dsl.highlight.table import StatementKeywords, Words
 
 NAME = r"[A-Za-z_]\w*"
 _NUMBER = r"0[xX][0-9a-fA-F]+|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -24,8 +24,8 @@ PLAIN = "plain"
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
-    """What to do where `pattern` matches; `styles` are those of its groups, or of all of it."""
+class HighlightRule:
+    """A pattern with the styles of its groups (or of the whole match) and its effect."""
 
     pattern: str
     styles: tuple[str, ...] = ()
@@ -35,112 +35,122 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Context:
-    """Rules, and the style of what none of them matches."""
+    """Rules, and the style of text that no rule matches."""
 
-    rules: tuple[Rule, ...]
+    rules: tuple[HighlightRule, ...]
     style: str = ""
 
 
 def contexts(words: Words) -> dict[str, Context]:
-    """The contexts of a language by name; `root` is where a text begins."""
-    statements = {one.word: _statement(words, one) for one in words.statements}
-    starts = [_start(words, one) for one in words.statements]
+    """The contexts of a language by name; the initial context is `root`."""
+    statements = {statement.word: _statement(words, statement) for statement in words.statements}
+    starts = [_start(words, statement) for statement in words.statements]
     first = "field" if words.language == "pdsl" else ""
-    plain = Rule(NAME, (first,), PLAIN) if first else Rule(rf"(?={NAME}|[\[:])", (), PLAIN)
-    root = (*_COMMENTS, *starts, plain, *_LITERALS, Rule("[{};,]", ("punctuation",)))
+    plain = (
+        HighlightRule(NAME, (first,), PLAIN)
+        if first
+        else HighlightRule(rf"(?={NAME}|[\[:])", (), PLAIN)
+    )
+    root = (*_COMMENTS, *starts, plain, *_LITERALS, HighlightRule("[{};,]", ("punctuation",)))
     return {
         "root": Context(root),
-        "comment": Context((Rule(r"\*/", ("comment",), pop=True),), "comment"),
-        "doc": Context((Rule(r"\*/", ("doc",), pop=True),), "doc"),
-        PLAIN: _statement(words, Statement(PLAIN, False, False, words.plain, ())),
+        "comment": Context((HighlightRule(r"\*/", ("comment",), pop=True),), "comment"),
+        "doc": Context((HighlightRule(r"\*/", ("doc",), pop=True),), "doc"),
+        PLAIN: _statement(words, StatementKeywords(PLAIN, False, False, words.plain, ())),
         **statements,
     }
 
 
 _COMMENTS = (
-    Rule(r"/\*\*(?![*/<])", ("doc",), "doc"),
-    Rule(r"///(?![/<]).*", ("doc",)),
-    Rule(r"/\*", ("comment",), "comment"),
-    Rule(r"//.*", ("comment",)),
-    Rule(r"#.*", ("comment",)),
+    HighlightRule(r"/\*\*(?![*/<])", ("doc",), "doc"),
+    HighlightRule(r"///(?![/<]).*", ("doc",)),
+    HighlightRule(r"/\*", ("comment",), "comment"),
+    HighlightRule(r"//.*", ("comment",)),
+    HighlightRule(r"#.*", ("comment",)),
 )
 _LITERALS = (
-    Rule(r'"(?:[^"\\\n]|\\.)*"?', ("string",)),
-    Rule(rf"\b(?:{_NUMBER})\b|[+-](?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|\.\d+", ("number",)),
+    HighlightRule(r'"(?:[^"\\\n]|\\.)*"?', ("string",)),
+    HighlightRule(
+        rf"\b(?:{_NUMBER})\b|[+-](?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|\.\d+", ("number",)
+    ),
 )
 
 
-def _start(words: Words, one: Statement) -> Rule:
+def _start(words: Words, item: StatementKeywords) -> HighlightRule:
     """The rule for the first word of a statement."""
-    style = "legacy" if one.legacy else "declaration" if one.opens else "keyword"
-    begin = rf"\b({one.word})\b" + _ahead(words.keywords[one.word])
-    if one.opens and "name" in words.keywords[one.word] and one.word != "connect":
-        return Rule(_case(words, rf"{begin}(?:(\s+)({NAME}))?"), (style, "", "name"), one.word)
-    return Rule(_case(words, begin), (style,), one.word)
+    style = "legacy" if item.legacy else "declaration" if item.opens else "keyword"
+    begin = rf"\b({item.word})\b" + _ahead(words.keywords[item.word])
+    if item.opens and "name" in words.keywords[item.word] and item.word != "connect":
+        return HighlightRule(
+            _case(words, rf"{begin}(?:(\s+)({NAME}))?"), (style, "", "name"), item.word
+        )
+    return HighlightRule(_case(words, begin), (style,), item.word)
 
 
-def _statement(words: Words, one: Statement) -> Context:
-    """What stands behind the first word, up to `;` or a brace."""
+def _statement(words: Words, item: StatementKeywords) -> Context:
+    """The context after the first word of a statement, up to `;` or a brace."""
     braces = rf"(?=\}}|\{{(?!{_IN_BRACES[2:]}))" if words.language == "pdsl" else "(?=[{}])"
     rules = [
         *_COMMENTS,
-        Rule(";", ("punctuation",), pop=True),
-        Rule(braces, pop=True),
-        *([Rule(_IN_BRACES, ("value",))] if words.language == "pdsl" else []),
+        HighlightRule(";", ("punctuation",), pop=True),
+        HighlightRule(braces, pop=True),
+        *([HighlightRule(_IN_BRACES, ("value",))] if words.language == "pdsl" else []),
         *_brackets(words),
         *_durations(words),
         _LITERALS[0],
-        *_listed(words, one.values, "value"),
-        *(Rule(_inner(words, word), ("modifier",)) for word in one.inner),
+        *_listed(words, item.values, "value"),
+        *(HighlightRule(_inner(words, word), ("modifier",)) for word in item.inner),
         *_listed(words, words.truth, "truth"),
         *_types(words),
         _LITERALS[1],
-        *([Rule(rf"{NAME}(?=\s*\()", ("function",))] if words.language == "idsl" else []),
-        Rule(NAME, ("text",)),
-        Rule(r"->|=>|::|[=:<>+.-]", ("operator",)),
-        Rule(r"[(),\[\]]", ("punctuation",)),
+        *([HighlightRule(rf"{NAME}(?=\s*\()", ("function",))] if words.language == "idsl" else []),
+        HighlightRule(NAME, ("text",)),
+        HighlightRule(r"->|=>|::|[=:<>+.-]", ("operator",)),
+        HighlightRule(r"[(),\[\]]", ("punctuation",)),
     ]
     return Context(tuple(rules))
 
 
 def _inner(words: Words, word: str) -> str:
-    """A keyword behind the first."""
+    """The pattern of a keyword inside a statement."""
     return _case(words, rf"(?<![.\w]){word}(?![.\w])" + _ahead(words.keywords[word]))
 
 
-def _types(words: Words) -> Iterable[Rule]:
+def _types(words: Words) -> Iterable[HighlightRule]:
     """Built-in types; in IDSL only where a name or another type follows."""
     ahead = r"(?=\s+[A-Za-z_]|\s*[<>,)]|\s*$)" if words.language == "idsl" else r"(?![.\w])"
     if words.types:
-        yield Rule(_case(words, rf"(?<![.\w])(?:{'|'.join(words.types)})\b{ahead}"), ("type",))
+        yield HighlightRule(
+            _case(words, rf"(?<![.\w])(?:{'|'.join(words.types)})\b{ahead}"), ("type",)
+        )
 
 
-def _brackets(words: Words) -> Iterable[Rule]:
-    """Patterns, numbers of groups, and units."""
+def _brackets(words: Words) -> Iterable[HighlightRule]:
+    """Operation patterns, counts of groups, and units."""
     if words.patterns:
-        yield Rule(rf"\[\s*(?:{'|'.join(words.patterns)})\s*\]", ("pattern",))
+        yield HighlightRule(rf"\[\s*(?:{'|'.join(words.patterns)})\s*\]", ("pattern",))
     if words.units:
-        yield Rule(r"\[[\d\s:]*\]", ("number",))
-        yield Rule(r"\[[^\[\]\n]*\]", ("unit",))
+        yield HighlightRule(r"\[[\d\s:]*\]", ("number",))
+        yield HighlightRule(r"\[[^\[\]\n]*\]", ("unit",))
 
 
-def _durations(words: Words) -> Iterable[Rule]:
+def _durations(words: Words) -> Iterable[HighlightRule]:
     if words.durations:
         units = "|".join(sorted(words.durations, key=len, reverse=True))
-        yield Rule(_case(words, rf"\b(\d+\.?\d*\s*)({units})\b"), ("number", "unit"))
+        yield HighlightRule(_case(words, rf"\b(\d+\.?\d*\s*)({units})\b"), ("number", "unit"))
 
 
-def _listed(words: Words, listed: Iterable[str], style: str) -> Iterable[Rule]:
+def _listed(words: Words, listed: Iterable[str], style: str) -> Iterable[HighlightRule]:
     longest = sorted(map(re.escape, listed), key=len, reverse=True)
     if longest:
-        yield Rule(_case(words, rf"(?<![.\w])(?:{'|'.join(longest)})(?![.\w])"), (style,))
+        yield HighlightRule(_case(words, rf"(?<![.\w])(?:{'|'.join(longest)})(?![.\w])"), (style,))
 
 
 def _case(words: Words, pattern: str) -> str:
     return f"(?i){pattern}" if words.any_case else pattern
 
 
-def _ahead(behind: Iterable[str]) -> str:
-    """What must follow a keyword on its line, if anything does."""
-    chars = "|".join(sorted(_BEHIND.get(one, re.escape(one)) for one in behind))
+def _ahead(followers: Iterable[str]) -> str:
+    """A lookahead for what may follow a keyword on its line."""
+    chars = "|".join(sorted(_BEHIND.get(item, re.escape(item)) for item in followers))
     return rf"(?=\s*(?:{chars}|/[/*]|$))"

@@ -1,4 +1,4 @@
-"""The words of each language, as made from the grammars.
+"""The keywords of each language, generated from the grammars.
 
 In: `grammars/words.json`. Out: `Words` of one language.
 """
@@ -16,11 +16,11 @@ LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
 
 
 @dataclass(frozen=True, slots=True)
-class Statement:
-    """A kind of statement: its first word, and what that says about the rest.
+class StatementKeywords:
+    """A kind of statement, identified by its first keyword.
 
-    `opens`: a block follows. `inner`: keywords behind the first. `values`: words that the checks
-    know in the place of a name. `legacy`: the statement has no effect any more.
+    `opens`: a block follows. `inner`: further keywords. `values`: words that the checks accept
+    instead of a name. `legacy`: the statement has no effect.
     """
 
     word: str
@@ -32,16 +32,16 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Words:
-    """One language. `keywords` maps each to what may stand behind it: a kind of word or a sign.
+    """The words of a language. `keywords` maps each keyword to what may follow it.
 
-    `plain` are the keywords of statements that begin with a name; `patterns` and `units` stand in
-    brackets; `durations` are units behind a number.
+    `plain` are the keywords of statements that start with a name; `patterns` and `units` appear in
+    brackets; `durations` are units after a number.
     """
 
     language: str
     any_case: bool
     keywords: dict[str, tuple[str, ...]]
-    statements: tuple[Statement, ...]
+    statements: tuple[StatementKeywords, ...]
     plain: tuple[str, ...]
     types: tuple[str, ...]
     truth: tuple[str, ...]
@@ -58,10 +58,12 @@ def words(language: str) -> Words:
     return Words(
         language=language,
         any_case=data["any_case"],
-        keywords={word: tuple(behind) for word, behind in data["keywords"].items()},
+        keywords={word: tuple(followers) for word, followers in data["keywords"].items()},
         statements=tuple(
-            Statement(word, one["opens"], one["legacy"], tuple(one["inner"]), tuple(one["values"]))
-            for word, one in data["statements"].items()
+            StatementKeywords(
+                word, item["opens"], item["legacy"], tuple(item["inner"]), tuple(item["values"])
+            )
+            for word, item in data["statements"].items()
         ),
         **{name: tuple(data[name]) for name in lists},
     )

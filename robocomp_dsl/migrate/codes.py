@@ -1,7 +1,7 @@
-"""The findings of this stage: what was not carried over, and what to look at.
+"""The findings of a migration.
 
-An error is something of the user's that the new component lacks; a warning is something that
-may behave otherwise; a note is something that needs nothing.
+An error: something of the user's is missing in the new component. A warning: something may behave
+differently. A note: no action is needed.
 """
 
 from __future__ import annotations
@@ -12,81 +12,78 @@ UNREADABLE_FILE = Code(
     "RC921",
     Severity.ERROR,
     "a file of the old component could not be read",
-    """The file is no text, too large, or not in the form that its name promises (a
-configuration in TOML with a mistake, a manager file that is no XML). Everything else was
-carried over. Mend the file in the old folder, remove the new folder and run `rcgen migrate`
-again.""",
+    """The file is binary, too large, or not in the format that its name says (a TOML
+configuration with a syntax error, a manager file that is not XML). Everything else was migrated.
+Fix the file in the old folder, remove the new folder and run `rcgen migrate` again.""",
 )
 
 NO_DESCRIPTION = Code(
     "RC922",
     Severity.ERROR,
-    "there is no CDSL file to begin with, or there are several",
-    """A component is what its CDSL file says. The folder must hold exactly one, directly in it:
+    "the folder has no CDSL file, or several",
+    """A component is described by its CDSL file. The folder must directly contain exactly one:
 
     rcgen migrate robot/            # robot/robot.cdsl
 
-Components that were written before there was CDSL can be begun with `rcgen new`.""",
+For components that are older than CDSL, start with `rcgen new`.""",
 )
 
 BROKEN_DESCRIPTION = Code(
     "RC923",
     Severity.ERROR,
     "the description has errors, so no code was generated",
-    """The CDSL file, or an interface that it imports, has errors; they are listed beside this
-one. The description, the parameters, the configurations and your code were written all the
-same; nothing was generated. Mend the errors in the old folder (`-I` adds folders with
-interfaces that are missing), remove the new folder and run `rcgen migrate` again.""",
+    """The CDSL file, or an interface that it imports, has errors; they are listed with this
+one. The description, the parameters, the configurations and your code were written, but no code
+was generated. Fix the errors in the old folder (`-I` adds folders with interfaces), remove the
+new folder and run `rcgen migrate` again.""",
 )
 
-ALREADY_OURS = Code(
+ALREADY_MIGRATED = Code(
     "RC924",
     Severity.ERROR,
-    "the component has moved over already",
-    """Its CDSL file names a PDSL file, as RoboComp's do not. Such a component is kept up to date
-with `rcgen component`; there is nothing to migrate.""",
+    "the component is already migrated",
+    """Its CDSL file names a PDSL file, which RoboComp's CDSL does not have. Update such a
+component with `rcgen component`; there is nothing to migrate.""",
 )
 
-CONFIG_LINE = Code(
+INVALID_CONFIG_LINE = Code(
     "RC931",
     Severity.WARNING,
-    "a line of a configuration says nothing",
-    """In the old text form each line is `key = value`. Ice leaves out lines without `=`, so
-this one had no effect; it has none in the new configuration either.""",
+    "a configuration line has no effect",
+    """In the old text format each line is `key = value`. Ice ignores lines without `=`, so this
+line had no effect; it is not in the new configuration.""",
 )
 
-CONFIG_TWICE = Code(
+DUPLICATE_KEY = Code(
     "RC932",
     Severity.WARNING,
-    "a configuration gives a key twice",
-    """The last value is the one that counted, so it is the one that was carried over. Is it the
-one that was meant?""",
+    "a configuration sets a key twice",
+    """The last value was in effect, so it was migrated. Check that it is the intended one.""",
 )
 
-CONFIG_CLASH = Code(
+CONFLICTING_KEY = Code(
     "RC933",
     Severity.ERROR,
-    "two configurations give a key in forms that do not fit together",
-    """A key is a group in one place and a value or a list in another: the first form became the
-parameter, the other value is not in the new configuration of its file. Give one of them another
-name.""",
+    "two configurations use a key in different forms",
+    """A key is a group in one place and a value or a list in another. The first form became the
+parameter; the other value was left out of the new configuration. Rename one of the keys.""",
 )
 
 RENAMED_KEY = Code(
     "RC934",
     Severity.WARNING,
-    "a parameter is called otherwise",
-    """The old key is no name of PDSL (a letter or `_`, then letters, digits and `_`), or two
-keys would have the same. Code that reads `self.params` uses the new name; `setParams` of
-carried over code still gets the old key.""",
+    "a parameter was renamed",
+    """The old key is not a valid PDSL name (a letter or `_`, then letters, digits and `_`), or
+two keys would get the same name. Code that reads `self.params` uses the new name; `setParams` of
+migrated code still receives the old key.""",
 )
 
-TEXT_LIST = Code(
+LIST_IN_STRING = Code(
     "RC935",
     Severity.NOTE,
-    "a list in a text stays a text",
+    "a list in a string stays a string",
     """The value looks like a list, `1,2,3`, which the old code splits itself; so it became a
-string. For a typed list write a list of groups into the PDSL and the YAML:
+string. For a typed list, write a list of groups in the PDSL and the YAML:
 
     joints[] { value float; };          joints: [{value: 1}, {value: 2}]""",
 )
@@ -95,56 +92,57 @@ MISSING_KEY = Code(
     "RC936",
     Severity.WARNING,
     "a configuration lacks a key that another one has",
-    """All configurations of a component have the same parameters now. Where a file does not
-give one, it has the default, which is the value of the first file that gives it. Is that right
-for this configuration?""",
+    """All configurations of a component now have the same parameters. A key that a file lacks
+has the default, which is the value of the first file that sets it. Check that this is right for
+this configuration.""",
 )
 
-NOT_SUPPORTED_VALUE = Code(
+CONVERTED_TO_STRING = Code(
     "RC937",
     Severity.WARNING,
-    "a value became a text",
-    """There is no type for it in PDSL (lists of lists, dates, lists of different things), or
-the configurations give values of different kinds. It is written as JSON or as it stood.""",
+    "a value became a string",
+    """PDSL has no type for it (lists of lists, dates, lists of mixed types), or the
+configurations have values of different types. It is written as JSON, or unchanged.""",
 )
 
 NOT_UTF8 = Code(
     "RC938",
     Severity.WARNING,
-    "a configuration is in an old encoding",
-    """The file is not UTF-8, so it was read as Latin-1, which old Spanish and other western
-files are in. The new files are UTF-8. Look at the letters with accents.""",
+    "a configuration is not UTF-8",
+    """The file was read as Latin-1, the encoding of many old western European files. The new
+files are UTF-8. Check the letters with accents.""",
 )
 
-CAPITAL = Code(
+CAPITALISED_BOOL = Code(
     "RC939",
     Severity.WARNING,
-    "a truth value is not written as TOML has it",
-    """TOML has `true` and `false`, in small letters. The file is read as if it said so.""",
+    "a boolean is not valid TOML",
+    """TOML writes `true` and `false` in lower case. The value was read as if it did.""",
 )
 
 ICE_SETTING = Code(
     "RC941",
     Severity.NOTE,
-    "a setting of Ice is not needed any more",
-    """`Ice.*` and the endpoint of IceStorm's topic manager tuned a middleware that the new
-component does not use: components find each other by name, and topics need no broker.""",
+    "an Ice setting is no longer needed",
+    """`Ice.*` and the endpoint of IceStorm's topic manager configured a middleware that the new
+component does not use: components discover each other by name, and topics need no broker.""",
 )
 
-WIRED = Code(
+ENDPOINT_MIGRATED = Code(
     "RC942",
     Severity.NOTE,
     "an endpoint or a proxy became part of the deployment",
-    """`X.Endpoints` is a `port` of the component, `XProxy` a `connect` line in the DDSL file.""",
+    """`X.Endpoints` became a `port` of the component, `XProxy` a `connect` line in the DDSL
+file.""",
 )
 
 STAND_IN = Code(
     "RC943",
     Severity.WARNING,
-    "another component is only known by its address",
-    """The configuration names a component by host and port, and its description is not here. A
-CDSL file in `peers/` stands for it, so that the deployment can be checked. Put the import of
-the real component in its place before you start the deployment; or hand all folders to one run:
+    "another component is known only by its address",
+    """The configuration names a component by host and port, and its description was not given.
+A CDSL file in `peers/` is a stand-in, so that the deployment can be checked. Before you start the
+deployment, import the real component instead; or migrate all folders in one run:
 
     rcgen migrate manager.xml laser/ base/ follow/ -o robot""",
 )
@@ -154,87 +152,86 @@ UNKNOWN_PROXY = Code(
     Severity.WARNING,
     "an address belongs to no port of the component",
     """The configuration has an endpoint or a proxy for an interface that the CDSL file does not
-mention, so there is nothing to connect. It had no effect before either, unless hand-written
-code used it.""",
+mention, so there is nothing to connect. In the old component it only had an effect if
+hand-written code used it.""",
 )
 
 NOT_PYTHON = Code(
     "RC951",
     Severity.ERROR,
-    "code in C++ is not carried over",
-    """There is a generator for Python only. The descriptions, parameters and configurations are
-complete; the algorithm in C++ has to be written anew in `specificworker.py`, or be called from
-there as a library (pybind11, ctypes). The new component can talk to the old ones meanwhile only
-through a bridge.""",
+    "C++ code is not migrated",
+    """Code is generated for Python only. The descriptions, parameters and configurations are
+complete; rewrite the C++ algorithm in `specificworker.py`, or call it from there as a library
+(pybind11, ctypes). The new component can communicate with old ones only through a bridge.""",
 )
 
 UNREADABLE_PYTHON = Code(
     "RC952",
     Severity.ERROR,
-    "Python cannot read the old worker",
-    """Most often it is Python 2 (`print x`). It was copied beside the new, empty
-`specificworker.py` with the ending `.old`. Bring it to Python 3 (`2to3` is a start), then run
-`rcgen migrate` again, or move the methods over by hand.""",
+    "Python cannot parse the old worker",
+    """Usually it is Python 2 (`print x`). It was copied next to the new, empty
+`specificworker.py` with the suffix `.old`. Convert it to Python 3 (for example with `2to3`), then
+run `rcgen migrate` again, or copy the methods by hand.""",
 )
 
 NO_WORKER = Code(
     "RC953",
     Severity.WARNING,
-    "there is no class SpecificWorker to carry over",
-    """`src/specificworker.py` is missing or has no such class; the new one has empty methods.""",
+    "there is no class SpecificWorker to migrate",
+    """`src/specificworker.py` is missing or has no such class; the new class has empty methods.""",
 )
 
-CARRIED_OVER = Code(
+IMPORT_ADAPTED = Code(
     "RC954",
     Severity.NOTE,
     "an import of the old worker was adapted",
-    """Modules that RoboComp generated or brought along (`genericworker`, `interfaces`, `Ice`,
-parts of Qt) are replaced by one module in the new folder, which gives the names that the
-methods use. The methods themselves are as they were, byte by byte.""",
+    """RoboComp's generated modules, `Ice` and parts of Qt are replaced by one module in the new
+folder, which provides the names that the methods use. The methods themselves are unchanged, byte
+by byte.""",
 )
 
-NEEDS_QT = Code(
+NEEDS_QT_OR_ICE = Code(
     "RC955",
     Severity.ERROR,
     "the worker uses Qt or Ice itself",
-    """Windows and timers of Qt need Qt's event loop, which the new component does not run:
-`compute` is called by the life cycle. Proxies that code makes with `Ice.initialize` reach only
-components of old. Such an import was left as it is, so the component starts only where Qt or
-Ice are installed. Move the window into a program of its own that talks to the component; write
-calls that are due every so often into `compute`; take proxies from `self`.""",
+    """Qt windows and timers need Qt's event loop, which the new component does not run: the
+lifecycle calls `compute`. Proxies that code creates with `Ice.initialize` reach only old
+components. Such an import is unchanged, so the component starts only if Qt or Ice is installed.
+Move the window to a separate program that communicates with the component, move periodic calls to
+`compute`, and use the proxies of `self`.""",
 )
 
 NAME_TAKEN = Code(
     "RC956",
     Severity.WARNING,
     "the worker sets an attribute that the component needs",
-    """Every component has `params`, `log`, `name`, `clock` and others. A worker that assigns
-one of them hides it from the new base class. Rename the attribute in your class.""",
+    """Every component has `params`, `log`, `name`, `clock` and other attributes. A worker that
+assigns one of them hides it from the base class. Rename the attribute in your class.""",
 )
 
-PERIOD = Code(
+PERIOD_MIGRATED = Code(
     "RC957",
     Severity.NOTE,
-    "the period stands in the description",
+    "the period was moved to the description",
     """`self.Period = 50` or `Period.Compute = 50` became `period 50;` in the CDSL file.
-`compute` is called with it; `self.timer` is a stand-in that starts nothing.""",
+`compute` is called with this period; `self.timer` is a stand-in that does nothing.""",
 )
 
-STATE_METHOD = Code(
+UNKNOWN_STATE_METHOD = Code(
     "RC958",
     Severity.ERROR,
-    "a method of a state has no state",
-    """RoboComp called `sm_search` when the state `search` was entered. The machine of the component
-has no state of that name, so the method is never called.""",
+    "a state method has no state",
+    """RoboComp called `sm_search` on entry to the state `search`. The component's state machine
+has no state of that name, so the method is never called. Rename or delete the method.""",
 )
 
-STATE_CALLED = Code(
+LEGACY_STATE_METHOD = Code(
     "RC959",
     Severity.NOTE,
-    "a method of a state is called by `legacy.py`",
-    """RoboComp called `sm_search` when the state `search` was entered, and code fired
-`self.t_search_to_found.emit()`. `legacy.py` still does both; an event is fired in the next period.
-To leave it behind, call the method `on_enter_search`, and fire the event yourself:
+    "a state method is called by `legacy.py`",
+    """RoboComp called `sm_search` on entry to the state `search`, and code sent an event with
+`self.t_search_to_found.emit()`. `legacy.py` still does both; the event is sent in the next
+period. To remove `legacy.py`, rename the method to `on_enter_search` and send the event yourself:
 
     self.machine.go("t_search_to_found")""",
 )
@@ -243,62 +240,63 @@ NOT_COPIED = Code(
     "RC961",
     Severity.ERROR,
     "a file was not copied",
-    """It is too large, cannot be read, is a link, or there is no place for it. Copy it by hand
-if the component needs it.""",
+    """It is too large, unreadable, a link, or its name is taken in the new component. Copy it by
+hand if the component needs it.""",
 )
 
-REPLACED = Code(
+GENERATED_FILE_DROPPED = Code(
     "RC962",
     Severity.NOTE,
-    "a file that RoboComp generated has no successor",
-    """Build files and generated code are not needed any more: `rcgen component` writes
-`main.py` and `generated/`.""",
+    "a file that RoboComp generated has no replacement",
+    """Build files and generated code are no longer needed: `rcgen component` writes `main.py`
+and the package of generated code.""",
 )
 
-INTERFACE_WINDOW = Code(
+QT_WINDOW = Code(
     "RC963",
     Severity.ERROR,
-    "a window is not carried over",
-    """A `.ui` file describes a window of Qt; generated components have none. Parameters and
-states can be seen and changed with `rcdeploy`; a window of your own is a program that talks to
-the component.""",
+    "a Qt window is not migrated",
+    """A `.ui` file describes a Qt window; generated components have none. Show and change
+parameters and states with `rcdeploy`, or write a separate program for the window that
+communicates with the component.""",
 )
 
 NODE_DROPPED = Code(
     "RC971",
     Severity.NOTE,
-    "a process of the old manager is not needed any more",
-    """`rcnode` and `icebox` ran IceStorm's broker for topics. Topics go directly from publisher
-to subscriber now.""",
+    "a process of the old manager is no longer needed",
+    """`rcnode` and `icebox` ran IceStorm's broker for topics. Topics now go directly from
+publisher to subscriber.""",
 )
 
 NODE_INCOMPLETE = Code(
     "RC972",
     Severity.ERROR,
-    "an entry of the old manager could not be understood",
-    """It has no name, or the name is taken; so it is not in the deployment.""",
+    "an entry of the old manager is invalid",
+    """It has no name, or its name is already used; so it is not in the deployment. Fix the entry
+and run `rcgen migrate` again, or add the component to the DDSL file.""",
 )
 
 DEPENDENCE_DROPPED = Code(
     "RC973",
     Severity.WARNING,
-    "a dependence was left out",
-    """It names an entry that does not exist, or it would close a circle, in which everybody
-waits for everybody. The old manager started such components in some order all the same.""",
+    "a dependency was left out",
+    """It names an entry that does not exist, or it would close a cycle. The old manager started
+such components in an arbitrary order.""",
 )
 
-COMMAND = Code(
+UNUSED_COMMAND = Code(
     "RC974",
     Severity.NOTE,
     "a command of the old manager is not used",
-    """The deployment starts components itself, `python3 main.py` in their folders. The old
-command stands as a comment in the DDSL file; `executable "…";` sets another one.""",
+    """The deployment starts each component with `python3 main.py` in its folder. The old command
+is a comment in the DDSL file; `executable "…";` sets another command.""",
 )
 
 MANAGER_SETTING = Code(
     "RC975",
     Severity.WARNING,
-    "a part of the manager's file was not carried over",
-    """The configuration it names is not one of the component's, or the address is not one that
-a deployment can have.""",
+    "a setting of the manager was not migrated",
+    """The entry names a configuration that the component does not have, or an address that is
+not valid in a deployment.""",
 )

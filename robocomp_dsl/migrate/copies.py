@@ -1,6 +1,6 @@
-"""The files of an old component that are copied as they are, and those without a successor.
+"""Copy the other files of an old component; report those that have no replacement.
 
-In: the files that were found. Out: copies in the new component, findings about the others.
+In: the files of the folder. Out: copies in the new component, findings about the others.
 """
 
 from __future__ import annotations
@@ -11,60 +11,65 @@ from pathlib import PurePosixPath
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.folder import Fate, Found
-from robocomp_dsl.migrate.moved import Moved
+from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory
+from robocomp_dsl.migrate.migrated_component import MigratedComponent
 from robocomp_dsl.source import MAX_BYTES, Source
 
-_WITHOUT_SUCCESSOR = {
-    Fate.CODE: (codes.NOT_PYTHON, "code in C++ is not carried over"),
-    Fate.WINDOW: (codes.INTERFACE_WINDOW, "the window is not carried over"),
-    Fate.LINK: (codes.NOT_COPIED, "it is a link or no file, and was not copied"),
-    Fate.TOO_MANY: (codes.NOT_COPIED, "there are too many files; from here on none was copied"),
+_NOT_MIGRATED = {
+    FileCategory.CODE: (codes.NOT_PYTHON, "C++ code is not migrated"),
+    FileCategory.WINDOW: (codes.QT_WINDOW, "the Qt window is not migrated"),
+    FileCategory.LINK: (codes.NOT_COPIED, "it is a link or not a regular file; it was not copied"),
+    FileCategory.TOO_MANY: (
+        codes.NOT_COPIED,
+        "too many files; this file and all later ones were not copied",
+    ),
 }
 
 
-def is_written(path: str) -> bool:
-    """Whether generation rewrites a file each time."""
-    return path == "main.py" or path.startswith("generated/")
+def is_generated_file(path: str) -> bool:
+    """Whether `rcgen component` rewrites the file."""
+    return path == "main.py" or "_generated/" in path
 
 
-def copy_all(moved: Moved, found: Sequence[Found], report: Report) -> None:
-    """The other files, and what has no successor."""
+def copy_all(moved: MigratedComponent, files: Sequence[ComponentFile], report: Report) -> None:
+    """Copy the other files, and report files without a replacement."""
     room = 16 * MAX_BYTES
-    for one in found:
-        told = _judged(one, moved)
-        if told is not None:
-            report.add(told[0], Source(one.path, "").whole, told[1])
-        elif one.fate is Fate.COPY:
-            room -= _copy(moved, one, room, report)
+    for file in files:
+        rejection = _rejection(file, moved)
+        if rejection is not None:
+            report.add(rejection[0], Source(file.path, "").file_span, rejection[1])
+        elif file.category is FileCategory.COPY:
+            room -= _copy(moved, file, room, report)
 
 
-def _judged(one: Found, moved: Moved) -> tuple[Code, str] | None:
-    """The finding about a file that has no successor."""
-    script = one.relative == PurePosixPath("src", f"{moved.name}.py")
-    if one.fate is Fate.REPLACED or (script and one.fate is Fate.MODULE):
-        return codes.REPLACED, f"`{one.relative}` has no successor"
-    spare = one.fate is Fate.DESCRIPTION and one.relative.suffix != ".idsl"
-    if spare and one.relative.name != moved.description:
-        return codes.NOT_COPIED, f"`{one.relative}` was not copied: the component has another one"
-    return _WITHOUT_SUCCESSOR.get(one.fate)
+def _rejection(file: ComponentFile, moved: MigratedComponent) -> tuple[Code, str] | None:
+    """The finding about a file that is not copied; None for a file to copy."""
+    script = file.relative == PurePosixPath("src", f"{moved.name}.py")
+    if file.category is FileCategory.REPLACED or (script and file.category is FileCategory.MODULE):
+        return codes.GENERATED_FILE_DROPPED, f"`{file.relative}` has no replacement"
+    spare = file.category is FileCategory.DESCRIPTION and file.relative.suffix != ".idsl"
+    if spare and file.relative.name != moved.description:
+        return codes.NOT_COPIED, f"`{file.relative}` was not copied: another description is in use"
+    return _NOT_MIGRATED.get(file.category)
 
 
-def _copy(moved: Moved, one: Found, room: int, report: Report) -> int:
-    """Copy a file as it is; its size."""
-    name = str(one.relative)
-    data, said = b"", ""
+def _copy(moved: MigratedComponent, file: ComponentFile, room: int, report: Report) -> int:
+    """Copy a file unchanged; its size in bytes."""
+    name = str(file.relative)
+    data, problem = b"", ""
     try:
-        with one.path.open("rb") as stream:
+        with file.path.open("rb") as stream:
             data = stream.read(min(MAX_BYTES, room) + 1)
     except OSError as error:
-        said = error.strerror or str(error)
+        problem = error.strerror or str(error)
     if len(data) > min(MAX_BYTES, room):
-        said = "it is too large"
-    elif any(file.path == name for file in moved.files) or is_written(name):
-        said = "there is another file of this name in the new component"
-    if said:
-        report.add(codes.NOT_COPIED, Source(one.path, "").whole, f"it was not copied: {said}")
+        problem = "it is too large"
+    elif any(existing.path == name for existing in moved.files) or is_generated_file(name):
+        problem = "the new component has another file of this name"
+    if problem:
+        report.add(
+            codes.NOT_COPIED, Source(file.path, "").file_span, f"it was not copied: {problem}"
+        )
         return 0
     moved.add(OutputFile(name, data.decode("utf-8", "surrogateescape")), name)
     return len(data)

@@ -1,7 +1,7 @@
-"""Import statements of old Python modules, and what replaces them.
+"""Adapt the import statements of old Python modules.
 
-In: a module of the user, the names that can be imported. Out: changes of its text; findings about
-what was adapted, and about what only Qt or Ice can give.
+In: a module of the user, the names that can be imported. Out: text edits; findings about adapted
+imports, and about names that only Qt or Ice provide.
 """
 
 from __future__ import annotations
@@ -11,56 +11,59 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.upkeep.user_module import UserModule
+from robocomp_dsl.generate.regeneration.user_module import UserModule
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.legacy import STAND_INS
 from robocomp_dsl.source import Span
 
-OURS = ("genericworker", "interfaces")
-"""Modules that RoboComp generated beside the worker."""
+GENERATED_MODULES = ("genericworker", "interfaces")
+"""Modules that RoboComp generated next to the worker."""
 QT = ("PySide", "PySide2", "PySide6", "PyQt4", "PyQt5", "PyQt6")
 TIMER = "QTimer()"
-"""Code that makes timers of its own, which nothing runs."""
-Change = tuple[int, int, str]
-"""Put the text in the place [start, end)."""
+"""Code that creates its own timers; no event loop runs them."""
+TextEdit = tuple[int, int, str]
+"""Replace the text of [start, end)."""
 
 
 @dataclass(frozen=True, slots=True)
-class Names:
-    """What can be imported: the module for old names, the modules of interfaces, the handlers.
+class LegacyNames:
+    """The importable names: the module for old names, the generated package, interface modules.
 
-    `states` are those of the state machine, as their methods end; None without a machine.
+    `handlers` has the new name of each method that other components call.
+
+    `states` are the suffixes of the state methods; None without a state machine.
     """
 
     legacy: str
+    package: str
     modules: frozenset[str]
     handlers: Mapping[str, str]
     states: frozenset[str] | None = None
 
 
-def _used(tree: ast.Module) -> dict[str, set[str]]:
-    """For each name, the attributes that are taken of it; calls are `()` and `attribute()`."""
-    found: dict[str, set[str]] = {}
+def _used_attributes(tree: ast.Module) -> dict[str, set[str]]:
+    """For each name, the attributes that are used; calls are `()` and `attribute()`."""
+    used: dict[str, set[str]] = {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            found.setdefault(node.value.id, set()).add(node.attr)
+            used.setdefault(node.value.id, set()).add(node.attr)
         elif isinstance(node, ast.Name):
-            found.setdefault(node.id, set())
+            used.setdefault(node.id, set())
         elif isinstance(node, ast.Call):
-            _add_call(node.func, found)
-    return found
+            _add_call(node.func, used)
+    return used
 
 
-def _add_call(function: ast.expr, found: dict[str, set[str]]) -> None:
+def _add_call(function: ast.expr, used: dict[str, set[str]]) -> None:
     if isinstance(function, ast.Name):
-        found.setdefault(function.id, set()).add("()")
+        used.setdefault(function.id, set()).add("()")
     elif isinstance(function, ast.Attribute) and isinstance(function.value, ast.Name):
-        found.setdefault(function.value.id, set()).add(f"{function.attr}()")
+        used.setdefault(function.value.id, set()).add(f"{function.attr}()")
 
 
-def adapted_imports(user: UserModule, names: Names, report: Report) -> Iterator[Change]:
-    """The changes of all import statements that bring names of RoboComp, Ice or Qt."""
-    used = _used(user.tree)
+def adapt_imports(user: UserModule, names: LegacyNames, report: Report) -> Iterator[TextEdit]:
+    """The edits of all statements that import names of RoboComp, Ice or Qt."""
+    used = _used_attributes(user.tree)
     for node in ast.walk(user.tree):
         if isinstance(node, ast.Import):
             new = _plain_import(node, names, used)
@@ -70,97 +73,109 @@ def adapted_imports(user: UserModule, names: Names, report: Report) -> Iterator[
             continue
         span = span_of(user, node)
         if new is not None:
-            if isinstance(node, ast.ImportFrom) and (missing := _beyond(node, user, used)):
-                report.add(codes.NEEDS_QT, span, f"there is no {missing} without Qt and Ice")
-            report.add(codes.CARRIED_OVER, span, f"`{span.text:.80}` became `{new:.80}`")
+            if isinstance(node, ast.ImportFrom) and (
+                missing := _unsupported_star_import(node, user, used)
+            ):
+                report.add(
+                    codes.NEEDS_QT_OR_ICE, span, f"{missing} is available only with Qt or Ice"
+                )
+            report.add(codes.IMPORT_ADAPTED, span, f"`{span.text:.80}` became `{new:.80}`")
             yield span.start, span.end, new
-        elif (missing := _missing(node, used)) is not None:
-            report.add(codes.NEEDS_QT, span, f"`{span.text:.80}` stays, for {missing}")
+        elif (missing := _unsupported_import(node, used)) is not None:
+            report.add(
+                codes.NEEDS_QT_OR_ICE,
+                span,
+                f"`{span.text:.80}` was not changed: it needs {missing}",
+            )
 
 
-def _plain_import(node: ast.Import, names: Names, used: dict[str, set[str]]) -> str | None:
-    """The statements for `import a, b as c`; None if nothing of it is ours."""
-    made = []
+def _plain_import(node: ast.Import, names: LegacyNames, used: dict[str, set[str]]) -> str | None:
+    """The new text of `import a, b as c`; None if it needs no change."""
+    statements = []
     changed = False
     for alias in node.names:
         bound = alias.asname or alias.name
-        ours = alias.name in OURS
-        given = alias.name in names.modules or (
-            alias.name == "Ice" and _lacking("Ice", bound, used) is None
+        is_generated = alias.name in GENERATED_MODULES
+        is_provided = alias.name in names.modules or (
+            alias.name == "Ice" and _unsupported_attribute("Ice", bound, used) is None
         )
-        changed = changed or ours or given
+        changed = changed or is_generated or is_provided
         suffix = f" as {alias.asname}" if alias.asname else ""
-        if ours:
-            made.append(f"import {names.legacy} as {bound}")
-        elif given:
-            made.append(f"from {names.legacy} import {alias.name}{suffix}")
+        if is_generated:
+            statements.append(f"import {names.legacy} as {bound}")
+        elif is_provided:
+            statements.append(f"from {names.legacy} import {alias.name}{suffix}")
         else:
-            made.append(f"import {alias.name}{suffix}")
-    return "; ".join(made) if changed else None
+            statements.append(f"import {alias.name}{suffix}")
+    return "; ".join(statements) if changed else None
 
 
-def _from_import(node: ast.ImportFrom, names: Names, used: dict[str, set[str]]) -> str | None:
-    """The statement for `from a import b`; None if it is not ours."""
+def _from_import(node: ast.ImportFrom, names: LegacyNames, used: dict[str, set[str]]) -> str | None:
+    """The new text of `from a import b`; None if it needs no change."""
     module = node.module or ""
     listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in node.names)
-    if module in OURS:
+    if module in GENERATED_MODULES:
         return f"from {names.legacy} import {listed}"
     if module in names.modules:
-        return f"from generated.interfaces import {listed}"
-    if module.partition(".")[0] in QT and _qt_missing(node, used) is None:
-        kept = [a for a in node.names if a.name in STAND_INS]
-        listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in kept)
-        return f"from {names.legacy} import {listed}" if kept else "pass"
+        return f"from {names.package}.interfaces import {listed}"
+    if module.partition(".")[0] in QT and _unsupported_qt_name(node, used) is None:
+        supported = [a for a in node.names if a.name in STAND_INS]
+        listed = ", ".join(a.name + (f" as {a.asname}" if a.asname else "") for a in supported)
+        return f"from {names.legacy} import {listed}" if supported else "pass"
     return None
 
 
-def _beyond(node: ast.ImportFrom, user: UserModule, used: dict[str, set[str]]) -> str | None:
-    """What code takes of the names that `from genericworker import *` brought, and is not there."""
-    if node.module not in OURS or node.names[0].name != "*":
+def _unsupported_star_import(
+    node: ast.ImportFrom, user: UserModule, used: dict[str, set[str]]
+) -> str | None:
+    """A used name of `from genericworker import *` that has no stand-in; None if all have one."""
+    if node.module not in GENERATED_MODULES or node.names[0].name != "*":
         return None
-    found = [alias for one in ast.walk(user.tree) for alias in getattr(one, "names", [])]
-    others = {a.asname or a.name for a in found if isinstance(a, ast.alias)}
-    for name in sorted(STAND_INS.keys() - others):
-        if missing := _lacking(name, name, used):
+    aliases = [
+        alias for statement in ast.walk(user.tree) for alias in getattr(statement, "names", [])
+    ]
+    imported = {a.asname or a.name for a in aliases if isinstance(a, ast.alias)}
+    for name in sorted(STAND_INS.keys() - imported):
+        if missing := _unsupported_attribute(name, name, used):
             return missing
     return None
 
 
-def _qt_missing(node: ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
-    """What an import from Qt gives that there is no stand-in for."""
+def _unsupported_qt_name(node: ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
+    """A used name of an import from Qt that has no stand-in; None if all have one."""
     for alias in node.names:
         bound = alias.asname or alias.name
         if alias.name in STAND_INS:
-            if missing := _lacking(alias.name, bound, used):
+            if missing := _unsupported_attribute(alias.name, bound, used):
                 return missing
         elif alias.name == "*" or bound in used:
             return f"`{alias.name}`"
     return None
 
 
-def _lacking(name: str, bound: str, used: dict[str, set[str]]) -> str | None:
-    """What code takes of the stand-in `name`, which it calls `bound`, and is not there."""
+def _unsupported_attribute(name: str, bound: str, used: dict[str, set[str]]) -> str | None:
+    """A used attribute that the stand-in `name`, bound as `bound`, lacks; None if none."""
     known, taken = STAND_INS[name], used.get(bound, set())
     if TIMER in (f"{name}()" if "()" in taken else "", *taken):
         return f"`{TIMER}`"
-    extra = {one.removesuffix("()") for one in taken if one != "()"} - known
+    extra = {attribute.removesuffix("()") for attribute in taken if attribute != "()"} - known
     return f"`{name}.{min(extra)}`" if extra else None
 
 
-def _missing(node: ast.Import | ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
-    """Why an import of Qt or Ice was left as it is; None for one of something else."""
+def _unsupported_import(node: ast.Import | ast.ImportFrom, used: dict[str, set[str]]) -> str | None:
+    """Why an import of Qt or Ice cannot be replaced; None for any other import."""
     if isinstance(node, ast.ImportFrom):
         is_qt = (node.module or "").partition(".")[0] in QT
-        return _qt_missing(node, used) if is_qt else None
+        return _unsupported_qt_name(node, used) if is_qt else None
     for alias in node.names:
         if alias.name.partition(".")[0] in QT:
             return "a module of Qt"
         if alias.name == "Ice":
-            return _lacking("Ice", alias.asname or alias.name, used)
+            return _unsupported_attribute("Ice", alias.asname or alias.name, used)
     return None
 
 
 def span_of(user: UserModule, node: ast.stmt | ast.expr) -> Span:
-    """Where a piece of the tree stands."""
+    """The source span of a syntax tree node."""
     start = user.offset(node.lineno, node.col_offset)
     return user.source.span(start, user.offset(node.end_lineno or 1, node.end_col_offset or 0))

@@ -1,7 +1,7 @@
-"""From all configurations of a component to its parameters.
+"""Infer the parameters of a component from its configurations.
 
-In: the entries of every file that are parameters. Out: a tree of `Leaf`, `Branch` and `Listed`,
-and for each file its values. Dotted keys become nested groups.
+In: the entries of every file that are parameters. Out: a tree of `ScalarParameter`,
+`ParameterGroup` and `ListParameter`, and the values of each file. Dotted keys become nested groups.
 """
 
 from __future__ import annotations
@@ -13,211 +13,238 @@ from typing import TypeAlias
 
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.migrate import codes
-from robocomp_dsl.migrate.config import Config, Entry, Value
-from robocomp_dsl.migrate.values import as_kind, as_text, joined, kind_of, looks_like_list
+from robocomp_dsl.migrate.config import Config, ConfigEntry, Value
+from robocomp_dsl.migrate.values import (
+    common_kind,
+    convert_value,
+    format_value,
+    kind_of,
+    looks_like_list,
+)
 from robocomp_dsl.model.parameter import Kind
 from robocomp_dsl.model.types import Literal
 
 ITEM = "value"
-"""The one parameter of the groups that a list of plain values becomes."""
+"""The parameter of each group that replaces an item of a plain list."""
 
 _NAME = re.compile(r"(?!(?:string|int|float|bool)$)[A-Za-z_][A-Za-z0-9_]*", re.IGNORECASE)
-"""What a parameter can be called; the names of types are keywords of PDSL."""
+"""Valid parameter names; the names of types are keywords of PDSL."""
 
 
 @dataclass(frozen=True, slots=True)
-class Leaf:
-    """One value. `texts` are what the first file had for true and false, if it is a bool."""
+class ScalarParameter:
+    """One value. `bool_texts` is the first file's spelling of true and false, if it is a bool."""
 
     name: str
-    old: tuple[str, ...]
+    old_path: tuple[str, ...]
     kind: Kind
     default: Literal | None
     doc: str = ""
-    texts: tuple[str, str] = ("true", "false")
+    bool_texts: tuple[str, str] = ("true", "false")
 
 
 @dataclass(frozen=True, slots=True)
-class Branch:
+class InferredGroup:
     """A group of parameters."""
 
     name: str
-    members: tuple[Node, ...]
+    members: tuple[ParameterNode, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Listed:
-    """A list of groups with one `value` each, from a list of plain values."""
+class ListParameter:
+    """A list of groups with a single `value` each, from a list of plain values."""
 
     name: str
-    old: tuple[str, ...]
-    item: Leaf
+    old_path: tuple[str, ...]
+    item: ScalarParameter
     doc: str = ""
 
 
-MOST_LISTED = 5
-"""So many missing keys of a file are named."""
+MAX_NAMED_KEYS = 5
+"""At most this many missing keys of a file are listed."""
 
-Node: TypeAlias = Leaf | Branch | Listed
-Tree: TypeAlias = tuple[Node, ...]
+ParameterNode: TypeAlias = ScalarParameter | InferredGroup | ListParameter
+ParameterTree: TypeAlias = tuple[ParameterNode, ...]
 
-Values: TypeAlias = dict[tuple[str, ...], Literal | list[Literal]]
-"""By the path of the parameter, in new names."""
+ParameterValues: TypeAlias = dict[tuple[str, ...], Literal | list[Literal]]
+"""Values by the path of the parameter, in new names."""
 
 
 @dataclass(frozen=True, slots=True)
-class Parameters:
-    """What a component's configurations hold: the parameters, and the values of each file.
+class InferredParameters:
+    """The parameters of a component, and the values of each configuration.
 
-    `typed`: the first file is TOML.
+    `typed` is true if the first file is TOML.
     """
 
-    tree: Tree
-    values: tuple[Values, ...]
+    tree: ParameterTree
+    values: tuple[ParameterValues, ...]
     typed: bool
 
 
 @dataclass(slots=True)
-class _Given:
-    """One key in all files: `entries` by the number of the file."""
+class _KeyOccurrences:
+    """One key in all files; `entries` is by the index of the file."""
 
-    entries: dict[int, Entry] = field(default_factory=dict)
-    below: dict[str, _Given] = field(default_factory=dict)
+    entries: dict[int, ConfigEntry] = field(default_factory=dict)
+    children: dict[str, _KeyOccurrences] = field(default_factory=dict)
 
 
-def infer(configs: Sequence[tuple[Config, Sequence[Entry]]], report: Report) -> Parameters:
-    """The parameters of all `configs`, of which the first one gives the defaults."""
-    root = _Given()
+def infer(
+    configs: Sequence[tuple[Config, Sequence[ConfigEntry]]], report: Report
+) -> InferredParameters:
+    """The parameters of all `configs`; the first one provides the defaults."""
+    root = _KeyOccurrences()
     for number, (_, entries) in enumerate(configs):
-        for one in entries:
-            at = root
-            for part in one.path:
-                at = at.below.setdefault(part, _Given())
-            at.entries[number] = one
-    builder = _Builder([config for config, _ in configs], report)
+        for entry in entries:
+            occurrences = root
+            for part in entry.path:
+                occurrences = occurrences.children.setdefault(part, _KeyOccurrences())
+            occurrences.entries[number] = entry
+    builder = _TreeBuilder([config for config, _ in configs], report)
     tree = tuple(builder.members(root, ()))
-    builder.tell_missing()
-    return Parameters(tree, tuple(builder.values), bool(configs) and configs[0][0].typed)
+    builder.report_missing()
+    return InferredParameters(tree, tuple(builder.values), bool(configs) and configs[0][0].typed)
 
 
-class _Builder:
-    """Makes the nodes, and fills the values of every file meanwhile."""
+class _TreeBuilder:
+    """Builds the parameter nodes and collects the values of every file."""
 
     def __init__(self, configs: Sequence[Config], report: Report) -> None:
         self.configs = configs
         self.report = report
-        self.values: list[Values] = [{} for _ in configs]
-        self.missing: list[list[Entry]] = [[] for _ in configs]
+        self.values: list[ParameterValues] = [{} for _ in configs]
+        self.missing: list[list[ConfigEntry]] = [[] for _ in configs]
 
-    def members(self, given: _Given, path: tuple[str, ...]) -> Iterator[Node]:
+    def members(
+        self, occurrences: _KeyOccurrences, path: tuple[str, ...]
+    ) -> Iterator[ParameterNode]:
         taken: set[str] = set()
-        # Names that need no change keep theirs, whichever file has them.
-        for old, one in sorted(given.below.items(), key=lambda i: not _NAME.fullmatch(i[0])):
-            name = _claimed(old, taken)
+        # Valid names are claimed first, so that they stay unchanged.
+        for old, child in sorted(
+            occurrences.children.items(), key=lambda i: not _NAME.fullmatch(i[0])
+        ):
+            name = _unique_name(old, taken)
             if name != old:
-                self.tell_renamed(one, old, name)
-            yield from self.node(one, (*path, name))
+                self.report_renamed(child, old, name)
+            yield from self.node(child, (*path, name))
 
-    def node(self, given: _Given, path: tuple[str, ...]) -> Iterator[Node]:
-        """What one key became; a value beside keys below it is told and left out."""
-        if given.below:
-            for entry in given.entries.values():
-                below = next(_entries(given.below))
-                self.clash(entry, "a value", below, "a group")
-            if members := tuple(self.members(given, path)):
-                yield Branch(path[-1], members)
+    def node(self, occurrences: _KeyOccurrences, path: tuple[str, ...]) -> Iterator[ParameterNode]:
+        """The parameter of one key; a key that is both value and group is reported."""
+        if occurrences.children:
+            for entry in occurrences.entries.values():
+                below = next(_entries(occurrences.children))
+                self.report_clash(entry, "a value", below, "a group")
+            if members := tuple(self.members(occurrences, path)):
+                yield InferredGroup(path[-1], members)
             return
-        self.look_for_missing(given)
-        first = next(iter(given.entries.values()))
+        self.record_missing(occurrences)
+        first = next(iter(occurrences.entries.values()))
         is_list = _is_plain_list(first.value)
         fitting = {}
-        for number, entry in given.entries.items():
+        for number, entry in occurrences.entries.items():
             if _is_plain_list(entry.value) is is_list:
                 fitting[number] = entry
             else:
                 words = ("a value", "a list") if is_list else ("a list", "a value")
-                self.clash(entry, words[0], first, words[1])
-        make = self.listed if is_list else self.leaf
+                self.report_clash(entry, words[0], first, words[1])
+        make = self.list_parameter if is_list else self.scalar
         yield make(fitting, path)
 
-    def leaf(self, given: Mapping[int, Entry], path: tuple[str, ...]) -> Leaf:
-        kinds = {n: kind_of(e.value, typed=self.configs[n].typed) for n, e in given.items()}
-        kind = joined(kinds.values())
-        for number, entry in given.items():
-            self.values[number][path] = as_kind(entry.value, kind)
-            self.tell_text(entry, kind, kinds[number])
-        first = next(iter(given))
-        entry = given[first]
-        doc = next((e.doc for e in given.values() if e.doc), "")
+    def scalar(
+        self, occurrences: Mapping[int, ConfigEntry], path: tuple[str, ...]
+    ) -> ScalarParameter:
+        kinds = {n: kind_of(e.value, typed=self.configs[n].typed) for n, e in occurrences.items()}
+        kind = common_kind(kinds.values())
+        for number, entry in occurrences.items():
+            self.values[number][path] = convert_value(entry.value, kind)
+            self.report_string(entry, kind, kinds[number])
+        first = next(iter(occurrences))
+        entry = occurrences[first]
+        doc = next((e.doc for e in occurrences.values() if e.doc), "")
         texts = _bool_texts(entry.value) if kind is Kind.BOOL else ("true", "false")
-        default = as_kind(entry.value, kind)
-        return Leaf(path[-1], entry.path, kind, default, doc, texts)
+        default = convert_value(entry.value, kind)
+        return ScalarParameter(path[-1], entry.path, kind, default, doc, texts)
 
-    def listed(self, given: Mapping[int, Entry], path: tuple[str, ...]) -> Listed:
-        kinds = [kind_of(v, typed=True) for e in given.values() for v in e.value]
-        kind = joined(kinds) if kinds else Kind.STRING
-        for number, entry in given.items():
-            self.values[number][path] = [as_kind(v, kind) for v in entry.value]
+    def list_parameter(
+        self, occurrences: Mapping[int, ConfigEntry], path: tuple[str, ...]
+    ) -> ListParameter:
+        kinds = [kind_of(v, typed=True) for e in occurrences.values() for v in e.value]
+        kind = common_kind(kinds) if kinds else Kind.STRING
+        for number, entry in occurrences.items():
+            self.values[number][path] = [convert_value(v, kind) for v in entry.value]
             if kind is Kind.STRING and any(not isinstance(v, str) for v in entry.value):
-                said = f"the items of `{entry.key}` are of different kinds, so they became texts"
-                self.report.add(codes.NOT_SUPPORTED_VALUE, entry.span, said)
-        entry = next(iter(given.values()))
-        doc = next((e.doc for e in given.values() if e.doc), "")
-        return Listed(path[-1], entry.path, Leaf(ITEM, entry.path, kind, None), doc)
+                message = f"the items of `{entry.key}` are of different types; they became strings"
+                self.report.add(codes.CONVERTED_TO_STRING, entry.span, message)
+        entry = next(iter(occurrences.values()))
+        doc = next((e.doc for e in occurrences.values() if e.doc), "")
+        return ListParameter(
+            path[-1], entry.path, ScalarParameter(ITEM, entry.path, kind, None), doc
+        )
 
-    def tell_text(self, entry: Entry, kind: Kind, own: Kind) -> None:
-        """What a reader should know of a value that is a text now."""
+    def report_string(self, entry: ConfigEntry, kind: Kind, own: Kind) -> None:
+        """Report a value that became a string."""
         if kind is not Kind.STRING:
             return
         if own is not kind:
-            said = f"`{entry.key}` is a text, because another file gives it one"
-            self.report.add(codes.NOT_SUPPORTED_VALUE, entry.span, said)
+            message = f"`{entry.key}` became a string, because another file has a string"
+            self.report.add(codes.CONVERTED_TO_STRING, entry.span, message)
         elif not isinstance(entry.value, str):
-            said = f"`{entry.key}` became the text `{as_text(entry.value):.60}`"
-            self.report.add(codes.NOT_SUPPORTED_VALUE, entry.span, said)
+            message = f"`{entry.key}` became the string `{format_value(entry.value):.60}`"
+            self.report.add(codes.CONVERTED_TO_STRING, entry.span, message)
         elif looks_like_list(entry.value):
-            said = f"`{entry.key}` looks like a list and stays a text"
-            self.report.add(codes.TEXT_LIST, entry.span, said)
+            message = f"`{entry.key}` looks like a list; it stays a string"
+            self.report.add(codes.LIST_IN_STRING, entry.span, message)
 
-    def tell_renamed(self, given: _Given, old: str, name: str) -> None:
-        for entry in list(_entries({old: given}))[:1]:
-            said = f"`{old:.60}` in `{entry.key:.80}` is called `{name:.60}` now"
-            self.report.add(codes.RENAMED_KEY, entry.span, said)
+    def report_renamed(self, occurrences: _KeyOccurrences, old: str, name: str) -> None:
+        for entry in list(_entries({old: occurrences}))[:1]:
+            message = f"`{old:.60}` in `{entry.key:.80}` was renamed to `{name:.60}`"
+            self.report.add(codes.RENAMED_KEY, entry.span, message)
 
-    def look_for_missing(self, given: _Given) -> None:
-        entry = next(iter(given.entries.values()))
+    def record_missing(self, occurrences: _KeyOccurrences) -> None:
+        entry = next(iter(occurrences.entries.values()))
         for number, missing in enumerate(self.missing):
-            if number not in given.entries:
+            if number not in occurrences.entries:
                 missing.append(entry)
 
-    def tell_missing(self) -> None:
-        """One finding for each file, whatever it lacks."""
+    def report_missing(self) -> None:
+        """Report the missing keys of each file in one finding."""
         for config, missing in zip(self.configs, self.missing, strict=True):
             if missing:
-                names = [f"`{one.key}`" for one in missing]
-                listed = ", ".join(names[:MOST_LISTED])
-                more = f" and {len(names) - MOST_LISTED} more" if len(names) > MOST_LISTED else ""
-                have = "they have their defaults" if len(names) > 1 else "it has its default"
-                said = f"`{config.path.name}` does not give {listed}{more}; {have} there"
-                notes = [Note(one.span, f"`{one.key}` comes from here") for one in missing]
+                names = [f"`{entry.key}`" for entry in missing]
+                listed = ", ".join(names[:MAX_NAMED_KEYS])
+                more = (
+                    f" and {len(names) - MAX_NAMED_KEYS} more"
+                    if len(names) > MAX_NAMED_KEYS
+                    else ""
+                )
+                have = "their defaults apply" if len(names) > 1 else "its default applies"
+                message = f"`{config.path.name}` lacks {listed}{more}; {have}"
+                notes = [Note(entry.span, f"`{entry.key}` comes from here") for entry in missing]
                 self.report.add(
-                    codes.MISSING_KEY, config.source.whole, said, notes=notes[:MOST_LISTED]
+                    codes.MISSING_KEY,
+                    config.source.file_span,
+                    message,
+                    notes=notes[:MAX_NAMED_KEYS],
                 )
 
-    def clash(self, entry: Entry, what: str, other: Entry, is_: str) -> None:
-        said = f"`{entry.key}` is {what} here and {is_} elsewhere; it was left out"
-        note = Note(other.span, f"{is_} here")
-        self.report.add(codes.CONFIG_CLASH, entry.span, said, notes=(note,))
+    def report_clash(
+        self, entry: ConfigEntry, form: str, other: ConfigEntry, other_form: str
+    ) -> None:
+        message = f"`{entry.key}` is {form} here and {other_form} elsewhere; it was left out"
+        note = Note(other.span, f"{other_form} here")
+        self.report.add(codes.CONFLICTING_KEY, entry.span, message, notes=(note,))
 
 
-def _entries(given: Mapping[str, _Given]) -> Iterator[Entry]:
-    """All entries at and below some keys."""
-    for one in given.values():
-        yield from one.entries.values()
-        yield from _entries(one.below)
+def _entries(occurrences: Mapping[str, _KeyOccurrences]) -> Iterator[ConfigEntry]:
+    """All entries of some keys and of the keys below them."""
+    for occurrence in occurrences.values():
+        yield from occurrence.entries.values()
+        yield from _entries(occurrence.children)
 
 
-def _claimed(old: str, taken: set[str]) -> str:
+def _unique_name(old: str, taken: set[str]) -> str:
     name = re.sub(r"[^A-Za-z0-9_]", "_", old) or "_"
     name = f"_{name}" if name[0].isdigit() else name
     while name in taken or not _NAME.fullmatch(name):
@@ -227,12 +254,12 @@ def _claimed(old: str, taken: set[str]) -> str:
 
 
 def _is_plain_list(value: Value) -> bool:
-    """Whether a value is a list of single values, which a list of groups can hold."""
+    """Whether a value is a list without lists and tables in it."""
     return isinstance(value, list) and not any(isinstance(v, list | dict) for v in value)
 
 
 def _bool_texts(value: Value) -> tuple[str, str]:
-    """How a file writes true and false, from one of them."""
+    """A file's spelling of true and false, from one example."""
     if not isinstance(value, str):
         return ("true", "false")
     if value.isupper():

@@ -1,6 +1,6 @@
-"""What a deployment consists of: instances, wires, and the addresses by which they are found.
+"""The draft of a deployment: instances, connections, and addresses.
 
-In: what `deployment` and `wiring` find out. Out: `Draft`.
+In: the results of `deployment` and `connections`. Out: `DeploymentDraft`.
 """
 
 from __future__ import annotations
@@ -10,73 +10,73 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from robocomp_dsl.migrate.ice import Address
-from robocomp_dsl.migrate.moved import Moved, MovedConfig
+from robocomp_dsl.migrate.migrated_component import MigratedComponent, MigratedConfig
 from robocomp_dsl.model.component import Component, Role
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.source import Span
 
-HERE = ("", "localhost", "*", "::1")
-COMMON = "commonbehavior"
-"""The end of the interfaces by which RoboComp watched every component."""
+LOCAL_HOSTS = ("", "localhost", "*", "::1")
+COMMON_BEHAVIOR = "commonbehavior"
+"""Suffix of the interfaces by which RoboComp monitored every component."""
 
 
 @dataclass(slots=True)
-class Instance:
-    """One component of the deployment. `peer` has the interfaces of a stand-in."""
+class MigratedInstance:
+    """One component of the deployment. `peer_interfaces` are those of a stand-in."""
 
     name: str
     span: Span
-    moved: Moved | None = None
-    config: MovedConfig | None = None
+    migrated: MigratedComponent | None = None
+    config: MigratedConfig | None = None
     host: str = ""
     user: str = ""
-    listens: list[Address] = field(default_factory=list)
+    endpoints: list[Address] = field(default_factory=list)
     port: int = 0
     after: list[str] = field(default_factory=list)
-    remarks: list[str] = field(default_factory=list)
-    peer: list[Interface] = field(default_factory=list)
+    comments: list[str] = field(default_factory=list)
+    peer_interfaces: list[Interface] = field(default_factory=list)
 
     @property
     def component(self) -> Component | None:
-        """What it is, where its description is known."""
-        return self.moved.component if self.moved else None
+        """The component; None if its description is unknown."""
+        return self.migrated.component if self.migrated else None
 
     def serves(self, interface: Interface) -> str | None:
-        """The port that serves `interface`; interfaces of several runs are compared by name."""
+        """The port that serves `interface`, compared by name; None if there is none."""
         if self.component is None:
-            return interface.name if self.has_peer(interface) else None
+            return interface.name if self.stands_in_for(interface) else None
         for port in self.component.with_role(Role.IMPLEMENTS):
-            if same(port.interface, interface):
+            if same_interface(port.interface, interface):
                 return port.name
         return None
 
-    def has_peer(self, interface: Interface) -> bool:
-        """Whether the stand-in has `interface`."""
-        return any(same(one, interface) for one in self.peer)
+    def stands_in_for(self, interface: Interface) -> bool:
+        """Whether this is a stand-in with `interface`."""
+        return any(same_interface(peer, interface) for peer in self.peer_interfaces)
 
 
 @dataclass(slots=True)
-class Draft:
-    """The deployment. A wire is `(instance, port, instance, port)`."""
+class DeploymentDraft:
+    """The deployment. A connection is `(client, port, server, port)`."""
 
-    instances: list[Instance]
-    wires: list[tuple[str, str, str, str]] = field(default_factory=list)
-
-
-def same(one: Interface, other: Interface) -> bool:
-    """Whether two interfaces have the same name, module included."""
-    return (one.module, one.name) == (other.module, other.name)
+    instances: list[MigratedInstance]
+    connections: list[tuple[str, str, str, str]] = field(default_factory=list)
 
 
-class Names:
-    """Names of instances, none twice."""
+def same_interface(interface: Interface, other: Interface) -> bool:
+    """Whether two interfaces have the same module and name."""
+    return (interface.module, interface.name) == (other.module, other.name)
+
+
+class InstanceNames:
+    """Unique names of instances."""
 
     def __init__(self) -> None:
         self.taken: set[str] = set()
 
-    def claim(self, wanted: str) -> str:
-        """A free name of DDSL for `wanted`."""
-        name = re.sub(r"\W", "_", wanted, flags=re.ASCII) or "component"
+    def claim(self, requested: str) -> str:
+        """A free DDSL name based on `requested`."""
+        name = re.sub(r"\W", "_", requested, flags=re.ASCII) or "component"
         name = f"_{name}" if name[0].isdigit() else name
         while name in self.taken:
             name += "_"
@@ -84,8 +84,8 @@ class Names:
         return name
 
 
-def meets(called: Address, listening: Address, other: Instance) -> bool:
-    """Whether a call of one address reaches the other; addresses of this machine are all one."""
+def address_matches(called: Address, listening: Address, other: MigratedInstance) -> bool:
+    """Whether a client's address is the server's; all addresses of this machine are equal."""
     if called.port != listening.port or not called.port:
         return False
     hosts = {host_name(listening.host) or host_name(other.host)}
@@ -93,22 +93,22 @@ def meets(called: Address, listening: Address, other: Instance) -> bool:
 
 
 def host_name(host: str) -> str:
-    """A host as configurations write it; empty for this machine."""
-    return "" if host in HERE or host.startswith("127.") or host == "0.0.0.0" else host  # noqa: S104
+    """A host name of a configuration; empty for this machine."""
+    return "" if host in LOCAL_HOSTS or host.startswith("127.") or host == "0.0.0.0" else host  # noqa: S104
 
 
-def hosts_of(instances: Sequence[Instance]) -> dict[str, tuple[str, str]]:
+def hosts_of(instances: Sequence[MigratedInstance]) -> dict[str, tuple[str, str]]:
     """The hosts that are not this machine: address to name and user."""
-    found: dict[str, tuple[str, str]] = {}
-    names = Names()
-    for one in instances:
-        address = host_name(one.host)
-        if address and address not in found:
-            users = [o.user for o in instances if o.host == one.host and o.user]
-            found[address] = (names.claim(f"host_{address}"), users[0] if users else "")
-    return found
+    hosts: dict[str, tuple[str, str]] = {}
+    names = InstanceNames()
+    for instance in instances:
+        address = host_name(instance.host)
+        if address and address not in hosts:
+            users = [o.user for o in instances if o.host == instance.host and o.user]
+            hosts[address] = (names.claim(f"host_{address}"), users[0] if users else "")
+    return hosts
 
 
-def host_of(one: Instance) -> str:
-    """The address of its host; empty for this machine."""
-    return host_name(one.host)
+def host_of(instance: MigratedInstance) -> str:
+    """The address of an instance's host; empty for this machine."""
+    return host_name(instance.host)

@@ -1,7 +1,7 @@
-"""Kinds of configured values: guessed from texts, known in TOML, joined over several files.
+"""Types of configured values: inferred from strings, known in TOML, unified over several files.
 
-In: values as a configuration gives them. Out: the kind that all of them have, and each as a value
-of that kind. Ranges and enumerations are not guessed: nothing in a value says them.
+In: values of configurations. Out: the kind that can hold all of them, and each value converted to
+that kind. Ranges and enumerations cannot be inferred from values.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ _INT = re.compile(r"[-+]?(?:0|[1-9][0-9]{0,17})")
 _FLOAT = re.compile(r"[-+]?(?:(?:0|[1-9][0-9]*)(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]{1,3})?")
 _LIST = re.compile(r"[^,;]+(?:[,;][^,;]*)+")
 _EXACT = 2**53
-"""Whole numbers up to here are the same as floating point numbers."""
+"""Integers up to here are exact as floating point numbers."""
 
 
 def kind_of(value: Value, *, typed: bool) -> Kind:
-    """The kind of one value; a text of the text form is looked at, one of TOML is a text."""
+    """The kind of one value; strings of the text format are parsed, those of TOML are strings."""
     if isinstance(value, bool):
         return Kind.BOOL
     if isinstance(value, int):
@@ -32,11 +32,11 @@ def kind_of(value: Value, *, typed: bool) -> Kind:
     if isinstance(value, float):
         return Kind.FLOAT if math.isfinite(value) else Kind.STRING
     if isinstance(value, str) and not typed:
-        return _kind_of_text(value)
+        return _kind_of_string(value)
     return Kind.STRING
 
 
-def _kind_of_text(text: str) -> Kind:
+def _kind_of_string(text: str) -> Kind:
     if text.lower() in ("true", "false"):
         return Kind.BOOL
     if _INT.fullmatch(text):
@@ -45,25 +45,25 @@ def _kind_of_text(text: str) -> Kind:
     return Kind.FLOAT if fits else Kind.STRING
 
 
-def joined(kinds: Iterable[Kind]) -> Kind:
-    """The kind that can hold values of all `kinds`; a text can hold any."""
-    found = set(kinds)
-    if found == {Kind.INT, Kind.FLOAT}:
+def common_kind(kinds: Iterable[Kind]) -> Kind:
+    """The kind that can hold values of all `kinds`; a string can hold any."""
+    distinct = set(kinds)
+    if distinct == {Kind.INT, Kind.FLOAT}:
         return Kind.FLOAT
-    return found.pop() if len(found) == 1 else Kind.STRING
+    return distinct.pop() if len(distinct) == 1 else Kind.STRING
 
 
-def as_kind(value: Value, kind: Kind) -> Literal:
+def convert_value(value: Value, kind: Kind) -> Literal:
     """`value` as one of `kind`, which is `kind_of` it or `joined` from that."""
     if kind is Kind.STRING:
-        return as_text(value)
+        return format_value(value)
     if kind is Kind.BOOL:
         return value if isinstance(value, bool) else value.lower() == "true"
     return int(value) if kind is Kind.INT else float(value)
 
 
-def as_text(value: Value) -> str:
-    """`value` as it stands in a text; lists and dates as JSON and ISO 8601 have them."""
+def format_value(value: Value) -> str:
+    """`value` as a string; lists as JSON, dates as ISO 8601."""
     if isinstance(value, str):
         return value
     if isinstance(value, bool):
@@ -74,10 +74,10 @@ def as_text(value: Value) -> str:
 
 
 def is_exact(value: Value, kind: Kind) -> bool:
-    """Whether `as_kind` loses nothing of a whole number that becomes a floating point one."""
+    """Whether `convert_value` is lossless for an integer that becomes a floating point number."""
     return kind is not Kind.FLOAT or not isinstance(value, int) or abs(value) <= _EXACT
 
 
 def looks_like_list(text: str) -> bool:
-    """Whether a text seems to be a list: `1,2,3` or `a;b`."""
+    """Whether a string looks like a list: `1,2,3` or `a;b`."""
     return bool(_LIST.fullmatch(text))

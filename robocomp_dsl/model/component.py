@@ -8,12 +8,12 @@ from pathlib import Path
 from robocomp_dsl.model.interface import Interface, Module, Operation, Pattern
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.statemachine import StateMachine
-from robocomp_dsl.record import Record, Value
+from robocomp_dsl.record import Record, ValueRecord
 from robocomp_dsl.source import Span
 
 
 class Role(StrEnum):
-    """What a component does with an interface."""
+    """The role of a component for an interface."""
 
     IMPLEMENTS = "implements"
     REQUIRES = "requires"
@@ -22,7 +22,7 @@ class Role(StrEnum):
 
     @property
     def is_topic(self) -> bool:
-        """Whether it is one side of publish and subscribe."""
+        """Whether the role is publishing or subscribing."""
         return self in (Role.SUBSCRIBES, Role.PUBLISHES)
 
 
@@ -31,7 +31,7 @@ class Port(Record):
 
     `name` identifies the port in the component: the instance name (`requires Laser as front`), else
     the interface's name, with the suffix 1, 2, … for a repeated one. `middleware` is empty for the
-    component's own. An `optional` one may be left without a peer.
+    component's own. An `optional` port may have no peer.
     """
 
     role: Role
@@ -46,10 +46,10 @@ class Port(Record):
         return operation.as_topic() if self.role.is_topic else operation.as_service()
 
 
-class StateMachineRef(Value):
+class StateMachineRef(ValueRecord):
     """`statemachine "path"`; the path as written, resolved beside the CDSL file.
 
-    `machine` is what the file describes; None where it is not there or not understood.
+    `machine` is None if the file is missing or faulty.
     """
 
     path: Path
@@ -60,8 +60,8 @@ class StateMachineRef(Value):
 class Component(Record):
     """One CDSL file.
 
-    `language` is as written (`Python`, `Cpp`, `Cpp11`), at `language_span`; `period` in ms, 0 for
-    only on events; `threads` 1 for serialised execution. `modules` are the imported IDSL modules
+    `language` is as written (`Python`, `Cpp`, `Cpp11`) at `language_span`; `period` in ms, 0: no
+    periodic calls; `threads` 1: serialised execution. `modules` are the imported IDSL modules
     (direct imports).
     """
 

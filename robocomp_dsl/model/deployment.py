@@ -1,4 +1,4 @@
-"""Deployments of DDSL, resolved: which components run where, with what, wired how."""
+"""Deployments of DDSL, resolved: instances, hosts, settings and connections."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from pathlib import Path
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.devices import Devices
 from robocomp_dsl.model.types import Literal
-from robocomp_dsl.record import Record, Value
+from robocomp_dsl.record import Record, ValueRecord
 from robocomp_dsl.source import Span
 
-READY_S = 60.0
-"""What a component has until it is ready where nothing is said: a busy machine starts slowly."""
+START_TIMEOUT_S = 60.0
+"""Default time until a component must be ready [s]; a busy machine starts slowly."""
 
 
-class Qos(Value):
-    """Quality of service of one connection; None where nothing was written."""
+class Qos(ValueRecord):
+    """Quality of service of one connection; None: not specified."""
 
     reliable: bool | None = None
     priority: str | None = None
@@ -24,8 +24,8 @@ class Qos(Value):
     deadline_ms: float | None = None
 
 
-class Restart(Value):
-    """When a process that ended is started again, and how often at most within a window."""
+class Restart(ValueRecord):
+    """The restart policy of a process, with at most `max` restarts per window."""
 
     policy: str = "on-failure"
     max: int = 5
@@ -33,11 +33,11 @@ class Restart(Value):
 
 
 THIS_MACHINE = "localhost"
-"""The host that need not be declared."""
+"""The implicitly declared host."""
 
 
 class Host(Record):
-    """A machine. The one named "" is this machine."""
+    """A machine. The host with the name "" is this machine."""
 
     name: str
     address: str
@@ -46,8 +46,8 @@ class Host(Record):
     span: Span | None = None
 
     @property
-    def is_here(self) -> bool:
-        """Whether it is the machine on which the deployment is started."""
+    def is_local(self) -> bool:
+        """Whether the host is the machine on which the deployment is started."""
         if self.address == THIS_MACHINE:
             return True
         try:
@@ -59,13 +59,12 @@ class Host(Record):
 class Instance(Record):
     """One component of the deployment.
 
-    Of one in a group, the groups' names stand before its own in `name`, with `-`, as in
-    `arm-motor`; `group` is `arm`, and empty for one in none. `placed` is where its host is named.
-    With a `prefix` others see it, and all its ports, under `whole_name`: `left/arm-motor`.
-    `config` is None for the component's own `etc/config.yaml`, or for a file of the `context`, or
-    called as `searched` says, that the component finds when it starts; `settings` are the `set`
-    lines, the keys dotted; `executable` is a command line run in the component's folder; `port` 0:
-    any.
+    In a group, `name` is prefixed with the names of the groups: `arm-motor`; `group` is then `arm`,
+    otherwise empty. `host_span` is the reference to the host. With a `prefix`, the name of the
+    running component is `full_name`: `left/arm-motor`. `config` is None if the component uses its
+    own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
+    starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
+    the component's folder; `port` 0: any free port.
     """
 
     name: str
@@ -74,7 +73,7 @@ class Instance(Record):
     host: Host
     config: Path | None = None
     context: str = ""
-    searched: str = ""
+    config_name: str = ""
     prefix: str = ""
     settings: tuple[tuple[str, Literal], ...] = ()
     environment: tuple[tuple[str, str], ...] = ()
@@ -83,22 +82,22 @@ class Instance(Record):
     port: int = 0
     after: tuple[str, ...] = ()
     restart: Restart = Restart()
-    ready_within_s: float = READY_S
+    start_timeout_s: float = START_TIMEOUT_S
     doc: str = ""
     group: str = ""
-    placed: Span | None = None
+    host_span: Span | None = None
 
     @property
-    def whole_name(self) -> str:
-        """The name by which it runs."""
+    def full_name(self) -> str:
+        """The name of the running component."""
         return f"{self.prefix}/{self.name}" if self.prefix else self.name
 
 
 class Connection(Record):
-    """`client.port` uses what `server.port` serves, or `subscriber` hears what `publisher` says.
+    """A connection from client to server, or from publisher to subscriber.
 
     For a service `source` requires and `target` implements; for a topic `source` publishes and
-    `target` subscribes to. Implied wires are listed too, with `implied`.
+    `target` subscribes. `implied`: the connection is not written in the file.
     """
 
     source: Instance
@@ -111,7 +110,7 @@ class Connection(Record):
 
 
 class Export(Record):
-    """A port of an instance inside a group that is used from outside, under `name`."""
+    """A port of an instance in a group that is visible outside as `name`."""
 
     name: str
     instance: Instance
@@ -120,10 +119,10 @@ class Export(Record):
 
 
 class Group(Record):
-    """Components that appear as one outside, where only the `exports` are seen.
+    """A group of components; only its `exports` are visible outside.
 
-    `name` is as in `Instance.group`, outer groups first: `arm-hand`; `instances` are their names,
-    those of groups inside included.
+    `name` is as in `Instance.group`, outer groups first: `arm-hand`; `instances` are the names of
+    its instances, including those of nested groups.
     """
 
     name: str
@@ -134,18 +133,18 @@ class Group(Record):
 
 
 class Clock(Record):
-    """The time by which all components live; the default is that of the machine.
+    """The clock of all components; the default is the wall clock.
 
-    `source` is the instance that makes it when `kind` is `sim`; None where there is none that
-    could. In lock-step the components act one at a time; one that needs more than `limit_s` for a
-    step is lost: the others go on, or with `stops_when_lost` the source fails.
+    `source` is the clock source if `kind` is `sim`; None if there is none. In lock-step the
+    components run one at a time; one that exceeds `limit_s` for a step times out: the others
+    continue, or the deployment stops if `stop_on_timeout`.
     """
 
     kind: str = "wall"
     source: Instance | None = None
     lockstep: bool = False
     limit_s: float = 10.0
-    stops_when_lost: bool = False
+    stop_on_timeout: bool = False
     span: Span | None = None
 
 

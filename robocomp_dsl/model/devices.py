@@ -8,7 +8,7 @@ from robocomp_dsl.source import Span
 
 
 class Device(Record):
-    """A driver, wrapper, calibrator or controller; the component knows what its kind is."""
+    """A driver, wrapper, calibrator or controller; the component defines its kinds."""
 
     name: str
     kind: str
@@ -18,7 +18,7 @@ class Device(Record):
 
 
 class Attachment(Record):
-    """`device` stands on the devices `to`."""
+    """`device` is attached to the devices `to`."""
 
     device: str
     to: tuple[str, ...]
@@ -26,7 +26,7 @@ class Attachment(Record):
 
 
 class Action(Record):
-    """`verb` is done to `device`, by the calibrator `by` or the only one, in a phase."""
+    """`verb` is applied to `device` in a phase, by the calibrator `by` or the only one."""
 
     phase: str
     level: int
@@ -37,7 +37,7 @@ class Action(Record):
 
 
 class Devices(Record):
-    """All of one component, in order of writing."""
+    """The devices, attachments and actions of one component, in order of writing."""
 
     devices: tuple[Device, ...] = ()
     attachments: tuple[Attachment, ...] = ()

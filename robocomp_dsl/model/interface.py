@@ -11,7 +11,7 @@ from robocomp_dsl.source import Span
 
 
 class Pattern(StrEnum):
-    """How an operation travels (paper "Progress in RoboComp", section V).
+    """The communication pattern of an operation (paper "Progress in RoboComp", section V).
 
     `COMMAND`: one way, one to one. `QUERY`: request and reply. `PUBLISH`: one way, one to many.
     `UNMARKED` (a void operation without outputs or exceptions): publish where the interface is a
@@ -51,11 +51,11 @@ class Operation(Record):
     doc: str = ""
 
     def as_topic(self) -> Pattern:
-        """The pattern where the interface is published or subscribed to."""
+        """The pattern if the interface is published or subscribed to."""
         return Pattern.PUBLISH if self.pattern is Pattern.UNMARKED else self.pattern
 
     def as_service(self) -> Pattern:
-        """The pattern where the interface is implemented or required."""
+        """The pattern if the interface is implemented or required."""
         return Pattern.QUERY if self.pattern is Pattern.UNMARKED else self.pattern
 
 
@@ -80,17 +80,17 @@ class Module(Record):
 
     @property
     def interfaces(self) -> tuple[Interface, ...]:
-        """Its interfaces."""
+        """The interfaces of the module."""
         return tuple(d for d in self.declarations if isinstance(d, Interface))
 
     def closure(self) -> tuple[Module, ...]:
-        """Every module it imports, directly or not, imported ones first, itself last."""
+        """The module and all its direct and indirect imports, imported modules first."""
         seen: dict[int, Module] = {}
 
         def visit(module: Module) -> None:
-            for one in module.imports:
-                if id(one) not in seen:
-                    visit(one)
+            for imported in module.imports:
+                if id(imported) not in seen:
+                    visit(imported)
             seen[id(module)] = module
 
         visit(self)

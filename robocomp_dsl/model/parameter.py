@@ -11,7 +11,7 @@ from robocomp_dsl.source import Span
 
 
 class Kind(StrEnum):
-    """What values a parameter takes. `CHOICE` is an enumeration, `GROUP` a list of groups."""
+    """The type of a parameter. `CHOICE` is an enumeration, `GROUP` a list of groups."""
 
     STRING = "string"
     INT = "int"
@@ -22,7 +22,7 @@ class Kind(StrEnum):
 
 
 class Parameter(Record):
-    """One parameter. `default` None: it must be given.
+    """One parameter. `default` None: a value is required.
 
     `low` and `high` bound a number (inclusive) or the length of a group list; either may be None.
     `choices` only for CHOICE, `members` only for GROUP. A group with `single` is one nested group

@@ -1,4 +1,4 @@
-"""State machines of SMDSL and SCXML, resolved. What SMDSL cannot say has its default there."""
+"""State machines of SMDSL and SCXML, resolved. Fields without SMDSL syntax have defaults."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from robocomp_dsl.source import Span
 
 
 class State(Record):
-    """One state; `inside` are the states within it, all active at once where it is `parallel`.
+    """One state with its `substates`, which are all active simultaneously if it is `parallel`.
 
-    Names are unique in a machine. `initial` and `final` tell its part among its siblings; `start`
-    are the states that are entered with it, one of those inside unless SCXML says otherwise.
-    `history` ("shallow" or "deep") is no state, but a way to those that were active last; then
-    `start` is where it leads at first. `entry` and `exit` are executable content, as written.
+    Names are unique in a machine. `initial` and `final` are relative to the siblings; `start` are
+    the states entered with it, one substate unless SCXML specifies others. A state with `history`
+    ("shallow" or "deep") is an SCXML history; `start` is then its default target. `entry` and
+    `exit` are executable content, as written.
     """
 
     name: str
@@ -23,7 +23,7 @@ class State(Record):
     initial: bool = False
     final: bool = False
     parallel: bool = False
-    inside: tuple[State, ...] = ()
+    substates: tuple[State, ...] = ()
     doc: str = ""
     start: tuple[str, ...] = ()
     history: str = ""
@@ -32,12 +32,12 @@ class State(Record):
 
 
 class Transition(Record):
-    """From one state to one other, by an event or by time (`after_s`), or by whichever is first.
+    """A transition, triggered by an event or by time (`after_s`), or by whichever comes first.
 
-    In SCXML `event` may list several, be a pattern, or be empty: then it is taken as soon as `cond`
-    holds. `target` may be empty, so that only `action` happens, and `others` are entered with it,
-    in other parallel states. `cond` and `action` are as written; `internal`: the source stays
-    active.
+    In SCXML `event` may list several events, be a pattern, or be empty: then the transition is
+    taken as soon as `cond` holds. `target` may be empty (only `action` is executed); `others` are
+    targets in other parallel states. `cond` and `action` are as written; `internal`: the source
+    stays active.
     """
 
     source: str
@@ -53,7 +53,7 @@ class Transition(Record):
 
     @property
     def targets(self) -> tuple[str, ...]:
-        """All states that it enters."""
+        """All target states."""
         return (self.target, *self.others) if self.target else ()
 
 
@@ -74,10 +74,10 @@ class StateMachine(Record):
     language: str = ""
     data: str = ""
 
-    def every_state(self) -> Iterator[State]:
-        """The states and all inside them, outer ones first; histories are among them."""
+    def all_states(self) -> Iterator[State]:
+        """All states and substates, outer ones first, including histories."""
         todo = list(reversed(self.states))
         while todo:
-            one = todo.pop()
-            yield one
-            todo.extend(reversed(one.inside))
+            state = todo.pop()
+            yield state
+            todo.extend(reversed(state.substates))

@@ -1,17 +1,17 @@
-"""Data types of IDSL, resolved: a field holds its type, not the name of it.
+"""Data types of IDSL, resolved: a field refers to its type object.
 
-Recursive structs are refused by the checks, so a type is always a finite tree.
+The checks reject recursive types, so a type is always a finite tree.
 """
 
 from __future__ import annotations
 
 from typing import TypeAlias
 
-from robocomp_dsl.record import Record, Value
+from robocomp_dsl.record import Record, ValueRecord
 from robocomp_dsl.source import Span
 
 
-class Primitive(Value):
+class Primitive(ValueRecord):
     """A built-in type; `bits` is its width on the wire, 0 for a string."""
 
     name: str
@@ -34,7 +34,7 @@ Literal: TypeAlias = bool | int | float | str
 
 
 class Declaration(Record):
-    """What every named thing of an IDSL module has; `span` covers the name where it is declared."""
+    """A named declaration of an IDSL module; `span` covers its name."""
 
     module: str
     name: str

@@ -4,8 +4,8 @@ Generated code imports `Component`, its specification and `main` from here, and 
 `robocomp_dsl.runtime.types`.
 """
 
-from robocomp_dsl.runtime.component import Component
+from robocomp_dsl.runtime.component.component import Component
+from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
 from robocomp_dsl.runtime.main import main
-from robocomp_dsl.runtime.spec import CalledPort, ComponentSpec, ServedPort
 
 __all__ = ["CalledPort", "Component", "ComponentSpec", "ServedPort", "main"]

@@ -1,6 +1,6 @@
-"""Time for the life cycle: what a period is measured by, and how to wait for the next one.
+"""Clocks of a component: the protocol, the wall clock, and the event that ends a wait.
 
-In: moments in s. Out: the present, and waits that end early when something happens.
+Times are seconds since a fixed moment of the clock.
 """
 
 from __future__ import annotations
@@ -10,59 +10,61 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
+from robocomp_dsl.runtime.deprecated import DeprecatedClockNames
+
 NANO = 1_000_000_000
-DIGITS = 9
-"""Moments are rounded to ns, so that sums of periods meet the times that a source tells."""
-TIMELESS = "nobody tells the time any more: whoever makes it has ended, or hangs"
-"""The reason of an emergency while a clock is `silent`."""
+TIME_DIGITS = 9
+"""Times are rounded to ns, so that sums of periods equal the times of the clock source."""
+CLOCK_LOST = "simulated clock lost: the clock source exited or is not responding"
+"""The reason of an emergency while a clock is stale."""
 
 
-class Wake(threading.Event):
-    """Ends a wait early. `over`: the component is to end, nothing holds it any more."""
+class WakeEvent(threading.Event):
+    """Ends a wait early. `stopped`: the component stops; waits return immediately."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.over = False
-        self.listener: Callable[[], None] | None = None
+        self.stopped = False
+        self.on_set: Callable[[], None] | None = None
 
     def set(self) -> None:
-        """Something happened."""
+        """Wake the waiting thread."""
         super().set()
-        if self.listener:
-            self.listener()
+        if self.on_set:
+            self.on_set()
 
-    def end(self) -> None:
-        """The component is to end."""
-        self.over = True
+    def stop(self) -> None:
+        """Stop the component: no wait blocks any more."""
+        self.stopped = True
         self.set()
 
 
 class Clock(Protocol):
-    """A clock that a component lives by."""
+    """The clock of a component."""
 
     @property
-    def epoch(self) -> int:
-        """How often time has begun anew; -1: it has not begun at all."""
+    def reset_count(self) -> int:
+        """How often time was reset; -1: the clock has not started."""
 
     @property
-    def silent(self) -> bool:
-        """Whether time stands still because who makes it has ended or hangs: it is no pause."""
+    def is_stale(self) -> bool:
+        """Whether the clock source exited or is not responding; a paused clock is not stale."""
 
     def now(self) -> float:
-        """Seconds since some fixed moment; goes back only with another `epoch`."""
+        """Seconds since a fixed moment; goes back only with another `epoch`."""
 
-    def wait_until(self, moment: float | None, wake: Wake) -> None:
+    def wait_until(self, moment: float | None, wake: WakeEvent) -> None:
         """Until `now()` is `moment` (None: for ever), `wake` is set or the epoch is another.
 
         While it is `silent`, a wait ends now and then.
         """
 
 
-class WallClock:
-    """The time of the machine."""
+class WallClock(DeprecatedClockNames):
+    """The monotonic clock of the system."""
 
-    epoch = 0
-    silent = False
+    reset_count = 0
+    is_stale = False
 
     def now(self) -> float:
         """See `Clock`."""

@@ -1,23 +1,19 @@
 """What can go wrong between components, as types. In: words. Out: exceptions that users catch.
 
-Exception
-├── MiddlewareError         the call, the topic or the message did not work out
-│   ├── NoServer            nobody serves the interface that is called
-│   ├── AmbiguousServer     several serve it and no wire says which is meant
-│   ├── Timeout             no answer came in time
-│   ├── InterfaceMismatch   the two sides were generated from different interfaces
-│   ├── RemoteError         the other side failed with something it did not declare
-│   └── MalformedMessage    the bytes are not what the interface says (offset and field)
-├── DeclaredError           base of the exceptions that an IDSL file declares
-├── EncodeError             a value that its type cannot carry (also a ValueError)
-├── NotImplementedOperation the component has no method for it (also a NotImplementedError)
-├── ConfigError             a configuration that cannot be used   } defined in
-└── Refused                 a live parameter change that is not made } `runtime.parameters`
+Exception ├── MiddlewareError the call, the topic or the message did not work out │ ├── NoServer
+nobody serves the interface that is called │ ├── AmbiguousServer several serve it and no wire says
+which is meant │ ├── Timeout no answer came in time │ ├── InterfaceMismatch the two sides were
+generated from different interfaces │ ├── RemoteError the other side failed with something it did
+not declare │ └── MalformedMessage the bytes are not what the interface says (offset and field) ├──
+DeclaredError base of the exceptions that an IDSL file declares ├── EncodeError a value that its
+type cannot carry (also a ValueError) ├── NotImplementedOperation the component has no method for it
+(also a NotImplementedError) ├── ConfigError a configuration that cannot be used } defined in └──
+ParameterRejected a live parameter change that is not made } `runtime.parameters`
 """
 
 from __future__ import annotations
 
-from robocomp_dsl.runtime.record import Record
+from robocomp_dsl.runtime.data.struct import Struct
 
 
 class MiddlewareError(Exception):
@@ -34,8 +30,8 @@ class AmbiguousServer(MiddlewareError):
     `servers` are their ports, as `component.Port`.
     """
 
-    def __init__(self, said: str, servers: tuple[str, ...] = ()) -> None:
-        super().__init__(said)
+    def __init__(self, message: str, servers: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
         self.servers = servers
 
 
@@ -85,10 +81,11 @@ class NotImplementedOperation(NotImplementedError):
     """The component declares the interface but has no method for this operation."""
 
 
-class DeclaredError(Record, Exception):
+class DeclaredError(Struct, Exception):
     """Base of the exceptions that an IDSL file declares; carries fields as a struct does."""
 
     __slots__ = ()
+    _fields_ = ()
 
     def __str__(self) -> str:
         return repr(self)

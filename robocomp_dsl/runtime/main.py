@@ -1,7 +1,7 @@
-"""The program of a component: its options, its signals, its exit code.
+"""Main function of a component: command line, signals, exit code.
 
-In: the user's class and a command line. Out: 0 when the component ended in order, 1 when it could
-not start or failed, 2 when the command line cannot be understood.
+In: the user's class and a command line. Out: 0 when the component stopped normally, 1 when it could
+not start or failed, 2 for an invalid command line.
 """
 
 from __future__ import annotations
@@ -17,41 +17,41 @@ from dataclasses import replace
 from pathlib import Path
 
 from robocomp_dsl import __version__
-from robocomp_dsl.runtime import logs
-from robocomp_dsl.runtime.clock_settings import ClockSettings, parse_clock
-from robocomp_dsl.runtime.component import Component
-from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware import UnknownMiddleware
-from robocomp_dsl.runtime.parameters import ConfigError, Parameters
-from robocomp_dsl.runtime.parameters.shown import lines
-from robocomp_dsl.runtime.settings import (
+from robocomp_dsl.runtime.component import logs
+from robocomp_dsl.runtime.component.component import Component
+from robocomp_dsl.runtime.component.settings import (
+    InvalidSetting,
     RunSettings,
-    WrongSetting,
+    parse_connections,
     parse_name,
     parse_prefix,
-    parse_qualities,
+    parse_qos,
     parse_remaps,
-    parse_wires,
 )
-from robocomp_dsl.runtime.spec import ComponentSpec
+from robocomp_dsl.runtime.component.spec import ComponentSpec
+from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
+from robocomp_dsl.runtime.parameters import ConfigError, Parameters
+from robocomp_dsl.runtime.parameters.shown import describe_parameters
+from robocomp_dsl.runtime.time.clock_settings import ClockSettings, parse_clock
 
 CONFIG = Path("etc/config.yaml")
 log = logging.getLogger("robocomp")
 
 
 def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
-    """Run `component` until it ends or is told to; returns the exit code of the program."""
+    """Run `component` until it stops or is stopped; returns the exit code of the process."""
     parser = _parser(component.SPEC)
-    said = parser.parse_args(argv)
+    options = parser.parse_args(argv)
     try:
-        settings = _settings(said, component.SPEC)
-    except WrongSetting as error:
+        settings = _settings(options, component.SPEC)
+    except InvalidSetting as error:
         parser.error(str(error))
-    name = settings.whole_name(component.SPEC.name)
-    logs.set_up(name, said.log_level, said.log_format)
+    name = settings.full_name(component.SPEC.name)
+    logs.set_up(name, options.log_level, options.log_format)
     try:
-        config, keeps = _configuration(said, settings, component.SPEC.name)
-        params = component.SPEC.parameters.load(config, settings.overrides, keeps=keeps)
+        config, save_beside = _configuration(options, settings, component.SPEC.name)
+        params = component.SPEC.parameters.load(config, settings.overrides, save_beside=save_beside)
         settings = replace(settings, config=config)
     except ConfigError as error:
         print(error, file=sys.stderr)  # noqa: T201 - located findings, not a record
@@ -60,37 +60,43 @@ def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
 
 
 def _configuration(
-    said: argparse.Namespace, settings: RunSettings, component: str
+    options: argparse.Namespace, settings: RunSettings, component: str
 ) -> tuple[Path | None, Path]:
-    """The file, and the one beside which live values are kept. Raises `ConfigError`."""
-    path, keeps = settings.config, settings.config or CONFIG
-    if said.verbose_search and not (said.context or said.file):
-        log.info("configuration %s; neither --context nor --from asks for a search", path or "none")
-    if said.context or said.file:
-        from robocomp_dsl.runtime.config.start import Asked, found  # noqa: PLC0415 - seldom
+    """The configuration, and the path beside which live values are saved. Raises `ConfigError`."""
+    path, save_beside = settings.config, settings.config or CONFIG
+    if options.verbose_search and not (options.context or options.config_name):
+        log.info(
+            "configuration %s; no search: neither --context nor --config-name is set",
+            path or "none",
+        )
+    if options.context or options.config_name:
+        from robocomp_dsl.runtime.config.startup import (  # noqa: PLC0415 - seldom needed
+            ConfigRequest,
+            find_config,
+        )
 
-        whole = settings.whole_name(component)
-        names = tuple(dict.fromkeys((whole, settings.name or component, component)))
-        asked = Asked(said.context, said.file, names)
-        path, keeps = found(asked, CONFIG, verbose=said.verbose_search)
-    elif not _can_keep(keeps):
-        from robocomp_dsl.runtime.config.start import keep_of  # noqa: PLC0415 - seldom
+        full = settings.full_name(component)
+        names = tuple(dict.fromkeys((full, settings.name or component, component)))
+        request = ConfigRequest(options.context, options.config_name, names)
+        path, save_beside = find_config(request, CONFIG, verbose=options.verbose_search)
+    elif not _can_save_beside(save_beside):
+        from robocomp_dsl.runtime.config.startup import fallback_save_path  # noqa: PLC0415 - seldom
 
-        keeps = keep_of(keeps, component)
-    # Copies of a component that share a configuration do not share the values they keep.
-    return path, keeps.parent / settings.prefix / keeps.name
+        save_beside = fallback_save_path(save_beside, component)
+    # Copies of a component that share a configuration have separate saved values.
+    return path, save_beside.parent / settings.prefix / save_beside.name
 
 
-def _can_keep(config: Path) -> bool:
-    """Whether a file beside it can be written, after its folder was made if need be."""
+def _can_save_beside(config: Path) -> bool:
+    """Whether a file in the folder of `config` can be written; a missing folder can be created."""
     above = (config.parent, *config.absolute().parents)
-    there = next(one for one in above if os.access(one, os.F_OK))
-    return os.access(there, os.W_OK | os.X_OK)
+    existing = next(folder for folder in above if os.access(folder, os.F_OK))
+    return os.access(existing, os.W_OK | os.X_OK)
 
 
 def _run(component: type[Component], params: Parameters, settings: RunSettings) -> int:
-    # Loaded late: a wrong command line or configuration is told without it.
-    from robocomp_dsl.runtime.runner import Runner  # noqa: PLC0415
+    # Imported late: errors of the command line and configuration do not need it.
+    from robocomp_dsl.runtime.component.runner import Runner  # noqa: PLC0415
 
     try:
         runner = Runner(component, params, settings)
@@ -103,19 +109,19 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
 
 
 def _on_signals(stop: Callable[[], None]) -> None:
-    """Call `stop` on SIGTERM and SIGINT, whichever thread the system hands them to.
+    """Call `stop` on SIGTERM and SIGINT, whichever thread receives the signal.
 
-    Python runs its handlers in the main thread only, which can sleep through a signal; the byte in
-    the pipe is written by the handler in C.
+    Python runs its handlers in the main thread only, which may be blocked; the wake-up pipe is
+    written by the handler in C.
     """
-    heard, told = os.pipe()
-    os.set_blocking(told, False)
-    signal.set_wakeup_fd(told, warn_on_full_buffer=False)
-    for one in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(one, lambda *_: None)
+    read_end, write_end = os.pipe()
+    os.set_blocking(write_end, False)
+    signal.set_wakeup_fd(write_end, warn_on_full_buffer=False)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: None)
 
     def listen() -> None:
-        os.read(heard, 1)
+        os.read(read_end, 1)
         stop()
 
     threading.Thread(target=listen, name="signals", daemon=True).start()
@@ -126,23 +132,30 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         description=f"Run the component {spec.name}.",
         allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="\n".join(_parameters(spec)),
+        epilog="\n".join(_parameter_help(spec)),
     )
     add = parser.add_argument
-    add("--config", metavar="FILE", type=Path, help=f"YAML or TOML ({CONFIG} if it is there)")
-    add("--context", metavar="C", default="", help="configured by the files of this context")
-    add("--from", metavar="FILE", dest="file", default="", help="a configuration to search for")
-    add("--verbose-search", action="store_true", help="tell each place that was searched")
+    add(
+        "--config",
+        metavar="FILE",
+        type=Path,
+        help=f"YAML or TOML file (default: {CONFIG} if it exists)",
+    )
+    add("--context", metavar="C", default="", help="use the configuration files of this context")
+    add("--config-name", metavar="FILE", default="", help="name of a configuration to search for")
+    add("--verbose-search", action="store_true", help="log every path that is searched")
     add("--set", metavar="KEY=VALUE", action="append", default=[], help="set a parameter")
     add("--name", default="", help=f"name of this instance ({spec.name})")
-    add("--prefix", default="", help="before the names of this instance and its peers, as in left")
-    add("--middleware", metavar="M", default="", help=f"carries all ports ({spec.middleware})")
+    add("--prefix", default="", help="namespace of this instance and its peers, such as left")
+    add(
+        "--middleware", metavar="M", default="", help=f"middleware of all ports ({spec.middleware})"
+    )
     add(
         "--domain",
         default=os.environ.get("ROBOCOMP_DOMAIN") or "default",
-        help="only components of the same domain see each other (ROBOCOMP_DOMAIN or default)",
+        help="components connect only within one domain (ROBOCOMP_DOMAIN or default)",
     )
-    add("--connect", metavar="PORT=COMPONENT", action="append", default=[], help="wire a port")
+    add("--connect", metavar="PORT=COMPONENT", action="append", default=[], help="connect a port")
     add("--remap", metavar="PORT=NAME", action="append", default=[], help="rename a port")
     add(
         "--qos",
@@ -156,63 +169,78 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         metavar="CLOCK",
         type=parse_clock,
         default=ClockSettings(),
-        help="wall, or sim|lockstep,from=COMPONENT: the time that it publishes (wall)",
+        help="wall (default), or sim|lockstep,from=COMPONENT for its simulated clock",
     )
-    add("--listen-port", metavar="N", type=int, default=0, help="listen there on loopback, too")
-    add("--log-level", choices=logs.LEVELS, default=_level(), help="(info, or LOG_LEVEL)")
+    add(
+        "--listen-port",
+        metavar="N",
+        type=int,
+        default=0,
+        help="also listen on this TCP port of loopback",
+    )
+    add(
+        "--log-level",
+        choices=logs.LEVELS,
+        default=_default_log_level(),
+        help="(info, or LOG_LEVEL)",
+    )
     add("--log-format", choices=("text", "json"), default="text")
     add("--version", action="version", version=f"{spec.name}, robocomp_dsl {__version__}")
     return parser
 
 
-def _parameters(spec: ComponentSpec) -> Iterator[str]:
+def _parameter_help(spec: ComponentSpec) -> Iterator[str]:
     if spec.parameters.SCHEMA:
-        yield "parameters (in the configuration, or after --set):"
-        yield from lines(spec.parameters.SCHEMA)
+        yield "parameters (in the configuration file, or with --set):"
+        yield from describe_parameters(spec.parameters.SCHEMA)
 
 
-def _level() -> str:
-    said = os.environ.get("LOG_LEVEL", "").lower()
-    return said if said in logs.LEVELS else "info"
+def _default_log_level() -> str:
+    level = os.environ.get("LOG_LEVEL", "").lower()
+    return level if level in logs.LEVELS else "info"
 
 
-def _settings(said: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
-    """What was said, checked. Raises `WrongSetting`."""
-    wires, qualities = parse_wires(said.connect), parse_qualities(said.qos)
-    remaps = parse_remaps(said.remap)
+def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
+    """The settings of the command line. Raises `InvalidSetting`."""
+    connections, qos = parse_connections(options.connect), parse_qos(options.qos)
+    remaps = parse_remaps(options.remap)
     ports = list(_ports(spec))
-    for name in (*wires, *qualities, *remaps):
+    for name in (*connections, *qos, *remaps):
         if name not in ports:
-            known = f"it has {', '.join(ports)}" if ports else "it has none"
-            raise WrongSetting(f"{spec.name} has no port `{name}`; {known}")
-    _check_seen(spec, remaps)
-    if said.config and (said.context or said.file):
-        raise WrongSetting("--config is an exact path; there is nothing left to search for")
-    if not 0 <= said.listen_port <= 65535:
-        raise WrongSetting(f"{said.listen_port} is no port number")
+            known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
+            raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
+    _check_port_names(spec, remaps)
+    if options.config and (options.context or options.config_name):
+        raise InvalidSetting(
+            "--config is an exact path; it cannot be combined with --context or --config-name"
+        )
+    if not 0 <= options.listen_port <= 65535:
+        raise InvalidSetting(f"{options.listen_port} is not a port number (0 to 65535)")
     return RunSettings(
-        name=parse_name(said.name, "name") if said.name else "",
-        prefix=parse_prefix(said.prefix),
-        domain=said.domain,
-        middleware=said.middleware,
-        config=said.config or (CONFIG if CONFIG.is_file() else None),
-        overrides=tuple(said.set),
-        wires=wires,
-        qualities=qualities,
+        name=parse_name(options.name, "name") if options.name else "",
+        prefix=parse_prefix(options.prefix),
+        domain=options.domain,
+        middleware=options.middleware,
+        config=options.config or (CONFIG if CONFIG.is_file() else None),
+        overrides=tuple(options.set),
+        connections=connections,
+        qos=qos,
         remaps=remaps,
-        listen_port=said.listen_port,
-        clock=said.clock,
+        listen_port=options.listen_port,
+        clock=options.clock,
     )
 
 
-def _check_seen(spec: ComponentSpec, remaps: Mapping[str, str]) -> None:
-    """Two ports that others see must not have one name. Raises `WrongSetting`."""
-    seen = {"Component": "Component"}
-    for own in [one.name for one in spec.implements] + [one.name for one in spec.publishes]:
+def _check_port_names(spec: ComponentSpec, remaps: Mapping[str, str]) -> None:
+    """Check that served and published ports have distinct names. Raises `InvalidSetting`."""
+    names = {"Component": "Component"}
+    for own in [implement.name for implement in spec.implements] + [
+        publish.name for publish in spec.publishes
+    ]:
         name = remaps.get(own, own)
-        other = seen.setdefault(name, own)
+        other = names.setdefault(name, own)
         if other != own and (own in remaps or other in remaps):
-            raise WrongSetting(f"`{other}` and `{own}` would both be called `{name}`")
+            raise InvalidSetting(f"`{other}` and `{own}` would both be named `{name}`")
 
 
 def _ports(spec: ComponentSpec) -> Iterator[str]:

@@ -1,15 +1,15 @@
-"""What can go wrong with touch and the generic arm.
+"""The errors of touch and of the generic arm.
 
 TactileError
-    DescriptionError     a description or position file is wrong; holds every finding with its place
+    DescriptionError     a description or position file is wrong; holds all findings
     InvalidCommand       a command holds NaN, or has the wrong number of values
     Unreachable          no joint angles within the limits reach the pose
-    RejectedFrame        a taxel frame cannot be used; says why
+    RejectedFrame        a taxel frame cannot be used, with the reason
     BadFit               points describe no cone
-    BadGeometry          what a skin tells of its taxels contradicts itself
-    InvalidField         a receptive field that this skin and this arm cannot have
-    NoState              the arm has not been measured yet
-    NoChain              the description gives no kinematic chain
+    BadGeometry          the geometry message of a skin is inconsistent
+    InvalidField         a receptive field does not fit the skin or the arm
+    NoState              no measurement of the arm has arrived yet
+    NoChain              the description has no kinematic chain
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from enum import Enum, StrEnum
 
 
 class TactileError(Exception):
-    """Anything this package raises for its caller."""
+    """Base class of all errors of this package."""
 
 
 class Fault(StrEnum):
@@ -46,44 +46,46 @@ class Finding:
     fault: Fault = Fault.FORM
 
     def __str__(self) -> str:
-        told = f"{self.file}:{self.line}:{self.column}: {self.message}"
-        return f"{told} ({self.help})" if self.help else told
+        text = f"{self.file}:{self.line}:{self.column}: {self.message}"
+        return f"{text} ({self.help})" if self.help else text
 
 
 class DescriptionError(TactileError):
     """A file that cannot be used. `findings` are all its faults, in the order of the file."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
-        self.findings = tuple(sorted(findings, key=lambda one: (one.file, one.line, one.column)))
-        super().__init__("\n".join(str(one) for one in self.findings))
+        self.findings = tuple(
+            sorted(findings, key=lambda finding: (finding.file, finding.line, finding.column))
+        )
+        super().__init__("\n".join(str(finding) for finding in self.findings))
 
 
 class BadFit(TactileError):
-    """The points do not describe a cone; the message says why."""
+    """The points describe no cone; the message says why."""
 
 
 class BadGeometry(TactileError):
-    """What a skin tells of its taxels contradicts itself; the message says where."""
+    """The geometry message of a skin is inconsistent; the message says where."""
 
 
 class InvalidField(TactileError):
-    """A receptive field that this skin and this arm cannot have; the message says which and why."""
+    """A receptive field does not fit the skin or the arm; the message says which and why."""
 
 
 class NoState(TactileError):
-    """A command that starts from where the arm is, before anybody knows where that is."""
+    """A command needs the current pose of the arm, but no measurement has arrived yet."""
 
 
 class NoChain(TactileError):
-    """A question about space to an arm of which only the joints are described."""
+    """A Cartesian operation on an arm whose description has no kinematic chain."""
 
 
 class InvalidCommand(TactileError):
-    """The values of a command cannot be meant."""
+    """A command holds invalid values."""
 
 
 class Unreachable(TactileError):
-    """The best angles found and what is missing in position [m] and direction [rad]."""
+    """A pose cannot be reached; `distance` [m] and `angle` [rad] are the remaining error."""
 
     def __init__(self, message: str, *, distance: float, angle: float) -> None:
         super().__init__(message)
@@ -92,7 +94,7 @@ class Unreachable(TactileError):
 
 
 class FrameFault(Enum):
-    """Why a taxel frame is not used."""
+    """Why a taxel frame is rejected."""
 
     NOT_FINITE = "it holds NaN or infinity"
     WRONG_LENGTH = "its length is not that of the geometry"
@@ -101,7 +103,7 @@ class FrameFault(Enum):
 
 
 class RejectedFrame(TactileError):
-    """A taxel frame that must not be used."""
+    """A taxel frame was rejected."""
 
     def __init__(self, fault: FrameFault, detail: str) -> None:
         super().__init__(f"{fault.value}: {detail}")

@@ -13,11 +13,3 @@ def test_import_contracts() -> None:
     command = [sys.executable, "-c", code, "--no-cache"]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stdout
-
-
-def test_test_modules_have_names_of_their_own() -> None:
-    """Pytest imports them by their names alone, and so do tests that share helpers."""
-    seen: dict[str, Path] = {}
-    for path in sorted((ROOT / "tests").rglob("test_*.py")):
-        assert path.name not in seen, f"{path} and {seen[path.name]}"
-        seen[path.name] = path

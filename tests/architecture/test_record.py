@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.record import Record, Value
+from robocomp_dsl.record import Record, ValueRecord
 
 
-class Place(Value):
+class Place(ValueRecord):
     """A value with a default."""
 
     x: int
@@ -25,10 +25,10 @@ class Named(Place):
     name: str = "n"
 
 
-class Alone(Value):
+class Alone(ValueRecord):
     """A single field is compared like several."""
 
-    one: str
+    text: str
 
 
 class Thing(Record):
@@ -47,19 +47,19 @@ class Flag(Record):
     """Without a field."""
 
 
-def test_fields_are_parameters_those_of_the_base_first() -> None:
+def test_record_constructor_takes_base_fields_first() -> None:
     assert (Place(1).x, Place(1).y) == (1, 7)
-    made = Named(1, 2, "here")
-    assert (made.x, made.y, made.name) == (1, 2, "here")
+    record = Named(1, 2, "here")
+    assert (record.x, record.y, record.name) == (1, 2, "here")
     assert repr(Named(3, name="it")) == "Named(x=3, y=7, name='it')"
     assert repr(Flag()) == "Flag()"
-    match made:
+    match record:
         case Named(x, y, name):
             assert (x, y, name) == (1, 2, "here")
 
 
-def test_a_base_is_made_as_itself_whichever_was_made_first() -> None:
-    class Base(Value):
+def test_record_base_and_derived_constructors_are_independent() -> None:
+    class Base(ValueRecord):
         a: int
 
     class Derived(Base):
@@ -73,43 +73,43 @@ def test_a_base_is_made_as_itself_whichever_was_made_first() -> None:
 @pytest.mark.parametrize(
     ("values", "named"), [((), {}), ((1, 2, 3), {}), ((1,), {"x": 2}), ((1,), {"z": 2})]
 )
-def test_other_parameters_are_refused(values: tuple[int, ...], named: dict[str, int]) -> None:
+def test_record_rejects_unknown_arguments(values: tuple[int, ...], named: dict[str, int]) -> None:
     for _ in range(2):  # the first time the constructor is compiled
         with pytest.raises(TypeError):
             Place(*values, **named)
 
 
-def test_values_are_compared_by_fields_and_kind_records_by_identity() -> None:
+def test_value_records_compare_by_fields_and_records_by_identity() -> None:
     assert Place(1) == Place(1, 7)
     assert hash(Place(1)) == hash(Place(1, 7))
     assert Place(1) != Place(2)
     assert Place(1) != Named(1)
     assert len({Alone("a"), Alone("a"), Alone("b")}) == 2
-    one = Thing((1, 2))
-    assert one == one
-    assert one != Thing((1, 2))
+    item = Thing((1, 2))
+    assert item == item
+    assert item != Thing((1, 2))
 
 
-def test_what_is_made_stays() -> None:
-    made = Place(1)
+def test_record_is_immutable() -> None:
+    record = Place(1)
     with pytest.raises(AttributeError, match="Place is frozen"):
-        made.x = 2  # type: ignore[misc]
+        record.x = 2  # type: ignore[misc]
     with pytest.raises(AttributeError, match="Place is frozen"):
-        del made.x
-    assert not hasattr(made, "__dict__")
+        del record.x
+    assert not hasattr(record, "__dict__")
     assert Thing((1, 2)).total == 3
 
 
-def test_replaced_is_another_one() -> None:
-    made = Named(1, 2, "a")
-    assert made.replaced(y=5) == Named(1, 5, "a")
-    assert made == Named(1, 2, "a")
+def test_record_replace_returns_copy() -> None:
+    record = Named(1, 2, "a")
+    assert record.replace(y=5) == Named(1, 5, "a")
+    assert record == Named(1, 2, "a")
     with pytest.raises(TypeError):
-        made.replaced(z=1)
+        record.replace(z=1)
 
 
 @pytest.mark.parametrize("command", ["check", "component"])
-def test_commands_that_people_wait_for_compile_no_methods(command: str, tmp_path: Path) -> None:
+def test_interactive_commands_load_no_dataclasses(command: str, tmp_path: Path) -> None:
     """A dataclass in a module that they load is 0.7 ms of every start."""
     path = tmp_path / "it.cdsl"
     path.write_text(
@@ -117,7 +117,7 @@ def test_commands_that_people_wait_for_compile_no_methods(command: str, tmp_path
         "Component it { Communications { requires Laser; }; language Python; };\n"
     )
     code = (
-        "import sys\nfrom robocomp_dsl.cli.rcgen import main\n"
+        "import sys\nfrom robocomp_dsl.cli.rcgen.main import main\n"
         "try: main()\nexcept SystemExit as end: assert not end.code\n"
         "ours = {n: m for n, m in sys.modules.items() if n.startswith('robocomp_dsl.')}\n"
         "slow = [name for name, module in ours.items() if hasattr(module, 'dataclass')]\n"

@@ -1,15 +1,16 @@
-"""Files, and beside them what is found in them: `cases/<dsl>/sem_*`, or a `main` in a folder."""
+"""Input files and the expected diagnostics: `cases/<dsl>/sem_*`, or a `main` file in a folder."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
-from shown import shown
 
-from robocomp_dsl.check import CHECKS, TACTILE, check_file, codes
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import CHECKS, TACTILE, check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
+from tests.check.shown import shown
 
 HERE = Path(__file__).parent.parent
 CASES = Path("cases")
@@ -28,27 +29,27 @@ def _cases() -> list[Path]:
 
 
 def _expected(case: Path) -> Path:
-    whole = case.parent if case.stem == "main" else case
-    return whole.with_name(f"{whole.stem}.diag.txt")
+    named = case.parent if case.stem == "main" else case
+    return named.with_name(f"{named.stem}.diag.txt")
 
 
 @pytest.fixture(autouse=True)
 def _in_tests(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(HERE)  # so that messages name no folder of this machine
+    monkeypatch.chdir(HERE)  # messages contain relative paths only
 
 
 @pytest.mark.parametrize("case", _cases(), ids=str)
-def test_case(case: Path, update_golden: bool) -> None:
+def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool) -> None:
     report = Report()
     check_file(case, Workspace(environ={}, shipped=INTERFACES), report)
-    found = shown(report, case.parent)
+    actual = shown(report, case.parent)
     if update_golden:
-        _expected(case).write_text(found)
-    assert _expected(case).read_text() == found
+        _expected(case).write_text(actual)
+    assert _expected(case).read_text() == actual
 
 
 @pytest.mark.parametrize("case", _cases(), ids=str)
-def test_again_finds_the_same(case: Path) -> None:
+def test_check_file_is_idempotent(case: Path) -> None:
     workspace = Workspace(environ={}, shipped=INTERFACES)
     first, second = Report(), Report()
     check_file(case, workspace, first)
@@ -57,22 +58,21 @@ def test_again_finds_the_same(case: Path) -> None:
 
 
 def _codes() -> list[Code]:
-    known = [one for one in vars(codes).values() if isinstance(one, Code)]
-    return [one for one in known if one.id.startswith(FAMILIES)]
+    return [code for code in stage_codes("check") if code.id.startswith(FAMILIES)]
 
 
 def test_every_code_has_a_case() -> None:
     expected = "".join(_expected(case).read_text() for case in _cases())
     elsewhere = {"RC210", "RC220", "RC317", "RC709"}  # see test_limits.py
-    missing = [one.id for one in _codes() if one.id not in elsewhere and one.id not in expected]
+    missing = [c.id for c in _codes() if c.id not in elsewhere and c.id not in expected]
     assert missing == []
 
 
 def test_codes_are_well_formed() -> None:
-    known = _codes()
-    assert len({one.id for one in known}) == len(known)
-    for one in known:
-        assert one.title
-        assert not one.title.endswith(".")
-        assert one.explanation.endswith("\n")
-        assert "\n    " in one.explanation or one.id in ("RC210", "RC317", "RC709"), one.id
+    codes = _codes()
+    assert len({code.id for code in codes}) == len(codes)
+    for code in codes:
+        assert code.title
+        assert not code.title.endswith(".")
+        assert code.explanation.endswith("\n")
+        assert "\n    " in code.explanation or code.id in ("RC210", "RC317", "RC709"), code.id

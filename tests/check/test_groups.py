@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.check import check_file
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.deployment import Deployment, Host
 
@@ -32,27 +32,27 @@ def written(folder: Path, text: str) -> Deployment:
     return read(path)
 
 
-def test_names_order_places() -> None:
+def test_groups_set_names_order_and_hosts() -> None:
     found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
-    order = [one.name for one in found.instances]
+    order = [instance.name for instance in found.instances]
     assert order == [
         "talker",
         *("left-body", "left-reflex", "left-inner-second"),
         *("right-body", "right-deep-body", "right-deep-filter"),
         "reflex",
     ]
-    by_name = {one.name: one for one in found.instances}
+    by_name = {instance.name: instance for instance in found.instances}
     assert by_name["left-inner-second"].group == "left-inner"
     assert by_name["left-inner-second"].after == ("left-reflex", "talker")
     assert set(by_name["reflex"].after) == set(order[1:-1])
     assert by_name["left-body"].host.address == "10.0.0.2"
-    assert by_name["right-body"].host.is_here
+    assert by_name["right-body"].host.is_local
     assert by_name["right-deep-body"].host.name == ""
-    assert by_name["left-body"].placed is not None
+    assert by_name["left-body"].host_span is not None
     assert by_name["left-body"].component.name == "body"
 
 
-def test_wires_stay_in_their_group() -> None:
+def test_implicit_connections_prefer_own_group() -> None:
     found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
     wires = {
         f"{w.source.name}.{w.source_port.name} -> {w.target.name}.{w.target_port.name}"
@@ -69,9 +69,9 @@ def test_wires_stay_in_their_group() -> None:
     }
 
 
-def test_groups_of_the_model() -> None:
+def test_deployment_model_has_groups() -> None:
     found = read(CASES / "ddsl" / "sem_groups" / "main.ddsl")
-    groups = {one.name: one for one in found.groups}
+    groups = {group.name: group for group in found.groups}
     assert list(groups) == ["left", "left-inner", "right", "right-deep"]
     assert groups["left"].instances == ("left-body", "left-reflex", "left-inner-second")
     assert groups["left"].doc == "Two that belong together."
@@ -92,7 +92,7 @@ def test_groups_of_the_model() -> None:
         ("group a { after b; component body; }; group b { component body; };", "b-body a-body"),
     ],
 )  # fmt: skip
-def test_order(tmp_path: Path, text: str, order: str | None) -> None:
+def test_start_order_with_groups(tmp_path: Path, text: str, order: str | None) -> None:
     found = _order(tmp_path, text)
     assert found == (order or "b a-c-body").split()
 
@@ -106,10 +106,10 @@ def _order(folder: Path, text: str) -> list[str]:
     # an unserved requirement is another matter
     assert {d.code.id for d in report} <= {"RC507"}
     assert isinstance(found, Deployment)
-    return [one.name for one in found.instances]
+    return [instance.name for instance in found.instances]
 
 
-def test_exports_carry_over_two_groups(tmp_path: Path) -> None:
+def test_exports_resolve_through_nested_groups(tmp_path: Path) -> None:
     found = written(
         tmp_path,
         "group a { group b { component body; export Laser from body as Inner; };"
@@ -131,8 +131,8 @@ def test_exports_carry_over_two_groups(tmp_path: Path) -> None:
         ("", False),
     ],
 )
-def test_which_host_is_here(address: str, here: bool) -> None:
-    assert Host("robot", address).is_here is here
+def test_host_is_local(address: str, here: bool) -> None:
+    assert Host("robot", address).is_local is here
 
 
 NAMES = st.sampled_from(["a", "b", "c", "body", "reflex", "self"])
@@ -142,37 +142,37 @@ HOSTS = st.sampled_from(["", " on localhost", " on robot", " on nowhere"])
 @st.composite
 def _blocks(draw: st.DrawFn, depth: int = 0) -> str:
     """What may stand in a deployment or a group, names and order left to chance."""
-    made = []
+    deployment = []
     for _ in range(draw(st.integers(0, 4))):
         name, other, host = draw(NAMES), draw(NAMES), draw(HOSTS)
         kind = draw(st.integers(0, 4 if depth else 2))
         if kind == 0:
-            made.append(f"component {name} : {draw(NAMES)}{host} {{ after {other}; }};")
+            deployment.append(f"component {name} : {draw(NAMES)}{host} {{ after {other}; }};")
         elif kind == 1:
-            made.append(f"connect {name}.Laser -> {other}.Laser;")
+            deployment.append(f"connect {name}.Laser -> {other}.Laser;")
         elif kind == 2 and depth < 3:
-            made.append(f"group {name}{host} {{ {draw(_blocks(depth + 1))} }};")
+            deployment.append(f"group {name}{host} {{ {draw(_blocks(depth + 1))} }};")
         elif kind == 3:
-            made.append(f"export Laser from {name} as {other};")
+            deployment.append(f"export Laser from {name} as {other};")
         elif kind == 4:
-            made.append(f"after {name}, {other};")
-    return " ".join(made)
+            deployment.append(f"after {name}, {other};")
+    return " ".join(deployment)
 
 
 @settings(max_examples=200)
 @given(_blocks())
-def test_any_groups_are_judged(text: str) -> None:
+def test_check_ddsl_accepts_any_groups(text: str) -> None:
     imports = "".join(f'import "{PARTS}/{n}.cdsl";\n' for n in ("body", "reflex"))
     path = Path("main.ddsl")
     workspace = Workspace(environ={}, shipped=CASES / "interfaces")
     whole = f'{imports}Deployment d {{ host robot {{ address "10.0.0.2"; }}; {text} }};'
-    workspace.files.open_buffer(path, whole)
+    workspace.sources.set_overlay(path, whole)
     report = Report()
     found = check_file(path, workspace, report)
     assert isinstance(found, Deployment)
-    names = [one.name for one in found.instances]
+    names = [instance.name for instance in found.instances]
     assert len(set(names)) == len(names)
-    if not report.failed:
+    if not report.has_errors:
         place = {name: i for i, name in enumerate(names)}
-        for one in found.instances:
-            assert all(place[name] < place[one.name] for name in one.after)
+        for instance in found.instances:
+            assert all(place[name] < place[instance.name] for name in instance.after)

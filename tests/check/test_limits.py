@@ -6,15 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import CHECKS, check_ddsl, check_file, check_idsl, check_syntax
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import CHECKS, check_file, check_syntax
+from robocomp_dsl.check.passes import check_ddsl, check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 
 
 def _found(path: Path) -> list[str]:
     report = Report()
     check_file(path, Workspace(environ={}, shipped=Path("nowhere")), report)
-    return [one.code.id for one in report]
+    return [diagnostic.code.id for diagnostic in report]
 
 
 @pytest.mark.parametrize("suffix", CHECKS)
@@ -30,16 +31,16 @@ def _found(path: Path) -> list[str]:
     ],
     ids=["empty", "blank", "binary", "utf-16", "latin-1", "braces"],
 )
-def test_content_that_is_no_description(tmp_path: Path, suffix: str, content: bytes) -> None:
+def test_check_file_reports_other_content(tmp_path: Path, suffix: str, content: bytes) -> None:
     path = tmp_path / f"x{suffix}"
     path.write_bytes(content)
     found = _found(path)
     assert found
-    assert all(one.startswith(("RC0", "RC1")) for one in found)
+    assert all(diagnostic.startswith(("RC0", "RC1")) for diagnostic in found)
 
 
 @pytest.mark.parametrize("suffix", CHECKS)
-def test_a_file_that_is_not_there_is_a_folder_or_is_huge(tmp_path: Path, suffix: str) -> None:
+def test_check_file_reports_missing_folder_and_huge_files(tmp_path: Path, suffix: str) -> None:
     assert _found(tmp_path / f"x{suffix}") == ["RC001"]
     (tmp_path / f"folder{suffix}").mkdir()
     assert _found(tmp_path / f"folder{suffix}") == ["RC001"]
@@ -47,23 +48,23 @@ def test_a_file_that_is_not_there_is_a_folder_or_is_huge(tmp_path: Path, suffix:
     assert _found(tmp_path / f"huge{suffix}") == ["RC001"]
 
 
-def test_a_language_that_is_not_known(tmp_path: Path) -> None:
+def test_check_file_reports_unknown_suffix(tmp_path: Path) -> None:
     path = tmp_path / "x.txt"
     path.write_text("module M { };\n")
     assert _found(path) == ["RC220"]
     report = Report()
     check_syntax(path, Workspace(environ={}), report)
-    assert [one.code.id for one in report] == ["RC220"]
+    assert [diagnostic.code.id for diagnostic in report] == ["RC220"]
 
 
-def test_imports_that_nest_without_end(tmp_path: Path) -> None:
+def test_import_depth_is_limited(tmp_path: Path) -> None:
     for number in range(300):
         text = f'import "F{number + 1}.idsl";\nmodule M{number} {{ struct S {{ int a; }}; }};\n'
         (tmp_path / f"F{number}.idsl").write_text(text)
     assert _found(tmp_path / "F0.idsl") == ["RC210"]
 
 
-def test_imports_that_branch_without_end(tmp_path: Path) -> None:
+def test_branching_imports_are_checked_once(tmp_path: Path) -> None:
     for number in range(40):
         imports = f'import "F{number + 1}.idsl";\nimport "G{number + 1}.idsl";\n'
         for name in "FG":
@@ -75,7 +76,7 @@ def test_imports_that_branch_without_end(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("order", [1, -1])
-def test_types_that_nest_without_end(tmp_path: Path, order: int) -> None:
+def test_type_depth_is_limited(tmp_path: Path, order: int) -> None:
     structs = [f"struct S{n} {{ S{n - 1} a; }};" for n in range(1, 1500)]
     path = tmp_path / "x.idsl"
     path.write_text("module M { struct S0 { int a; }; " + " ".join(structs[::order]) + " };\n")
@@ -83,14 +84,14 @@ def test_types_that_nest_without_end(tmp_path: Path, order: int) -> None:
     assert set(_found(path)) == {"RC317"}
 
 
-def test_types_that_grow_without_end(tmp_path: Path) -> None:
+def test_type_size_is_limited(tmp_path: Path) -> None:
     structs = [f"struct S{n} {{ S{n - 1} a; S{n - 1} b; }};" for n in range(1, 60)]
     path = tmp_path / "x.idsl"
     path.write_text("module M { struct S0 { int a; }; " + " ".join(structs) + " };\n")
     assert set(_found(path)) == {"RC317"}
 
 
-def test_types_that_nest_over_many_files(tmp_path: Path) -> None:
+def test_type_depth_is_limited_across_files(tmp_path: Path) -> None:
     (tmp_path / "F0.idsl").write_text("module M0 { struct S { int a; }; };\n")
     for number in range(1, 45):
         before = f"M{number - 1}::S"
@@ -100,7 +101,7 @@ def test_types_that_nest_over_many_files(tmp_path: Path) -> None:
     assert "RC317" in _found(tmp_path / "F44.idsl")
 
 
-def test_numbers_without_end(tmp_path: Path) -> None:
+def test_huge_numbers_are_reported(tmp_path: Path) -> None:
     digits, power = "9" * 6000, "1e999999"
     texts = {
         "a.idsl": f"module M {{ enum E {{ A = {digits}, B = {power} }}; "
@@ -119,7 +120,7 @@ def test_numbers_without_end(tmp_path: Path) -> None:
         assert _found(tmp_path / name), name
 
 
-def test_a_long_chain_of_after(tmp_path: Path) -> None:
+def test_start_order_of_long_chain(tmp_path: Path) -> None:
     (tmp_path / "c.cdsl").write_text("Component c { Communications { }; language Python; };\n")
     lines = [f"component c{n} : c {{ after c{n + 1}; }};" for n in range(3000)]
     path = tmp_path / "x.ddsl"
@@ -129,17 +130,19 @@ def test_a_long_chain_of_after(tmp_path: Path) -> None:
     report = Report()
     deployment = check_ddsl(path, Workspace(environ={}), report)
     assert deployment is not None
-    assert not report.failed
-    assert [one.name for one in deployment.instances] == [f"c{n}" for n in range(3000, -1, -1)]
+    assert not report.has_errors
+    assert [instance.name for instance in deployment.instances] == [
+        f"c{n}" for n in range(3000, -1, -1)
+    ]
 
 
-def test_unreadable_imports_are_findings(tmp_path: Path) -> None:
+def test_unreadable_imports_are_reported(tmp_path: Path) -> None:
     (tmp_path / "Bad.idsl").write_bytes(b"\0\0\0")
     path = tmp_path / "x.idsl"
     path.write_text('import "Bad.idsl";\nmodule M { };\n')
     report = Report()
     assert check_idsl(path, Workspace(environ={}), report) is not None
-    assert [one.code.id for one in report] == ["RC209"]
+    assert [diagnostic.code.id for diagnostic in report] == ["RC209"]
 
 
 NESTED = {
@@ -181,7 +184,7 @@ NESTED = {
 
 @pytest.mark.parametrize("name", NESTED)
 @pytest.mark.parametrize("depth", [600, 6000])
-def test_what_nests_without_end(tmp_path: Path, name: str, depth: int) -> None:
+def test_nesting_depth_is_limited(tmp_path: Path, name: str, depth: int) -> None:
     start, nested, code = NESTED[name]
     (tmp_path / name).write_text(start + nested(depth))
     found = _found(tmp_path / name)

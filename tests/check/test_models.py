@@ -6,8 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_cdsl, check_ddsl, check_idsl, check_innermodel, check_pdsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import (
+    check_cdsl,
+    check_ddsl,
+    check_idsl,
+    check_innermodel,
+    check_pdsl,
+)
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Component, Role
@@ -27,7 +33,7 @@ def _module(text: str, tmp_path: Path) -> Module:
     path.write_text(text)
     report = Report()
     modules = check_idsl(path, _workspace(), report)
-    assert [one for one in report if one.severity == "error"] == []
+    assert [item for item in report if item.severity == "error"] == []
     assert modules is not None
     return modules[-1]
 
@@ -71,19 +77,19 @@ PATTERNS = [
 
 
 @pytest.mark.parametrize(("text", "pattern", "inputs", "outputs", "result"), PATTERNS)
-def test_patterns(
+def test_operation_patterns(
     text: str, pattern: Pattern, inputs: str, outputs: str, result: str | None, tmp_path: Path
 ) -> None:
-    made = _operation(text, tmp_path)
-    assert made.pattern is pattern
-    assert " ".join(one.name for one in made.inputs) == inputs
-    assert " ".join(one.name for one in made.outputs) == outputs
-    assert (made.result.name if made.result else None) == result
-    assert made.marked == text.startswith("[")
-    assert made.idempotent == text.startswith("idempotent")
+    model = _operation(text, tmp_path)
+    assert model.pattern is pattern
+    assert " ".join(item.name for item in model.inputs) == inputs
+    assert " ".join(output.name for output in model.outputs) == outputs
+    assert (model.result.name if model.result else None) == result
+    assert model.marked == text.startswith("[")
+    assert model.idempotent == text.startswith("idempotent")
 
 
-def test_types_and_docs(tmp_path: Path) -> None:
+def test_idsl_model_has_types_and_docs(tmp_path: Path) -> None:
     module = _module(
         """
         import "Base.idsl";
@@ -116,7 +122,7 @@ def test_types_and_docs(tmp_path: Path) -> None:
     assert kind.type is mode
     assert kind.default == "Moving"
     assert isinstance(mode, types.Enum)
-    assert [one.value for one in mode.enumerators] == [0, 5, 6]
+    assert [enumerator.value for enumerator in mode.enumerators] == [0, 5, 6]
     assert pose.type is module.imports[0].declarations[0]
     assert module.closure() == (module.imports[0], module)
     assert thing.span.text == "Thing"
@@ -128,10 +134,10 @@ def _component(case: str) -> Component:
     return found
 
 
-def test_ports() -> None:
-    made = _component("sem_clean.cdsl")
-    assert (made.name, made.period, made.threads, made.middleware) == ("robot", 20, 4, "inproc")
-    ports = [(str(one.role), one.name, one.interface.name) for one in made.ports]
+def test_cdsl_model_has_ports() -> None:
+    model = _component("sem_clean.cdsl")
+    assert (model.name, model.period, model.threads, model.middleware) == ("robot", 20, 4, "inproc")
+    ports = [(str(port.role), port.name, port.interface.name) for port in model.ports]
     assert ports == [
         ("implements", "Speech", "Speech"),
         ("requires", "front", "Laser"),
@@ -140,40 +146,40 @@ def test_ports() -> None:
         ("publishes", "LaserPub", "LaserPub"),
         ("subscribesTo", "SpeechEvents", "SpeechEvents"),
     ]
-    assert [one.name for one in made.modules] == [
+    assert [module.name for module in model.modules] == [
         "RoboCompLaser",
         "RoboCompLaserPub",
         "RoboCompSpeech",
     ]
-    (push,) = made.with_role(Role.PUBLISHES)[0].interface.operations
-    assert made.with_role(Role.PUBLISHES)[0].pattern(push) is Pattern.PUBLISH
+    (push,) = model.with_role(Role.PUBLISHES)[0].interface.operations
+    assert model.with_role(Role.PUBLISHES)[0].pattern(push) is Pattern.PUBLISH
 
 
-def test_a_port_of_a_bridge_that_is_not_there_uses_the_middleware_of_the_component() -> None:
-    made = _component("sem_middleware_marks.cdsl")
-    marks = {(str(one.role), one.name): one.middleware for one in made.ports}
+def test_port_without_bridge_uses_component_middleware() -> None:
+    model = _component("sem_middleware_marks.cdsl")
+    marks = {(str(port.role), port.name): port.middleware for port in model.ports}
     assert marks["requires", "Laser"] == ""
     assert marks["publishes", "LaserPub"] == "zenoh"
     assert marks["implements", "Laser"] == "inproc"
 
 
-def test_agmagent_adds_imports_and_ports() -> None:
-    made = _component("sem_agm_interfaces/main.cdsl")
-    ports = sorted((str(one.role), one.name) for one in made.ports)
+def test_option_agmagent_adds_imports_and_ports() -> None:
+    model = _component("sem_agm_interfaces/main.cdsl")
+    ports = sorted((str(port.role), port.name) for port in model.ports)
     assert ports == [
         ("implements", "AGMCommonBehavior"),
         ("requires", "AGMExecutive"),
         ("requires", "Laser"),
         ("subscribesTo", "AGMExecutiveTopic"),
     ]
-    assert "RoboCompAGMWorldModel" in [one.name for one in made.modules]
-    assert made.options == ("agmagent", "dsr")
+    assert "RoboCompAGMWorldModel" in [module.name for module in model.modules]
+    assert model.options == ("agmagent", "dsr")
 
 
-def test_parameters() -> None:
-    made = check_pdsl(CASES / "pdsl" / "sem_clean.pdsl", _workspace(), Report())
-    assert made is not None
-    by_name = {one.name: one for one in made.parameters}
+def test_pdsl_model_has_parameters() -> None:
+    model = check_pdsl(CASES / "pdsl" / "sem_clean.pdsl", _workspace(), Report())
+    assert model is not None
+    by_name = {parameter.name: parameter for parameter in model.parameters}
     assert by_name["device"].doc == "Serial device of the bus."
     rate = by_name["rate"]
     assert (rate.kind, rate.default, rate.low, rate.high) == (Kind.FLOAT, 50.0, 1.0, 1000.0)
@@ -183,7 +189,7 @@ def test_parameters() -> None:
     assert by_name["None"].default is None
     motors = by_name["motors"]
     assert (motors.kind, motors.low, motors.high, motors.single) == (Kind.GROUP, 1, 32, False)
-    assert [one.name for one in motors.members] == ["name", "min", "pid"]
+    assert [member.name for member in motors.members] == ["name", "min", "pid"]
     assert motors.members[2].single
 
 
@@ -195,22 +201,22 @@ def _deployment(case: str, tmp_path: Path | None = None, text: str = "") -> Depl
     report = Report()
     found = check_ddsl(path, _workspace(), report)
     assert found is not None
-    assert not report.failed
+    assert not report.has_errors
     return found
 
 
-def _wires(made: Deployment) -> list[str]:
+def _connections(model: Deployment) -> list[str]:
     return [
-        f"{one.source.name}.{one.source_port.name} -> {one.target.name}.{one.target_port.name}"
-        + (" implied" if one.implied else "")
-        for one in made.connections
+        f"{c.source.name}.{c.source_port.name} -> {c.target.name}.{c.target_port.name}"
+        + (" implied" if c.implied else "")
+        for c in model.connections
     ]
 
 
-def test_a_deployment() -> None:
-    made = _deployment("sem_clean")
-    assert [one.name for one in made.instances] == ["body", "reflex"]
-    body, reflex = made.instances
+def test_ddsl_model_has_deployment() -> None:
+    model = _deployment("sem_clean")
+    assert [instance.name for instance in model.instances] == ["body", "reflex"]
+    body, reflex = model.instances
     assert body.settings == (
         ("rate", 100.0),
         ("device", "can0"),
@@ -226,24 +232,24 @@ def test_a_deployment() -> None:
     assert (body.executable, body.port) == ("python3 'my main.py'", 7451)
     assert body.restart == Restart("always", 3, 120.0)
     assert reflex.restart.policy == "never"
-    assert (reflex.ready_within_s, reflex.after, reflex.executable) == (
+    assert (reflex.start_timeout_s, reflex.after, reflex.executable) == (
         0.5,
         ("body",),
         "python3 main.py",
     )
-    assert _wires(made) == [
+    assert _connections(model) == [
         "body.LaserPub -> reflex.LaserPub",
         "reflex.Laser -> body.Laser implied",
     ]
-    assert made.connections[0].qos == Qos(False, "high", 1, 40.0)
+    assert model.connections[0].qos == Qos(False, "high", 1, 40.0)
 
 
-def test_a_filter_is_not_wired_to_itself() -> None:
-    made = _deployment("sem_filter")
-    assert _wires(made) == ["filter.Laser -> body.Laser"]
+def test_implicit_connections_skip_own_port() -> None:
+    model = _deployment("sem_filter")
+    assert _connections(model) == ["filter.Laser -> body.Laser"]
 
 
-def test_a_subscription_hears_all_publishers_or_those_that_are_named(tmp_path: Path) -> None:
+def test_subscription_connects_to_all_or_named_publishers(tmp_path: Path) -> None:
     parts = (CASES / "ddsl" / "sem_parts").as_posix()
     head = f"""
         import "{parts}/body.cdsl";
@@ -253,16 +259,16 @@ def test_a_subscription_hears_all_publishers_or_those_that_are_named(tmp_path: P
             component left : body; component right : body; component reflex;
             connect reflex.Laser -> left.Laser;
     """
-    made = _deployment("", tmp_path, head + "};")
-    assert _wires(made)[1:] == [
+    model = _deployment("", tmp_path, head + "};")
+    assert _connections(model)[1:] == [
         "left.LaserPub -> reflex.LaserPub implied",
         "right.LaserPub -> reflex.LaserPub implied",
     ]
-    made = _deployment("", tmp_path, head + "connect right.LaserPub -> reflex.LaserPub; };")
-    assert _wires(made)[1:] == ["right.LaserPub -> reflex.LaserPub"]
+    model = _deployment("", tmp_path, head + "connect right.LaserPub -> reflex.LaserPub; };")
+    assert _connections(model)[1:] == ["right.LaserPub -> reflex.LaserPub"]
 
 
-def test_order_is_stable(tmp_path: Path) -> None:
+def test_start_order_is_stable(tmp_path: Path) -> None:
     parts = (CASES / "ddsl" / "sem_parts").as_posix()
     text = f"""
         import "{parts}/talker.cdsl";
@@ -272,20 +278,20 @@ def test_order_is_stable(tmp_path: Path) -> None:
             component d : talker {{ after c; }}; component e : talker;
         }};
     """
-    made = _deployment("", tmp_path, text)
-    assert [one.name for one in made.instances] == ["c", "d", "a", "b", "e"]
+    model = _deployment("", tmp_path, text)
+    assert [instance.name for instance in model.instances] == ["c", "d", "a", "b", "e"]
 
 
-def test_a_body(tmp_path: Path) -> None:
+def test_innermodel_model(tmp_path: Path) -> None:
     path = tmp_path / "x.xml"
     path.write_text('<innerModel><transform id="a" tx="1"/></innerModel>\n')
     report = Report()
     body = check_innermodel(path, _workspace(), report)
     assert body is not None
-    assert not report.failed
+    assert not report.has_errors
 
 
-def test_interfaces_of_imports_are_the_same_objects() -> None:
+def test_imported_interfaces_are_shared_objects() -> None:
     workspace = _workspace()
     first = check_cdsl(CASES / "cdsl" / "sem_clean.cdsl", workspace, Report())
     second = check_cdsl(CASES / "ddsl" / "sem_parts" / "body.cdsl", workspace, Report())
@@ -293,6 +299,6 @@ def test_interfaces_of_imports_are_the_same_objects() -> None:
     assert second is not None
 
     def laser(component: Component) -> Interface:
-        return next(one.interface for one in component.ports if one.name == "Laser")
+        return next(port.interface for port in component.ports if port.name == "Laser")
 
     assert laser(first) is laser(second)

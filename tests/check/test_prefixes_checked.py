@@ -6,9 +6,9 @@ import random
 
 import pytest
 
-from robocomp_dsl.check.prefixes import PREFIX, nearest, on_branch
-from robocomp_dsl.runtime import naming
-from robocomp_dsl.runtime.settings import WrongSetting, parse_prefix
+from robocomp_dsl.check.ddsl.prefixes import PREFIX, nearest, on_branch
+from robocomp_dsl.runtime.component import naming
+from robocomp_dsl.runtime.component.settings import InvalidSetting, parse_prefix
 
 PREFIXES = (
     "left", "left/hand", "_", "a.b-c_d", "1", "-a", "..", "a/../b", "a//b", "a b", "é", "a" * 100,
@@ -17,24 +17,24 @@ PREFIXES = (
 
 
 @pytest.mark.parametrize("prefix", PREFIXES)
-def test_prefixes(prefix: str) -> None:
+def test_prefix_pattern_equals_runtime(prefix: str) -> None:
     assert bool(PREFIX.fullmatch(prefix)) == _takes(prefix)
 
 
-def test_neighbours() -> None:
+def test_visible_peers_equal_runtime() -> None:
     chance = random.Random(7)
     for _ in range(500):
         mine, *others = ["/".join(chance.choices("ab", k=chance.randrange(4))) for _ in range(6)]
-        names = [f"{one}/c".lstrip("/") for one in others]
+        names = [f"{diagnostic}/c".lstrip("/") for diagnostic in others]
         me = f"{mine}/me".lstrip("/")
-        seen = on_branch(mine, names, naming.prefix_of)
-        assert seen == [one for one in names if naming.related(me, one)]
-        assert nearest(mine, seen, naming.prefix_of) == naming.nearest(me, seen, str)
+        seen = on_branch(mine, names, naming.namespace_of)
+        assert seen == [name for name in names if naming.on_same_branch(me, name)]
+        assert nearest(mine, seen, naming.namespace_of) == naming.nearest(me, seen, str)
 
 
 def _takes(prefix: str) -> bool:
     try:
         parse_prefix(prefix)
-    except WrongSetting:
+    except InvalidSetting:
         return False
     return True

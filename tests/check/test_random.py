@@ -8,8 +8,8 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.check import CHECKS, check_file
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import CHECKS, check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.resources import INTERFACES
 from robocomp_dsl.source import Span
@@ -65,20 +65,22 @@ WORKSPACE = Workspace(environ={}, shipped=CASES / "interfaces")
 
 @settings(max_examples=300)
 @given(mutated())
-def test_mutated_files_give_findings(case: tuple[Path, str]) -> None:
+def test_check_file_accepts_mutated_files(case: tuple[Path, str]) -> None:
     path, text = case
-    WORKSPACE.files.open_buffer(path, text)
+    WORKSPACE.sources.set_overlay(path, text)
     try:
         report = Report()
         check_file(path, WORKSPACE, report)
-        for one in report:
-            assert one.message
-            assert _inside(one.span)
-            assert all(_inside(note.span) for note in one.notes)
-            assert one.fix is None or all(_inside(edit.span) for edit in one.fix.edits)
-            one.span.begin, one.span.finish  # noqa: B018 - must not raise
+        for diagnostic in report:
+            assert diagnostic.message
+            assert _inside(diagnostic.span)
+            assert all(_inside(note.span) for note in diagnostic.notes)
+            assert diagnostic.fix is None or all(
+                _inside(edit.span) for edit in diagnostic.fix.edits
+            )
+            diagnostic.span.start_position, diagnostic.span.end_position  # noqa: B018 - must not raise
     finally:
-        WORKSPACE.files.close_buffer(path)
+        WORKSPACE.sources.remove_overlay(path)
 
 
 IDENTIFIERS = st.sampled_from(["A", "B", "C", "M", "int", "Pose", "string"])
@@ -101,23 +103,28 @@ IMPORTS = st.lists(st.sampled_from("ABC").map('import "{}.idsl";\n'.format), max
 
 @settings(max_examples=300)
 @given(st.lists(st.tuples(IMPORTS, MODULES).map("".join), min_size=3, max_size=3))
-def test_random_modules_that_import_each_other(texts: list[str]) -> None:
+def test_module_loader_accepts_random_imports(texts: list[str]) -> None:
     """Cycles, recursion and clashes of all kinds; twice, because the second run meets the first."""
     folder = Path("/nowhere")
     workspace = Workspace(environ={}, shipped=folder)
     for name, text in zip("ABC", texts, strict=True):
-        workspace.files.open_buffer(folder / f"{name}.idsl", text)
+        workspace.sources.set_overlay(folder / f"{name}.idsl", text)
     runs = []
     for _ in range(2):
         report = Report()
         for name in "ABC":
             check_file(folder / f"{name}.idsl", workspace, report)
-        runs.append([(one.code.id, one.span.start, one.message) for one in report.sorted()])
+        runs.append(
+            [
+                (diagnostic.code.id, diagnostic.span.start, diagnostic.message)
+                for diagnostic in report.sorted()
+            ]
+        )
     assert runs[0] == runs[1]
 
 
-def test_the_shipped_interfaces_are_clean() -> None:
+def test_shipped_interfaces_have_no_findings() -> None:
     workspace, report = Workspace(environ={}), Report()
     for path in sorted(INTERFACES.glob("*.idsl")):
         check_file(path, workspace, report)
-    assert [f"{one.span.source.path}: {one.message}" for one in report] == []
+    assert [f"{diagnostic.span.source.path}: {diagnostic.message}" for diagnostic in report] == []

@@ -7,8 +7,8 @@ from pathlib import Path
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.check import check_file
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.statemachine import StateMachine
@@ -23,22 +23,26 @@ def read(path: Path) -> tuple[StateMachine, Report]:
     return found, report
 
 
-def test_the_model() -> None:
+def test_scxml_model() -> None:
     machine, report = read(CASES / "scxml" / "sem_clean.scxml")
     assert list(report) == []
     assert (machine.name, machine.language, machine.start) == ("game", "ecmascript", ("waiting",))
     assert machine.data.startswith("<datamodel>")
     assert machine.data.endswith("</datamodel>")
-    states = {one.name: one for one in machine.every_state()}
-    assert [one.name for one in machine.states] == ["waiting", "playing", "paused", "over"]
-    assert [name for name, one in states.items() if one.initial] == ["waiting", "silent", "dark"]
-    assert [name for name, one in states.items() if one.parallel] == ["playing"]
-    assert [name for name, one in states.items() if one.final] == ["over"]
+    states = {state.name: state for state in machine.all_states()}
+    assert [state.name for state in machine.states] == ["waiting", "playing", "paused", "over"]
+    assert [name for name, state in states.items() if state.initial] == [
+        "waiting",
+        "silent",
+        "dark",
+    ]
+    assert [name for name, state in states.items() if state.parallel] == ["playing"]
+    assert [name for name, state in states.items() if state.final] == ["over"]
     assert (states["last"].history, states["last"].start) == ("deep", ("silent",))
     assert states["waiting"].exit == '<cancel sendid="tick"/>'
     assert states["waiting"].entry.count("<") == 2
     assert states["loud"].entry.startswith("<if cond")
-    ways = {(one.source, one.event): one for one in machine.transitions}
+    ways = {(transition.source, transition.event): transition for transition in machine.transitions}
     assert ways["waiting", "start go.*"].targets == ("playing",)
     assert ways["paused", "begin"].targets == ("loud", "bright")
     conditional, assigning = (w for w in machine.transitions if w.event == "tick")
@@ -46,7 +50,7 @@ def test_the_model() -> None:
     assert (assigning.targets, assigning.action[:7]) == ((), "<assign")
 
 
-def test_both_languages_say_the_same(tmp_path: Path) -> None:
+def test_smdsl_and_scxml_give_equal_models(tmp_path: Path) -> None:
     """Names, nesting, parts and ways of one machine written twice."""
     (tmp_path / "m.smdsl").write_text(
         "m { initial_state a; states b; end_state c;"
@@ -65,15 +69,15 @@ def test_both_languages_say_the_same(tmp_path: Path) -> None:
         machine, report = read(path)
         assert list(report) == []
         states = {
-            (s.name, s.initial, s.final, s.start, tuple(i.name for i in s.inside))
-            for s in machine.every_state()
+            (s.name, s.initial, s.final, s.start, tuple(i.name for i in s.substates))
+            for s in machine.all_states()
         }
         ways = {(w.source, w.event, w.targets) for w in machine.transitions}
         shapes.append((machine.name, machine.start, states, ways))
     assert shapes[0] == shapes[1]
 
 
-def test_a_component_has_its_machine() -> None:
+def test_component_model_has_state_machine() -> None:
     report = Report()
     shipped = CASES / "interfaces"
     path = CASES / "cdsl" / "sem_statemachine" / "main.cdsl"
@@ -81,10 +85,10 @@ def test_a_component_has_its_machine() -> None:
     assert isinstance(found, Component)
     assert found.statemachine is not None
     assert found.statemachine.machine is not None
-    assert [one.name for one in found.statemachine.machine.states] == ["a", "unseen", "b"]
+    assert [state.name for state in found.statemachine.machine.states] == ["a", "unseen", "b"]
 
 
-def test_nesting_without_end_is_told(tmp_path: Path) -> None:
+def test_scxml_nesting_depth_is_reported(tmp_path: Path) -> None:
     path = tmp_path / "m.scxml"
     path.write_text("<scxml>" + "<state>" * 5000 + "</state>" * 5000 + "</scxml>")
     report = Report()
@@ -103,12 +107,12 @@ PIECES = [
 
 @settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=30).map("".join))
-def test_anything_is_read(text: str) -> None:
+def test_scxml_check_accepts_any_text(text: str) -> None:
     path = Path("machine.scxml")
     workspace = Workspace(environ={})
-    source = workspace.files.open_buffer(path, text)
+    source = workspace.sources.set_overlay(path, text)
     report = Report()
     check_file(path, workspace, report)
-    for one in report:
-        assert one.span.source is source
-        assert 0 <= one.span.start <= one.span.end <= len(text)
+    for item in report:
+        assert item.span.source is source
+        assert 0 <= item.span.start <= item.span.end <= len(text)

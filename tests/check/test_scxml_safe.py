@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from statemachine.io import load
 
-from robocomp_dsl.check import check_file
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 
 DOCUMENT = """\
@@ -45,20 +45,20 @@ PARTS = {
 
 
 @pytest.mark.parametrize("part", PARTS)
-def test_both_agree(tmp_path: Path, part: str) -> None:
+def test_scxml_check_agrees_with_runtime(tmp_path: Path, part: str) -> None:
     path = tmp_path / "m.scxml"
     path.write_text(DOCUMENT.format(part))
     report = Report()
     check_file(path, Workspace(environ={}), report)
-    refused = [one.code.id for one in report if one.code.id == "RC710"]
+    refused = [diagnostic.code.id for diagnostic in report if diagnostic.code.id == "RC710"]
     assert bool(refused) is not PARTS[part]
     assert _begins(path.read_text()) is PARTS[part]
 
 
 def _begins(text: str) -> bool:
     try:
-        made = load(text, format="scxml", trusted=False)
-        type("Loud", (made,), {"catch_errors_as_events": False})()
+        machine = load(text, format="scxml", trusted=False)
+        type("Loud", (machine,), {"catch_errors_as_events": False})()
     except Exception:  # whatever the library says
         return False
     return True

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_cdsl, check_idsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_cdsl, check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.component import Component
 
@@ -37,13 +37,13 @@ def _workspace(tmp_path: Path) -> Workspace:
     return Workspace(folders, environ, shipped=tmp_path / "shipped")
 
 
-def test_the_first_folder_wins(tmp_path: Path) -> None:
+def test_import_resolver_uses_first_folder(tmp_path: Path) -> None:
     order = ["here", "first", "second", "third", "fourth", "shipped"]
     for mark in order:
         _laser(tmp_path / mark, mark)
     for mark in order:
         component, report = _component(tmp_path, "Laser.idsl", _workspace(tmp_path))
-        assert not report.failed
+        assert not report.has_errors
         assert component.ports[0].interface.module == mark
         (tmp_path / mark / "Laser.idsl").unlink()
     _, report = _component(tmp_path, "Laser.idsl", _workspace(tmp_path))
@@ -62,10 +62,10 @@ def test_the_first_folder_wins(tmp_path: Path) -> None:
         "here/Laser.idsl",
     ],
 )
-def test_only_the_last_part_of_a_path_counts(tmp_path: Path, written: str) -> None:
+def test_import_resolver_uses_last_path_part(tmp_path: Path, written: str) -> None:
     _laser(tmp_path / "shipped", "shipped")
     _, report = _component(tmp_path, written.replace("\\", "\\\\"), _workspace(tmp_path))
-    assert not report.failed
+    assert not report.has_errors
 
 
 @pytest.mark.parametrize(
@@ -80,14 +80,14 @@ def test_only_the_last_part_of_a_path_counts(tmp_path: Path, written: str) -> No
         "x" * 5000 + ".idsl",
     ],
 )
-def test_no_path_leads_out_of_the_folders(tmp_path: Path, written: str) -> None:
+def test_import_resolver_stays_in_its_folders(tmp_path: Path, written: str) -> None:
     _laser(tmp_path / "outside", "outside")
     _, report = _component(tmp_path, written, _workspace(tmp_path))
-    assert {one.code.id for one in report} <= {"RC201", "RC207"}
-    assert report.failed
+    assert {diagnostic.code.id for diagnostic in report} <= {"RC201", "RC207"}
+    assert report.has_errors
 
 
-def test_all_files_behind_a_component_see_the_same_file(tmp_path: Path) -> None:
+def test_import_resolver_gives_one_file_per_name(tmp_path: Path) -> None:
     workspace = _workspace(tmp_path)
     _laser(tmp_path / "here", "here")
     _laser(tmp_path / "shipped", "shipped")
@@ -95,15 +95,15 @@ def test_all_files_behind_a_component_see_the_same_file(tmp_path: Path) -> None:
     (tmp_path / "shipped" / "Other.idsl").write_text(text)
     component, _ = _component(tmp_path, "Other.idsl", workspace)
     (module,) = component.modules
-    assert [one.name for one in module.imports] == ["here"]
+    assert [diagnostic.name for diagnostic in module.imports] == ["here"]
     modules = check_idsl(tmp_path / "shipped" / "Other.idsl", workspace, Report())
     assert modules is not None
-    assert [one.name for one in modules[0].imports] == ["shipped"]
+    assert [diagnostic.name for diagnostic in modules[0].imports] == ["shipped"]
 
 
-def test_a_folder_with_the_name_of_a_file_is_passed_over(tmp_path: Path) -> None:
+def test_import_resolver_skips_folder_with_file_name(tmp_path: Path) -> None:
     (tmp_path / "here" / "Laser.idsl").mkdir(parents=True)
     _laser(tmp_path / "shipped", "shipped")
     component, report = _component(tmp_path, "Laser.idsl", _workspace(tmp_path))
-    assert not report.failed
+    assert not report.has_errors
     assert component.ports[0].interface.module == "shipped"

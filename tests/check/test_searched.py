@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_dsl.check.contexts import CONTEXT, is_searchable
-from robocomp_dsl.runtime.config import WrongName, checked_context, checked_file
+from robocomp_dsl.check.ddsl.contexts import CONTEXT, is_searchable
+from robocomp_dsl.runtime.config import InvalidName, validate_context, validate_file
 
 NAMES = (
     "lab", "lab/night", "1", "a.b-c_d", "x.yaml", "left/x.yaml", "", ".", "..", "../x", "/x",
@@ -14,14 +14,14 @@ NAMES = (
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_names(name: str) -> None:
-    assert bool(CONTEXT.fullmatch(name)) == _takes(checked_context, name)
-    assert is_searchable(name) == _takes(checked_file, name)
+def test_context_pattern_equals_runtime(name: str) -> None:
+    assert bool(CONTEXT.fullmatch(name)) == _takes(validate_context, name)
+    assert is_searchable(name) == _takes(validate_file, name)
 
 
 def _takes(check: object, name: str) -> bool:
     try:
         check(name)  # type: ignore[operator]
-    except WrongName:
+    except InvalidName:
         return False
     return True

@@ -8,13 +8,13 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.check import check_idsl
-from robocomp_dsl.check.type_names import MOST_GUESSES
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.names.type_names import MAX_SUGGESTIONS
+from robocomp_dsl.check.passes import check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report, nearest
 
 
-def test_only_the_first_unknown_names_are_compared(
+def test_suggestions_are_limited_per_module(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     compared: list[str] = []
@@ -31,8 +31,8 @@ def test_only_the_first_unknown_names_are_compared(
     report = Report()
     check_idsl(path, Workspace(environ={}), report)
     assert len(report) == 800
-    assert 0 < len(compared) <= MOST_GUESSES
-    labels = [one.label for one in report if "Flaot" in one.message]
+    assert 0 < len(compared) <= MAX_SUGGESTIONS
+    labels = [diagnostic.label for diagnostic in report if "Flaot" in diagnostic.message]
     assert labels == ["did you mean `float`?"] * 400
 
 
@@ -48,5 +48,5 @@ def test_only_the_first_unknown_names_are_compared(
     ],
     ids=["case", "near", "far", "very many of one kind", "very many", "none"],
 )
-def test_nearest(word: str, known: list[str], meant: str | None) -> None:
+def test_nearest_name(word: str, known: list[str], meant: str | None) -> None:
     assert nearest(word, known) == meant

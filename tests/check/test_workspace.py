@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_cdsl, check_file, check_idsl, check_syntax
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import check_file, check_syntax
+from robocomp_dsl.check.passes import check_cdsl, check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model.interface import Module
 
@@ -31,7 +32,7 @@ def _module(path: Path, workspace: Workspace) -> tuple[Module, list[str]]:
     report = Report()
     modules = check_idsl(path, workspace, report)
     assert modules is not None
-    return modules[0], [one.code.id for one in report]
+    return modules[0], [diagnostic.code.id for diagnostic in report]
 
 
 def _rewrite(path: Path, text: str) -> None:
@@ -41,7 +42,7 @@ def _rewrite(path: Path, text: str) -> None:
     os.utime(path, ns=(later, later))
 
 
-def test_what_did_not_change_is_the_same_object(folder: Path) -> None:
+def test_workspace_caches_unchanged_modules(folder: Path) -> None:
     workspace = _workspace()
     first, _ = _module(folder / "Arm.idsl", workspace)
     second, _ = _module(folder / "Arm.idsl", workspace)
@@ -50,7 +51,7 @@ def test_what_did_not_change_is_the_same_object(folder: Path) -> None:
     assert base is _module(folder / "Base.idsl", workspace)[0]
 
 
-def test_a_change_behind_an_import_is_seen(folder: Path) -> None:
+def test_workspace_reloads_changed_import(folder: Path) -> None:
     workspace = _workspace()
     first, found = _module(folder / "Arm.idsl", workspace)
     assert found == []
@@ -62,7 +63,7 @@ def test_a_change_behind_an_import_is_seen(folder: Path) -> None:
     assert _module(folder / "Arm.idsl", workspace)[1] == []
 
 
-def test_a_file_that_appears_nearer_is_used(folder: Path) -> None:
+def test_workspace_uses_new_file_in_earlier_folder(folder: Path) -> None:
     (folder / "shipped").mkdir()
     (folder / "Base.idsl").rename(folder / "shipped" / "Base.idsl")
     workspace = Workspace(environ={}, shipped=folder / "shipped")
@@ -73,7 +74,7 @@ def test_a_file_that_appears_nearer_is_used(folder: Path) -> None:
     assert _module(folder / "Arm.idsl", workspace)[1] == []
 
 
-def test_a_missing_import_is_found_when_it_appears(folder: Path) -> None:
+def test_workspace_finds_import_created_later(folder: Path) -> None:
     workspace = _workspace()
     (folder / "Base.idsl").unlink()
     assert _module(folder / "Arm.idsl", workspace)[1] == ["RC201"]
@@ -81,26 +82,26 @@ def test_a_missing_import_is_found_when_it_appears(folder: Path) -> None:
     assert _module(folder / "Arm.idsl", workspace)[1] == []
 
 
-def test_buffers_win_over_files(folder: Path) -> None:
+def test_overlay_takes_precedence_over_file(folder: Path) -> None:
     workspace = _workspace()
     assert _module(folder / "Arm.idsl", workspace)[1] == []
-    workspace.files.open_buffer(folder / "Base.idsl", "module Base { };\n")
+    workspace.sources.set_overlay(folder / "Base.idsl", "module Base { };\n")
     assert _module(folder / "Arm.idsl", workspace)[1] == ["RC301"]
-    workspace.files.open_buffer(folder / "Base.idsl", BASE)
+    workspace.sources.set_overlay(folder / "Base.idsl", BASE)
     assert _module(folder / "Arm.idsl", workspace)[1] == []
-    workspace.files.open_buffer(folder / "Base.idsl", "module Base { };\n")
-    workspace.files.close_buffer(folder / "Base.idsl")
+    workspace.sources.set_overlay(folder / "Base.idsl", "module Base { };\n")
+    workspace.sources.remove_overlay(folder / "Base.idsl")
     assert _module(folder / "Arm.idsl", workspace)[1] == []
 
 
-def test_a_buffer_needs_no_file(folder: Path) -> None:
+def test_overlay_needs_no_file(folder: Path) -> None:
     workspace = _workspace()
-    workspace.files.open_buffer(folder / "New.idsl", 'import "Newer.idsl";\nmodule New { };\n')
-    workspace.files.open_buffer(folder / "Newer.idsl", "module Newer { };\n")
+    workspace.sources.set_overlay(folder / "New.idsl", 'import "Newer.idsl";\nmodule New { };\n')
+    workspace.sources.set_overlay(folder / "Newer.idsl", "module Newer { };\n")
     assert _module(folder / "New.idsl", workspace)[1] == []
 
 
-def test_a_cycle_is_forgotten_when_it_is_mended(folder: Path) -> None:
+def test_fixed_import_cycle_is_not_reported(folder: Path) -> None:
     workspace = _workspace()
     _rewrite(folder / "Base.idsl", f'import "Arm.idsl";\n{BASE}')
     first = _module(folder / "Arm.idsl", workspace)[1]
@@ -109,7 +110,7 @@ def test_a_cycle_is_forgotten_when_it_is_mended(folder: Path) -> None:
     assert _module(folder / "Arm.idsl", workspace)[1] == []
 
 
-def test_a_cycle_is_the_same_finding_from_every_side(folder: Path) -> None:
+def test_import_cycle_is_reported_once(folder: Path) -> None:
     workspace = _workspace()
     _rewrite(folder / "Base.idsl", f'import "Arm.idsl";\n{BASE}')
     report = Report()
@@ -118,14 +119,14 @@ def test_a_cycle_is_the_same_finding_from_every_side(folder: Path) -> None:
     assert len(report) == 1
 
 
-def test_syntax_follows_no_imports(folder: Path) -> None:
+def test_check_syntax_resolves_no_imports(folder: Path) -> None:
     (folder / "Base.idsl").unlink()
     report = Report()
     check_syntax(folder / "Arm.idsl", _workspace(), report)
     assert len(report) == 0
 
 
-def test_a_link_and_its_file_are_one(folder: Path) -> None:
+def test_symbolic_link_and_target_are_one_module(folder: Path) -> None:
     (folder / "sub").mkdir()
     (folder / "sub" / "Base.idsl").symlink_to(folder / "Base.idsl")
     workspace = _workspace()
@@ -135,7 +136,7 @@ def test_a_link_and_its_file_are_one(folder: Path) -> None:
     )
 
 
-def test_a_component_sees_the_saved_parameters(folder: Path) -> None:
+def test_component_uses_parameters_on_disk(folder: Path) -> None:
     (folder / "x.pdsl").write_text("ComponentParams x { rate int 5 1:10; };\n")
     text = 'Component x { Communications { }; language Python; parameters "x.pdsl"; };\n'
     (folder / "x.cdsl").write_text(text)
@@ -143,7 +144,7 @@ def test_a_component_sees_the_saved_parameters(folder: Path) -> None:
     component = check_cdsl(folder / "x.cdsl", workspace, Report())
     assert component is not None
     assert component.parameters is not None
-    workspace.files.open_buffer(folder / "x.pdsl", "ComponentParams x { rate int 50 1:10; };\n")
+    workspace.sources.set_overlay(folder / "x.pdsl", "ComponentParams x { rate int 50 1:10; };\n")
     report = Report()
     check_cdsl(folder / "x.cdsl", workspace, report)
-    assert [one.code.id for one in report] == ["RC404"]
+    assert [diagnostic.code.id for diagnostic in report] == ["RC404"]

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 
 @pytest.fixture

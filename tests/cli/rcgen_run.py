@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import pytest
 
 from robocomp_dsl.cli import program
-from robocomp_dsl.cli.rcgen import program as rcgen
+from robocomp_dsl.cli.rcgen.main import program as rcgen
 
 
 @dataclass(frozen=True)

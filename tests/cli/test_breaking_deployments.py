@@ -8,7 +8,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 FILES = {
     "idsl/Drive.idsl": "module M { struct Speed { float adv; };\n"
@@ -48,10 +49,11 @@ CASES = [
     ("base/base.cdsl", "implements Drive", "implements Drive as front",
      [("RC645", "robot.ddsl:7:31", "`base` has no port `Drive`")]),
     ("base/base.cdsl", "publishes State; ", "",
-     [("RC645", "robot.ddsl:6:15", "`nav` subscribes to `State`, which nobody here publishes")]),
+     [("RC645", "robot.ddsl:6:15", "`nav` subscribes to `State`, but no component publishes it")]),
     ("nav/nav.cdsl", "requires Drive", "requires Drive, Drive as second", []),
     ("nav/nav.cdsl", "requires Drive", "requires State, Drive",
-     [("RC645", "robot.ddsl:6:15", "`nav` requires `State`, which no component here implements")]),
+     [("RC645", "robot.ddsl:6:15",
+       "`nav` requires `State`, but no component of this deployment implements it")]),
 ]  # fmt: skip
 
 
@@ -78,63 +80,63 @@ def change(folder: Path, name: str, old: str, new: str) -> None:
     (folder / name).write_text(text.replace(old, new))
 
 
-def told(rcgen: Rcgen, *more: str) -> list[tuple[str, str, str]]:
+def report_of(rcgen: Rcgen, *more: str) -> list[tuple[str, str, str]]:
     run = rcgen("breaking", "--against", "HEAD", "-I", "idsl", "--format", "json", *more)
     assert run.err == "", "the earlier version was understood"
     return [
         (
-            one["code"],
-            f"{os.path.relpath(one['file'])}:{one['line']}:{one['column']}",
-            one["message"],
+            load["code"],
+            f"{os.path.relpath(load['file'])}:{load['line']}:{load['column']}",
+            load["message"],
         )
-        for one in json.loads(run.out)
+        for load in json.loads(run.out)
     ]
 
 
 @pytest.mark.parametrize(("name", "old", "new", "expected"), CASES)
-def test_what_breaks(
+def test_breaking_reports_broken_deployment(
     rcgen: Rcgen, robot: Path, name: str, old: str, new: str, expected: list[tuple[str, str, str]]
 ) -> None:
-    assert told(rcgen) == []
+    assert report_of(rcgen) == []
     change(robot, name, old, new)
-    found = [one for one in told(rcgen) if one[0] in ("RC645", "RC646")]
-    assert [one[:2] for one in found] == [one[:2] for one in expected]
+    found = [item for item in report_of(rcgen) if item[0] in ("RC645", "RC646")]
+    assert [item[:2] for item in found] == [item[:2] for item in expected]
     for (_, _, message), (_, _, words) in zip(found, expected, strict=True):
         assert message.startswith("deployment `robot`: ")
         assert words in message
 
 
-def test_a_component_that_is_gone(rcgen: Rcgen, robot: Path) -> None:
+def test_breaking_reports_removed_component_of_deployment(rcgen: Rcgen, robot: Path) -> None:
     (robot / "base" / "base.cdsl").unlink()
-    found = {place: code for code, place, _ in told(rcgen) if place.startswith("robot.ddsl")}
+    found = {place: code for code, place, _ in report_of(rcgen) if place.startswith("robot.ddsl")}
     assert found["robot.ddsl:1:8"] == "RC645"
 
 
-def test_a_deployment_that_was_changed_along_is_not_broken(rcgen: Rcgen, robot: Path) -> None:
+def test_breaking_ignores_deployment_updated_with_components(rcgen: Rcgen, robot: Path) -> None:
     change(robot, "base/base.pdsl", '    serial string "a";\n', "")
     change(robot, "robot.ddsl", 'set serial = "b"; ', "")
-    assert [code for code, _, _ in told(rcgen)] == ["RC643"]
+    assert [code for code, _, _ in report_of(rcgen)] == ["RC643"]
 
 
-def test_mistakes_of_the_deployment_itself_come_first(rcgen: Rcgen, robot: Path) -> None:
+def test_breaking_reports_errors_of_deployment_first(rcgen: Rcgen, robot: Path) -> None:
     change(robot, "robot.ddsl", "set speed", "set spede")
     run = rcgen("breaking", "--against", "HEAD", "-I", "idsl")
     assert (run.code, run.out) == (1, "")
     assert "did you mean `speed`?" in run.err
-    assert "mend these first" in run.err
+    assert "fix these errors first" in run.err
 
 
-def test_wires_that_carry_what_is_changed(rcgen: Rcgen, robot: Path) -> None:
+def test_breaking_notes_affected_connections(rcgen: Rcgen, robot: Path) -> None:
     change(robot, "idsl/Drive.idsl", "float adv", "double adv")
     out = rcgen("breaking", "--against", "HEAD", "-I", "idsl").out
-    said = "note: deployment `robot` wires `nav.Drive` to `base.Drive` by it: restart both"
-    assert f"{said}\n  --> robot.ddsl:7:5" in out
-    assert "wires `base.State` to `nav.State` by it" in out
+    message = "note: deployment `robot` connects `nav.Drive` to `base.Drive` with it: restart both"
+    assert f"{message}\n  --> robot.ddsl:7:5" in out
+    assert "connects `base.State` to `nav.State` with it" in out
 
 
-def test_one_deployment_alone(rcgen: Rcgen, robot: Path) -> None:
+def test_breaking_of_single_deployment_file(rcgen: Rcgen, robot: Path) -> None:
     change(robot, "base/base.cdsl", "implements Drive; ", "")
-    found = told(rcgen, "robot.ddsl")
-    assert [one[0] for one in found] == ["RC645"]
+    found = report_of(rcgen, "robot.ddsl")
+    assert [item[0] for item in found] == ["RC645"]
     run = rcgen("breaking", "base.yaml", "--against", "HEAD")
     assert (run.code, "is none of the files" in run.err) == (1, True)

@@ -12,11 +12,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from jsonschema import Draft4Validator
-from rcgen_run import Rcgen
 
-from robocomp_dsl.cli import formats, sarif
+from robocomp_dsl.cli.output import formats, sarif
 from robocomp_dsl.diagnostics import Code, Diagnostic, Edit, Fix, Note, Severity
 from robocomp_dsl.source import Source
+from tests.cli.rcgen_run import Rcgen
 
 SCHEMA = Path(__file__).parent / "sarif" / "sarif-2.1.0-rtm.5.json"
 VALID = Draft4Validator(json.loads(SCHEMA.read_text()))
@@ -34,18 +34,18 @@ def valid(text: str) -> dict[str, Any]:
     return log
 
 
-def test_the_schema_refuses_what_is_wrong() -> None:
+def test_sarif_schema_rejects_invalid_log() -> None:
     log = json.loads(formats.as_sarif([]))
     log["runs"][0]["tool"]["driver"].pop("name")
     assert not VALID.is_valid(log)
 
 
 @pytest.mark.parametrize("language", sorted(p.name for p in CASES.iterdir() if p.is_dir()))
-def test_the_findings_of_all_cases(language: str, rcgen: Rcgen) -> None:
+def test_formats_of_findings_of_all_cases(language: str, rcgen: Rcgen) -> None:
     run = rcgen("check", CASES / language, "--format", "sarif")
     (only,) = valid(run.out)["runs"]
     found = json.loads(rcgen("check", CASES / language, "--format", "json").out)
-    assert [one["ruleId"] for one in only["results"]] == [one["code"] for one in found]
+    assert [item["ruleId"] for item in only["results"]] == [item["code"] for item in found]
     for result in only["results"]:
         for place in result["locations"]:
             assert REFERENCE.fullmatch(place["physicalLocation"]["artifactLocation"]["uri"])
@@ -53,23 +53,23 @@ def test_the_findings_of_all_cases(language: str, rcgen: Rcgen) -> None:
 
 @settings(max_examples=150)
 @given(texts=st.tuples(*[TEXTS] * 6), severity=st.sampled_from(Severity), at=st.integers(0, 9))
-def test_any_text(texts: tuple[str, ...], severity: Severity, at: int) -> None:
+def test_formats_accept_any_text(texts: tuple[str, ...], severity: Severity, at: int) -> None:
     message, label, help_, edit, name, source = texts
     path = Path(name.replace("\0", "") or "x")
     here = Source(path, source).span(min(at, len(source)), len(source))
     fix = Fix(message, (Edit(here, edit),))
     code = Code("RC999", severity, "title", "explanation")
-    one = Diagnostic(code, here, message, label, (Note(here, help_),), help_, fix)
-    (result,) = valid(formats.as_sarif([one]))["runs"][0]["results"]
+    item = Diagnostic(code, here, message, label, (Note(here, help_),), help_, fix)
+    (result,) = valid(formats.as_sarif([item]))["runs"][0]["results"]
     assert result["message"]["text"] == "\n".join(t for t in (message, label, help_) if t)
     change = result["fixes"][0]["artifactChanges"][0]
     assert change["replacements"][0]["insertedContent"]["text"] == edit
-    (record,) = json.loads(formats.as_json([one]))
+    (record,) = json.loads(formats.as_json([item]))
     assert (record["message"], record["file"]) == (message, str(path))
-    properties, said = annotation(formats.github([one]))
-    assert said == message + (f": {label}" if label else "")
+    properties, text = annotation(formats.github([item]))
+    assert text == message + (f": {label}" if label else "")
     assert properties["file"] == str(path)
-    assert formats.concise([one]).count("\n") == 1
+    assert formats.concise([item]).count("\n") == 1
 
 
 def annotation(line: str) -> tuple[dict[str, str], str]:
@@ -100,21 +100,21 @@ PATHS = {
 
 
 @pytest.mark.parametrize("path", PATHS)
-def test_addresses(path: str) -> None:
+def test_sarif_uris_are_quoted(path: str) -> None:
     assert sarif._uri(Path(path)) == PATHS[path]
 
 
-def test_paths_of_windows() -> None:
+def test_sarif_uris_of_windows_paths() -> None:
     uri = sarif._uri
     assert uri(PureWindowsPath(r"C:\robots\a b.cdsl")) == "file:///C:/robots/a%20b.cdsl"  # type: ignore[arg-type]
     assert uri(PureWindowsPath(r"robots\a.cdsl")) == "robots/a.cdsl"  # type: ignore[arg-type]
-    one = Source(Path("C:\\robots\\a,b.cdsl"), "x").span(0, 1)
-    line = formats.github([Diagnostic(Code("RC999", Severity.ERROR, "", ""), one, "m")])
+    item = Source(Path("C:\\robots\\a,b.cdsl"), "x").span(0, 1)
+    line = formats.github([Diagnostic(Code("RC999", Severity.ERROR, "", ""), item, "m")])
     assert "file=C%3A\\robots\\a%2Cb.cdsl," in line
     assert annotation(line)[0]["file"] == "C:\\robots\\a,b.cdsl"
 
 
-def test_a_name_that_is_no_text(rcgen: Rcgen, here: Path) -> None:
+def test_check_reports_file_name_with_invalid_bytes(rcgen: Rcgen, here: Path) -> None:
     (here / "x\udcff.idsl").write_text("module M { struct A { in x; }; };")
     for form in ("full", "concise", "json", "github", "sarif"):
         run = rcgen("check", ".", "--format", form)

@@ -10,18 +10,18 @@ from pathlib import Path
 
 import click
 import pytest
-from rcgen_run import Rcgen
 
 from robocomp_dsl.cli import program
-from robocomp_dsl.cli.rcgen import TABLE
-from robocomp_dsl.cli.rcgen import program as rcgen_program
+from robocomp_dsl.cli.rcgen.main import TABLE
+from robocomp_dsl.cli.rcgen.main import program as rcgen_program
+from tests.cli.rcgen_run import Rcgen
 
-RCGEN = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen import main; main()"]
+RCGEN = [sys.executable, "-c", "from robocomp_dsl.cli.rcgen.main import main; main()"]
 
 
-def test_help_names_all_commands_and_loads_none(rcgen: Rcgen) -> None:
+def test_help_lists_all_commands_and_loads_none(rcgen: Rcgen) -> None:
     code = (
-        "import sys\nfrom robocomp_dsl.cli.rcgen import main\n"
+        "import sys\nfrom robocomp_dsl.cli.rcgen.main import main\n"
         "try: main()\nexcept SystemExit: pass\n"
         "heavy = {'lark', 'jinja2', 'yaml', 'numpy', 'zenoh', 'robocomp_dsl.check'}\n"
         "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
@@ -43,7 +43,7 @@ def test_version(rcgen: Rcgen) -> None:
     assert rcgen("--version").out.startswith("rcgen, version ")
 
 
-USAGE = [
+EXIT_USAGE = [
     (("chek",), "did you mean `check`?"),
     (("check", "--frmat", "json", "x"), "No such option"),
     (("check", "--format", "xml", "x"), "'xml' is not one of"),
@@ -52,11 +52,11 @@ USAGE = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "said"), USAGE)
-def test_wrong_usage(rcgen: Rcgen, arguments: tuple[str, ...], said: str) -> None:
+@pytest.mark.parametrize(("arguments", "message"), EXIT_USAGE)
+def test_usage_errors_exit_with_2(rcgen: Rcgen, arguments: tuple[str, ...], message: str) -> None:
     run = rcgen(*arguments)
-    assert run.code == program.USAGE
-    assert said in run.err
+    assert run.code == program.EXIT_USAGE
+    assert message in run.err
 
 
 @pytest.fixture
@@ -67,24 +67,26 @@ def failing(monkeypatch: pytest.MonkeyPatch) -> list[BaseException]:
     def check_file(*_: object) -> None:
         raise raised[0]
 
-    monkeypatch.setattr("robocomp_dsl.cli.check.check_file", check_file)
+    monkeypatch.setattr("robocomp_dsl.cli.rcgen.check.check_file", check_file)
     monkeypatch.delenv(program.DEBUG, raising=False)
     return raised
 
 
-def test_our_mistake_is_a_line(rcgen: Rcgen, failing: list[BaseException], tmp_path: Path) -> None:
+def test_internal_error_is_one_line(
+    rcgen: Rcgen, failing: list[BaseException], tmp_path: Path
+) -> None:
     failing.append(ValueError("two\nlines"))
     run = rcgen("check", tmp_path / "x.cdsl")
-    assert run.code == program.OUR_MISTAKE
+    assert run.code == program.EXIT_SOFTWARE
     assert run.err.count("\n") == 1
     assert run.err.startswith(
         "rcgen: internal error, please report it: ValueError: two lines at "
-        "robocomp_dsl/cli/check.py:"
+        "robocomp_dsl/cli/rcgen/check.py:"
     )
-    assert "ROBOCOMP_DEBUG=1 shows the whole trace" in run.err
+    assert "ROBOCOMP_DEBUG=1 shows the whole traceback" in run.err
 
 
-def test_the_whole_trace_is_to_be_had(
+def test_debug_variable_shows_traceback(
     rcgen: Rcgen, failing: list[BaseException], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     failing.append(ValueError("x"))
@@ -94,20 +96,22 @@ def test_the_whole_trace_is_to_be_had(
 
 
 @pytest.mark.parametrize("kind", [RecursionError, MemoryError, AssertionError, KeyError])
-def test_any_exception(
+def test_every_exception_is_an_internal_error(
     rcgen: Rcgen, failing: list[BaseException], kind: type[BaseException], tmp_path: Path
 ) -> None:
     failing.append(kind())
-    assert rcgen("check", tmp_path / "x.cdsl").code == program.OUR_MISTAKE
+    assert rcgen("check", tmp_path / "x.cdsl").code == program.EXIT_SOFTWARE
 
 
-def test_ctrl_c(rcgen: Rcgen, failing: list[BaseException], tmp_path: Path) -> None:
+def test_interrupt_exits_with_130(
+    rcgen: Rcgen, failing: list[BaseException], tmp_path: Path
+) -> None:
     failing.append(KeyboardInterrupt())
     run = rcgen("check", tmp_path / "x.cdsl")
-    assert (run.code, run.err) == (program.INTERRUPTED, "\nrcgen: interrupted\n")
+    assert (run.code, run.err) == (program.EXIT_INTERRUPTED, "\nrcgen: interrupted\n")
 
 
-def test_nobody_reads(tmp_path: Path) -> None:
+def test_broken_pipe_exits_with_141(tmp_path: Path) -> None:
     many = "\n".join(f"x{i};" for i in range(3000))
     (tmp_path / "a.cdsl").write_text(f"Component a {{ {many} }};")
     reading, writing = os.pipe()
@@ -119,10 +123,10 @@ def test_nobody_reads(tmp_path: Path) -> None:
     os.close(writing)
     assert "Traceback" not in done.stderr
     assert "Exception ignored" not in done.stderr
-    assert done.returncode == program.NO_READER
+    assert done.returncode == program.EXIT_BROKEN_PIPE
 
 
-def test_sigterm_leaves_through_the_door() -> None:
+def test_sigterm_rolls_back_and_exits_with_143() -> None:
     """As an exception, so that files half written are taken back."""
     code = (
         "import os, signal\nfrom robocomp_dsl.cli import program\nimport click\n"
@@ -132,11 +136,11 @@ def test_sigterm_leaves_through_the_door() -> None:
         "program.run(command, 'x')\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout) == (program.TERMINATED, "taken back\n")
+    assert (done.returncode, done.stdout) == (program.EXIT_TERMINATED, "taken back\n")
     assert done.stderr == ""
 
 
-def test_a_table_line_is_the_beginning_of_the_help() -> None:
+def test_table_line_starts_like_command_help() -> None:
     context = click.Context(rcgen_program)
     for name, (_, about) in TABLE.items():
         command = rcgen_program.get_command(context, name)

@@ -7,7 +7,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 IDSL = "module M { struct P { float x [mm]; }; interface I { P get(); }; };\n"
 
@@ -29,7 +30,7 @@ def history(here: Path) -> Path:
     return here
 
 
-def test_against_a_revision(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_against_revision(rcgen: Rcgen, history: Path) -> None:
     run = rcgen("breaking", "--against", "HEAD")
     assert run.code == 1
     assert "error[RC641]: `M::P.x` was float, now double\n  --> sub/M.idsl:1:30" in run.out
@@ -39,12 +40,12 @@ def test_against_a_revision(rcgen: Rcgen, history: Path) -> None:
 
 
 @pytest.mark.parametrize("path", ["sub", "sub/M.idsl"])
-def test_a_part_of_the_tree(rcgen: Rcgen, history: Path, path: str) -> None:
+def test_breaking_of_part_of_tree(rcgen: Rcgen, history: Path, path: str) -> None:
     run = rcgen("breaking", path, "--against", "HEAD", "--format", "json")
-    assert [one["code"] for one in json.loads(run.out)] == ["RC641", "RC644"]
+    assert [load["code"] for load in json.loads(run.out)] == ["RC641", "RC644"]
 
 
-def test_against_a_folder(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_against_folder(rcgen: Rcgen, history: Path) -> None:
     (history / "old").mkdir()
     (history / "old" / "N.idsl").write_text(IDSL)
     run = rcgen("breaking", "sub", "--against", "old")
@@ -54,27 +55,27 @@ def test_against_a_folder(rcgen: Rcgen, history: Path) -> None:
     assert (run.code, run.out) == (0, "sub against old: no findings\n")
 
 
-def test_no_such_version(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_against_unknown_version(rcgen: Rcgen, history: Path) -> None:
     run = rcgen("breaking", "--against", "v9")
     assert run.code == 1
     assert "neither such a git revision nor such a folder" in run.err
 
 
-def test_the_new_version_is_wrong(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_requires_valid_new_version(rcgen: Rcgen, history: Path) -> None:
     (history / "sub" / "M.idsl").write_text("module M { struct P { Nothing x; }; };\n")
     run = rcgen("breaking", "--against", "HEAD")
     assert run.code == 1
-    assert "mend these first" in run.err
+    assert "fix these errors first" in run.err
 
 
-def test_what_is_gone_is_told_as_git_names_it(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_names_removed_file_as_git_does(rcgen: Rcgen, history: Path) -> None:
     git(history, "tag", "v1")
     (history / "sub" / "M.idsl").write_text(IDSL.replace("interface I", "interface J"))
     run = rcgen("breaking", "--against", "v1", "--format", "concise")
-    assert run.out == "v1:sub/M.idsl:1:50: error[RC641]: interface `M::I` is gone\n"
+    assert run.out == "v1:sub/M.idsl:1:50: error[RC641]: interface `M::I` was removed\n"
 
 
-def test_what_was_broken_is_told(rcgen: Rcgen, history: Path) -> None:
+def test_breaking_reports_errors_of_old_version(rcgen: Rcgen, history: Path) -> None:
     (history / "sub" / "N.idsl").write_text("module N { struct\n")
     git(history, "add", ".")
     git(history, "commit", "-qm", "broken")
@@ -104,17 +105,15 @@ def component(here: Path) -> Path:
     return here
 
 
-def test_folders_of_interfaces_are_those_of_then(rcgen: Rcgen, component: Path) -> None:
+def test_breaking_searches_old_interface_folders(rcgen: Rcgen, component: Path) -> None:
     (component / "idsl" / "I.idsl").write_text("module M { interface J { int f(); }; };\n")
     (component / "c" / "c.cdsl").write_text(CDSL.replace("implements I", "implements J"))
     run = rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl", "--format", "concise")
-    assert run.out == "c/c.cdsl:2:11: error[RC641]: `c` implements `M::I` no more\n"
+    assert run.out == "c/c.cdsl:2:11: error[RC641]: `c` implements `M::I` no longer\n"
     assert run.err == "", "the old component was checked with the old interfaces"
 
 
-def test_a_set_of_parameters_with_another_name_is_that_of_the_component(
-    rcgen: Rcgen, component: Path
-) -> None:
+def test_breaking_matches_renamed_parameter_set_by_component(rcgen: Rcgen, component: Path) -> None:
     text = (component / "c" / "c.pdsl").read_text()
     (component / "c" / "c.pdsl").write_text(text.replace("Params c", "Params d"))
     assert rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl").code == 0
@@ -122,10 +121,10 @@ def test_a_set_of_parameters_with_another_name_is_that_of_the_component(
         text.replace("Params c", "Params d").replace("0:9", "0:5")
     )
     run = rcgen("breaking", "c", "--against", "HEAD", "-I", "idsl", "--format", "concise")
-    assert "c/c.pdsl:1:34: error[RC643]: parameter `g.h.a` took 0 to 9, now 0 to 5" in run.out
+    assert "c/c.pdsl:1:34: error[RC643]: parameter `g.h.a` accepted 0 to 9, now 0 to 5" in run.out
 
 
-def test_no_git_tree(rcgen: Rcgen, here: Path) -> None:
+def test_breaking_outside_git_repository(rcgen: Rcgen, here: Path) -> None:
     (here / "M.idsl").write_text(IDSL)
     for against in ("HEAD", "", "-x"):
         run = rcgen("breaking", f"--against={against}")

@@ -6,7 +6,8 @@ import json
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 GOOD = (
     'import "Laser.idsl";\nComponent a { Communications { requires Laser; }; language Python; };\n'
@@ -15,14 +16,14 @@ BAD = GOOD.replace("requires Laser", "requires Lasr")
 LEGACY = GOOD.replace("language Python;", "language Python; useQt qt4;")
 
 
-def test_clean(rcgen: Rcgen, here: Path) -> None:
+def test_check_of_valid_files(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     run = rcgen("check", "a.cdsl")
     assert (run.code, run.out) == (0, "")
     assert run.err == "1 file checked: no findings\n"
 
 
-def test_an_error_is_shown_in_place(rcgen: Rcgen, here: Path) -> None:
+def test_check_shows_error_with_excerpt(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(BAD)
     run = rcgen("check", "a.cdsl")
     assert run.code == 1
@@ -32,27 +33,27 @@ def test_an_error_is_shown_in_place(rcgen: Rcgen, here: Path) -> None:
     assert run.err == "1 file checked: 1 error\n"
 
 
-def test_warnings_alone_are_no_failure(rcgen: Rcgen, here: Path) -> None:
+def test_check_succeeds_with_warnings(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(LEGACY)
     run = rcgen("check", "a.cdsl")
     assert run.code == 0
     assert "warning[" in run.out
 
 
-def test_json_is_one_list(rcgen: Rcgen, here: Path) -> None:
+def test_check_json_is_one_list(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(BAD)
     (here / "b.cdsl").write_text(BAD)
     run = rcgen("check", "a.cdsl", "b.cdsl", "--format", "json")
     assert run.code == 1
     assert run.err == ""
     found = json.loads(run.out)
-    assert [one["file"] for one in found] == ["a.cdsl", "b.cdsl"]
-    for one in found:
-        assert one == {
-            "code": one["code"],
+    assert [item["file"] for item in found] == ["a.cdsl", "b.cdsl"]
+    for item in found:
+        assert item == {
+            "code": item["code"],
             "severity": "error",
             "message": "interface `Lasr` is not declared by any import",
-            "file": one["file"],
+            "file": item["file"],
             "line": 2,
             "column": 41,
             "end_line": 2,
@@ -60,12 +61,12 @@ def test_json_is_one_list(rcgen: Rcgen, here: Path) -> None:
         }
 
 
-def test_json_of_nothing_is_an_empty_list(rcgen: Rcgen, here: Path) -> None:
+def test_check_json_without_findings_is_empty_list(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     assert json.loads(rcgen("check", "a.cdsl", "--format", "json").out) == []
 
 
-def test_concise_and_github(rcgen: Rcgen, here: Path) -> None:
+def test_check_concise_and_github_formats(rcgen: Rcgen, here: Path) -> None:
     (here / "a,b.cdsl").write_text(BAD)
     concise = rcgen("check", "a,b.cdsl", "--format", "concise").out
     assert concise.startswith("a,b.cdsl:2:41: error[RC")
@@ -79,23 +80,23 @@ def test_concise_and_github(rcgen: Rcgen, here: Path) -> None:
     assert github.count("\n") == 1
 
 
-def test_a_folder_means_all_in_it(rcgen: Rcgen, here: Path) -> None:
+def test_check_of_folder_checks_all_files(rcgen: Rcgen, here: Path) -> None:
     for name in ("one/a.cdsl", "one/two/b.CDSL", ".hidden/c.cdsl", "build/d.cdsl"):
         path = here / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(BAD)
     (here / "one" / "notes.xml").write_text("not for us")
     run = rcgen("check", ".", "--format", "json")
-    assert [one["file"] for one in json.loads(run.out)] == ["one/a.cdsl", "one/two/b.CDSL"]
+    assert [load["file"] for load in json.loads(run.out)] == ["one/a.cdsl", "one/two/b.CDSL"]
     assert rcgen("check", ".", ".").err == "2 files checked: 2 errors\n"
 
 
-def test_syntax_follows_no_imports(rcgen: Rcgen, here: Path) -> None:
+def test_check_syntax_resolves_no_imports(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(BAD)
     assert rcgen("check", "--syntax", "a.cdsl").code == 0
 
 
-def test_folders_to_search(rcgen: Rcgen, here: Path) -> None:
+def test_check_searches_include_folders(rcgen: Rcgen, here: Path) -> None:
     (here / "lib").mkdir()
     (here / "lib" / "Own.idsl").write_text("module M { interface Own { void go(); }; };\n")
     (here / "a.cdsl").write_text(GOOD.replace("Laser", "Own"))
@@ -115,7 +116,7 @@ NOT_TEXTS = {
 
 
 @pytest.mark.parametrize("name", NOT_TEXTS)
-def test_bad_input_is_a_located_finding(rcgen: Rcgen, here: Path, name: str) -> None:
+def test_check_reports_unreadable_input_with_location(rcgen: Rcgen, here: Path, name: str) -> None:
     data = NOT_TEXTS[name]
     if data is not None:
         (here / name).write_bytes(data)
@@ -126,13 +127,13 @@ def test_bad_input_is_a_located_finding(rcgen: Rcgen, here: Path, name: str) -> 
     assert "Traceback" not in run.err
 
 
-def test_no_file_is_wrong_usage(rcgen: Rcgen) -> None:
+def test_check_without_files_is_usage_error(rcgen: Rcgen) -> None:
     run = rcgen("check")
     assert run.code == 2
     assert "Missing argument" in run.err
 
 
-def test_colours_only_where_they_are_wanted(
+def test_check_uses_colours_only_on_terminals(
     rcgen: Rcgen, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (here / "a.cdsl").write_text(BAD)
@@ -141,10 +142,10 @@ def test_colours_only_where_they_are_wanted(
 
 
 @pytest.mark.parametrize("command", ["check", "fmt", "doc"])
-def test_a_folder_without_descriptions_is_no_success(
+def test_folder_without_description_files_is_an_error(
     rcgen: Rcgen, here: Path, command: str
 ) -> None:
     (here / "nothing").mkdir()
     done = rcgen(command, "nothing")
     assert done.code == 1
-    assert done.err == "error: there are no descriptions in `nothing`\n"
+    assert done.err == "error: there are no description files in `nothing`\n"

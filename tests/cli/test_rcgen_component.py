@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 CDSL = """\
 import "Talk.idsl";
@@ -19,10 +20,10 @@ ALL = {
     "README.md",
     "etc/config.schema.json",
     "etc/config.yaml",
-    "generated/__init__.py",
-    "generated/genericworker.py",
-    "generated/interfaces.py",
-    "generated/params.py",
+    "talker_generated/__init__.py",
+    "talker_generated/genericworker.py",
+    "talker_generated/interfaces.py",
+    "talker_generated/params.py",
     "main.py",
     "specificworker.py",
 }
@@ -44,7 +45,7 @@ def tree(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 
 
-def test_beside_the_file(rcgen: Rcgen, talker: Path) -> None:
+def test_component_is_written_beside_file(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl")
     assert (run.code, run.err) == (0, "")
     expected = "9 of 9 files written; yours to edit: specificworker.py, etc/config.yaml, README.md"
@@ -52,12 +53,12 @@ def test_beside_the_file(rcgen: Rcgen, talker: Path) -> None:
     assert set(tree(talker)) == ALL | RECORD | {"talker.cdsl", "Talk.idsl"}
 
 
-def test_into_a_folder(rcgen: Rcgen, talker: Path) -> None:
+def test_component_is_written_into_output_folder(rcgen: Rcgen, talker: Path) -> None:
     assert rcgen("component", "talker.cdsl", "-o", "out/deep").code == 0
     assert set(tree(talker / "out" / "deep")) == ALL | RECORD
 
 
-def test_again_touches_nothing(rcgen: Rcgen, talker: Path) -> None:
+def test_component_is_idempotent(rcgen: Rcgen, talker: Path) -> None:
     rcgen("component", "talker.cdsl", "-o", "out")
     stamps = {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")}
     run = rcgen("component", "talker.cdsl", "-o", "out")
@@ -65,7 +66,7 @@ def test_again_touches_nothing(rcgen: Rcgen, talker: Path) -> None:
     assert {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")} == stamps
 
 
-def test_check_diff_and_dry_run_write_nothing(rcgen: Rcgen, talker: Path) -> None:
+def test_component_check_diff_and_dry_run_write_nothing(rcgen: Rcgen, talker: Path) -> None:
     before = tree(talker)
     run = rcgen("component", "talker.cdsl", "--check")
     assert run.code == 1
@@ -79,29 +80,29 @@ def test_check_diff_and_dry_run_write_nothing(rcgen: Rcgen, talker: Path) -> Non
     assert tree(talker) == before
 
 
-def test_check_after_a_change(rcgen: Rcgen, talker: Path) -> None:
+def test_component_check_after_change(rcgen: Rcgen, talker: Path) -> None:
     rcgen("component", "talker.cdsl")
     assert rcgen("component", "talker.cdsl", "--check").code == 0
     (talker / "Talk.idsl").write_text(IDSL.replace("string text", "string word"))
     run = rcgen("component", "talker.cdsl", "--check")
     assert run.code == 1
-    assert "`generated/interfaces.py` is not what would be generated" in run.err
+    assert "`talker_generated/interfaces.py` is out of date" in run.err
     assert "main.py" not in run.err
     diff = rcgen("component", "talker.cdsl", "--diff").out
-    assert '-            inputs=(("text", rt.STRING),),\n' in diff
-    assert '+            inputs=(("word", rt.STRING),),\n' in diff
+    assert '-    rt.Operation("say", inputs={"text": rt.String}, returns=rt.Int),\n' in diff
+    assert '+    rt.Operation("say", inputs={"word": rt.String}, returns=rt.Int),\n' in diff
     dry = rcgen("component", "talker.cdsl", "--dry-run").out
-    assert "update     generated/interfaces.py\n" in dry
+    assert "update     talker_generated/interfaces.py\n" in dry
     assert "keep       specificworker.py\n" in dry
 
 
-def test_only_one_of_the_modes(rcgen: Rcgen, talker: Path) -> None:
+def test_component_modes_exclude_each_other(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl", "--check", "--diff")
     assert run.code == 2
     assert "--check" in run.err
 
 
-def test_what_the_users_class_lacks(rcgen: Rcgen, talker: Path) -> None:
+def test_component_reports_missing_methods_of_user_class(rcgen: Rcgen, talker: Path) -> None:
     rcgen("component", "talker.cdsl")
     more = IDSL.replace("int say", "void shout(); int say")
     (talker / "Talk.idsl").write_text(more)
@@ -110,7 +111,7 @@ def test_what_the_users_class_lacks(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl")
     assert run.code == 0
     assert (
-        "warning[RC611]: `SpecificWorker` had no method for the operation `shout`; this" in run.err
+        "warning[RC611]: `SpecificWorker` has no method for the operation `shout`; this" in run.err
     )
     assert "--> specificworker.py:24:9" in run.err
     assert "--> Talk.idsl:1:34" in run.err
@@ -120,7 +121,7 @@ def test_what_the_users_class_lacks(rcgen: Rcgen, talker: Path) -> None:
     assert rcgen("component", "talker.cdsl").err == ""
 
 
-def test_an_error_writes_nothing(rcgen: Rcgen, talker: Path) -> None:
+def test_component_writes_nothing_after_error(rcgen: Rcgen, talker: Path) -> None:
     (talker / "talker.cdsl").write_text(CDSL.replace("implements Talk", "implements Tolk"))
     before = tree(talker)
     run = rcgen("component", "talker.cdsl")
@@ -131,7 +132,7 @@ def test_an_error_writes_nothing(rcgen: Rcgen, talker: Path) -> None:
 
 
 @pytest.mark.parametrize("language", ["Cpp", "Cpp11"])
-def test_no_target_for_the_language(rcgen: Rcgen, talker: Path, language: str) -> None:
+def test_component_rejects_unsupported_language(rcgen: Rcgen, talker: Path, language: str) -> None:
     (talker / "talker.cdsl").write_text(CDSL.replace("Python", language))
     run = rcgen("component", "talker.cdsl")
     assert run.code == 1
@@ -141,15 +142,15 @@ def test_no_target_for_the_language(rcgen: Rcgen, talker: Path, language: str) -
     assert rcgen("component", "talker.cdsl", "--language", "Python").code == 0
 
 
-def test_the_middleware_of_the_command_line_wins(rcgen: Rcgen, talker: Path) -> None:
+def test_component_middleware_option_overrides_file(rcgen: Rcgen, talker: Path) -> None:
     assert rcgen("component", "talker.cdsl", "--middleware", "InProc").code == 0
-    assert 'middleware="inproc"' in (talker / "generated" / "genericworker.py").read_text()
+    assert 'middleware="inproc"' in (talker / "talker_generated" / "genericworker.py").read_text()
     run = rcgen("component", "talker.cdsl", "--middleware", "zeno")
     assert run.code == 2
     assert "there is no middleware 'zeno'; did you mean `zenoh`?" in run.err
 
 
-def test_a_file_is_where_the_folder_should_be(rcgen: Rcgen, talker: Path) -> None:
+def test_component_rejects_file_as_output_folder(rcgen: Rcgen, talker: Path) -> None:
     (talker / "out").write_text("mine")
     run = rcgen("component", "talker.cdsl", "-o", "out")
     assert (run.code, run.out) == (1, "")
@@ -157,7 +158,7 @@ def test_a_file_is_where_the_folder_should_be(rcgen: Rcgen, talker: Path) -> Non
     assert (talker / "out").read_text() == "mine"
 
 
-def test_a_folder_that_cannot_be(rcgen: Rcgen, talker: Path) -> None:
+def test_component_reports_unwritable_folder(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl", "-o", "/proc/nothing/here")
     assert run.code == 1
     assert run.err.startswith("error: cannot write `/proc/nothing")
@@ -167,7 +168,7 @@ IMPORTS = ["../../etc/passwd", "/etc/passwd", "..\\..\\secret.idsl", "a\nb.idsl"
 
 
 @pytest.mark.parametrize("written", IMPORTS)
-def test_imports_that_lead_astray(rcgen: Rcgen, talker: Path, written: str) -> None:
+def test_component_rejects_invalid_import_paths(rcgen: Rcgen, talker: Path, written: str) -> None:
     (talker / "talker.cdsl").write_text(f'import "{written}";\n{CDSL}')
     run = rcgen("component", "talker.cdsl")
     assert run.code == 1
@@ -179,7 +180,7 @@ NAMES = ['a"b', "a'b", "{{ 7*7 }}", "a b", "1a", "é", "a;import os"]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_names_that_are_none(rcgen: Rcgen, talker: Path, name: str) -> None:
+def test_component_rejects_invalid_names(rcgen: Rcgen, talker: Path, name: str) -> None:
     (talker / "talker.cdsl").write_text(CDSL.replace("talker", name))
     before = set(tree(talker))
     run = rcgen("component", "talker.cdsl")
@@ -188,7 +189,7 @@ def test_names_that_are_none(rcgen: Rcgen, talker: Path, name: str) -> None:
     assert set(tree(talker)) == before
 
 
-def test_broken_user_code_is_left_alone(rcgen: Rcgen, talker: Path) -> None:
+def test_component_keeps_broken_user_code(rcgen: Rcgen, talker: Path) -> None:
     (talker / "specificworker.py").write_text("def x(:\n")
     run = rcgen("component", "talker.cdsl")
     assert run.code == 0
@@ -212,7 +213,7 @@ WORKERS = {
 
 
 @pytest.mark.parametrize("case", WORKERS)
-def test_how_a_class_can_have_a_method(rcgen: Rcgen, talker: Path, case: str) -> None:
+def test_component_finds_methods_of_user_class(rcgen: Rcgen, talker: Path, case: str) -> None:
     body, complete = WORKERS[case]
     text = f"class SpecificWorker(GenericWorker):\n    {body}\n"
     (talker / "specificworker.py").write_text(text)
@@ -222,7 +223,7 @@ def test_how_a_class_can_have_a_method(rcgen: Rcgen, talker: Path, case: str) ->
         assert "is `Talk_sya` meant for it?" in run.err
 
 
-def test_methods_of_other_bases(rcgen: Rcgen, talker: Path) -> None:
+def test_component_finds_methods_of_other_bases(rcgen: Rcgen, talker: Path) -> None:
     file = talker / "specificworker.py"
     file.write_text(
         "class Mixin:\n    def Talk_say(self, text): ...\n"
@@ -235,7 +236,7 @@ def test_methods_of_other_bases(rcgen: Rcgen, talker: Path) -> None:
     assert rcgen("component", "talker.cdsl").err == ""
 
 
-def test_the_encoding_of_the_terminal_lacks_a_letter(
+def test_component_output_with_limited_terminal_encoding(
     rcgen: Rcgen, talker: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     (talker / "talker.cdsl").write_text(CDSL.replace("Talk;", "Tälk;"), "utf-8")
@@ -243,13 +244,13 @@ def test_the_encoding_of_the_terminal_lacks_a_letter(
     assert rcgen("component", "talker.cdsl").code == 1
 
 
-def test_a_folder_with_a_name_no_disk_takes(rcgen: Rcgen, talker: Path) -> None:
+def test_component_reports_impossible_folder_name(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl", "-o", "x" * 300)
     assert run.code == 1
     assert run.err == f"error: cannot write `{'x' * 300}`: the path is too long\n"
 
 
-def test_a_file_that_may_not_be_read_is_a_finding(
+def test_component_reports_unreadable_user_file(
     rcgen: Rcgen, talker: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(path: Path, *_: object, **__: object) -> None:
@@ -263,7 +264,7 @@ def test_a_file_that_may_not_be_read_is_a_finding(
 
 
 @pytest.mark.parametrize("mode", ["--check", "--diff", "--dry-run"])
-def test_what_is_only_told_is_not_said_to_be_done(rcgen: Rcgen, talker: Path, mode: str) -> None:
+def test_component_dry_run_does_not_claim_changes(rcgen: Rcgen, talker: Path, mode: str) -> None:
     assert rcgen("component", "talker.cdsl").code == 0
     worker, readme = talker / "specificworker.py", talker / "README.md"
     worker.write_text("class SpecificWorker(GenericWorker):\n    pass\n")
@@ -279,5 +280,5 @@ def test_what_is_only_told_is_not_said_to_be_done(rcgen: Rcgen, talker: Path, mo
     assert "is added" not in run.err
     assert "is merged" not in run.err
     assert tree(talker) == before
-    assert "this stub is added" in rcgen("component", "talker.cdsl").err
+    assert "this stub was added" in rcgen("component", "talker.cdsl").err
     assert rcgen("component", "talker.cdsl", "--check").code == 0

@@ -6,7 +6,8 @@ import json
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 FOLDERS = {
     "ROBOCOMP_CONFIG_HOME": "conf",
@@ -20,8 +21,8 @@ FOLDERS = {
 def top(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A machine: a user, two installed places; the working folder is `work`."""
     for name, folders in FOLDERS.items():
-        said = ":".join(str(tmp_path / one) for one in folders.split(":"))
-        monkeypatch.setenv(name, said)
+        message = ":".join(str(tmp_path / item) for item in folders.split(":"))
+        monkeypatch.setenv(name, message)
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     monkeypatch.delenv("ROBOCOMP_ROBOT_NAME", raising=False)
     (tmp_path / "work").mkdir()
@@ -46,7 +47,7 @@ def lab(top: Path) -> None:
     put(top, "share2/contexts/lab/left/arm.yaml", "rate: 5\n")
 
 
-def test_list(rcgen: Rcgen, top: Path) -> None:
+def test_config_list(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     run = rcgen("config", "list")
     assert (run.code, run.err) == (0, "")
@@ -63,7 +64,7 @@ def test_list(rcgen: Rcgen, top: Path) -> None:
     ]
 
 
-def test_list_as_json(rcgen: Rcgen, top: Path) -> None:
+def test_config_list_as_json(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     run = rcgen("config", "list", "lab", "--format", "json")
     assert run.code == 0
@@ -78,26 +79,26 @@ def test_list_as_json(rcgen: Rcgen, top: Path) -> None:
     ]
 
 
-def test_list_nothing(rcgen: Rcgen, top: Path) -> None:
+def test_config_list_without_contexts(rcgen: Rcgen, top: Path) -> None:
     assert rcgen("config", "list").out.startswith("there are no contexts")
     assert rcgen("config", "list", "--format", "json").out == "{}\n"
 
 
-def test_folders_of_drop_ins_count(rcgen: Rcgen, top: Path) -> None:
+def test_config_list_includes_drop_in_folders(rcgen: Rcgen, top: Path) -> None:
     put(top, "share1/path.d/x.conf", "../../more")
     put(top, "admin/path.d/bad.yaml", "paths: [a]\n")
     put(top, "more/contexts/lab/arm.yaml")
     run = rcgen("config", "list", "lab")
     assert "more/contexts/lab/arm.yaml  (path.d)" in run.out
-    assert run.err.startswith("warning: `paths` is no list `path`")
+    assert run.err.startswith("warning: `paths` is not a list `path`")
     assert f"--> {top}/admin/path.d/bad.yaml:1:1" in run.err
 
 
-def test_where(rcgen: Rcgen, top: Path) -> None:
+def test_config_where(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     run = rcgen("config", "where", "arm.yaml", "--context", "lab")
     assert (run.code, run.err) == (0, "")
-    lines = [one for one in run.out.replace(str(top), "T").splitlines() if one[0] != "-"]
+    lines = [line for line in run.out.replace(str(top), "T").splitlines() if line[0] != "-"]
     assert lines == [
         "wins      T/data/contexts/lab/arm.yaml  (user, contexts/lab)",
         "shadowed  T/share1/contexts/lab/arm.yaml  (installed, contexts/lab)",
@@ -106,17 +107,17 @@ def test_where(rcgen: Rcgen, top: Path) -> None:
     assert "-         T/work/etc/arm.yaml  (working folder, etc)" in run.out.replace(str(top), "T")
 
 
-def test_where_as_json(rcgen: Rcgen, top: Path) -> None:
+def test_config_where_as_json(rcgen: Rcgen, top: Path) -> None:
     file = put(top, "share2/arm.yaml")
     (top / "share1/arm.yaml").mkdir(parents=True)
     run = rcgen("config", "where", "arm.yaml", "--format", "json")
     data = json.loads(run.out)
     assert run.code == 0
-    assert [one["path"] for one in data if one["wins"]] == [str(file)]
-    assert {one["obstacle"] for one in data} == {"", "not there", "a folder"}
+    assert [item["path"] for item in data if item["wins"]] == [str(file)]
+    assert {item["obstacle"] for item in data} == {"", "not found", "a folder"}
 
 
-def test_where_is_nothing(rcgen: Rcgen, top: Path) -> None:
+def test_config_where_without_match(rcgen: Rcgen, top: Path) -> None:
     run = rcgen("config", "where", "arm.yaml")
     assert run.code == 1
     assert run.err == "error: there is no `arm.yaml` in any of them\n"
@@ -125,7 +126,7 @@ def test_where_is_nothing(rcgen: Rcgen, top: Path) -> None:
     assert run.err == "error: there is no `arm.yaml` in any of them; did you mean `amr.yaml`?\n"
 
 
-def test_import_a_context(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_of_context(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     (top / "data/contexts/lab/arm.yaml").unlink()
     (top / "share2/contexts/lab/base.yaml").chmod(0o444)
@@ -144,7 +145,7 @@ def test_import_a_context(rcgen: Rcgen, top: Path) -> None:
     assert again.out.count("is the same already") == 3
 
 
-def test_import_overwrites_nothing_unless_it_is_forced(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_overwrites_only_with_force(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     run = rcgen("config", "import", "lab")
     assert (run.code, run.out) == (1, "")
@@ -159,7 +160,7 @@ def test_import_overwrites_nothing_unless_it_is_forced(rcgen: Rcgen, top: Path) 
     assert (mine / "arm.yaml").read_text() == "rate: 1\nname: a\n"
 
 
-def test_import_leaves_links_alone(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_keeps_links(rcgen: Rcgen, top: Path) -> None:
     put(top, "share1/contexts/lab/arm.yaml")
     link = top / "data/contexts/lab/arm.yaml"
     link.parent.mkdir(parents=True)
@@ -170,7 +171,7 @@ def test_import_leaves_links_alone(rcgen: Rcgen, top: Path) -> None:
     assert not (top / "elsewhere").exists()
 
 
-def test_import_one_file(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_of_one_file(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     assert rcgen("config", "import", "lab", "base.yaml").code == 0
     assert rcgen("config", "import", "lab", "left/arm.yaml").code == 0
@@ -180,7 +181,7 @@ def test_import_one_file(rcgen: Rcgen, top: Path) -> None:
     assert (mine / "arm.yaml").read_text() == "rate: 3\n"
 
 
-def test_an_import_that_fails_leaves_nothing(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_rolls_back_after_failure(rcgen: Rcgen, top: Path) -> None:
     for name in ("a", "b"):
         put(top, f"share1/contexts/lab/{name}.yaml")
     put(top, "share1/contexts/lab/zone/z.yaml")
@@ -191,7 +192,7 @@ def test_an_import_that_fails_leaves_nothing(rcgen: Rcgen, top: Path) -> None:
     assert [p.name for p in (top / "data/contexts/lab").iterdir()] == ["zone"]
 
 
-def test_diff(rcgen: Rcgen, top: Path) -> None:
+def test_config_diff(rcgen: Rcgen, top: Path) -> None:
     lab(top)
     run = rcgen("config", "diff", "lab")
     assert (run.code, run.err) == (1, "")
@@ -206,7 +207,7 @@ def test_diff(rcgen: Rcgen, top: Path) -> None:
     ]
 
 
-def test_diff_of_the_same(rcgen: Rcgen, top: Path) -> None:
+def test_config_diff_of_equal_files(rcgen: Rcgen, top: Path) -> None:
     put(top, "data/contexts/lab/arm.yaml")
     put(top, "share1/contexts/lab/arm.yaml")
     put(top, "share1/contexts/lab/base.yaml")
@@ -216,7 +217,7 @@ def test_diff_of_the_same(rcgen: Rcgen, top: Path) -> None:
     assert "`rcgen config import lab base.yaml` makes one" in run.out
 
 
-def test_diff_of_odd_texts(rcgen: Rcgen, top: Path) -> None:
+def test_config_diff_of_unusual_texts(rcgen: Rcgen, top: Path) -> None:
     put(top, "data/contexts/lab/arm.yaml", "rate: 1")
     put(top, "share1/contexts/lab/arm.yaml", "rate: 2\n")
     put(top, "data/contexts/lab/x.bin").write_bytes(b"\xff\0")
@@ -226,14 +227,14 @@ def test_diff_of_odd_texts(rcgen: Rcgen, top: Path) -> None:
 
 
 @pytest.mark.parametrize("command", ["list", "import", "diff"])
-def test_a_context_that_is_not_there(rcgen: Rcgen, top: Path, command: str) -> None:
+def test_config_unknown_context(rcgen: Rcgen, top: Path, command: str) -> None:
     put(top, "share1/contexts/laboratory/arm.yaml")
     run = rcgen("config", command, "laboratry")
     assert run.code == 1
     assert run.err == ("error: there is no context `laboratry` here; did you mean `laboratory`?\n")
 
 
-def test_a_context_that_is_all_yours_is_not_imported(rcgen: Rcgen, top: Path) -> None:
+def test_config_import_rejects_own_context(rcgen: Rcgen, top: Path) -> None:
     put(top, "work/contexts/lab/arm.yaml")
     run = rcgen("config", "import", "lab")
     assert run.code == 1
@@ -241,7 +242,7 @@ def test_a_context_that_is_all_yours_is_not_imported(rcgen: Rcgen, top: Path) ->
 
 
 @pytest.mark.parametrize("command", ["import", "diff"])
-def test_a_file_that_is_not_there(rcgen: Rcgen, top: Path, command: str) -> None:
+def test_config_unknown_file(rcgen: Rcgen, top: Path, command: str) -> None:
     put(top, "share1/contexts/lab/arm.yaml")
     run = rcgen("config", command, "lab", "amr.yaml")
     assert run.code == 1
@@ -261,7 +262,9 @@ def test_a_file_that_is_not_there(rcgen: Rcgen, top: Path, command: str) -> None
         ("were", "x"),
     ],
 )
-def test_names_that_lead_elsewhere(rcgen: Rcgen, top: Path, arguments: tuple[str, ...]) -> None:
+def test_config_rejects_names_outside_folder(
+    rcgen: Rcgen, top: Path, arguments: tuple[str, ...]
+) -> None:
     put(top, "share1/contexts/lab/arm.yaml")
     before = sorted(top.rglob("*"))
     run = rcgen("config", *arguments)
@@ -270,7 +273,7 @@ def test_names_that_lead_elsewhere(rcgen: Rcgen, top: Path, arguments: tuple[str
     assert sorted(top.rglob("*")) == before
 
 
-def test_a_robot_that_leads_elsewhere(
+def test_config_rejects_robot_name_outside_folder(
     rcgen: Rcgen, top: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROBOCOMP_ROBOT_NAME", "../x")

@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 GOOD = (
     'import "Laser.idsl";\nComponent a { Communications { requires Laser; }; language Python; };\n'
@@ -29,19 +30,19 @@ FORMS = [
 ]
 
 
-@pytest.mark.parametrize(("given", "suffixes", "first"), FORMS)
-def test_what_is_written(
-    rcgen: Rcgen, here: Path, given: tuple[str, ...], suffixes: set[str], first: str
+@pytest.mark.parametrize(("arguments", "suffixes", "first"), FORMS)
+def test_doc_writes_pages(
+    rcgen: Rcgen, here: Path, arguments: tuple[str, ...], suffixes: set[str], first: str
 ) -> None:
     (here / "a.cdsl").write_text(GOOD)
-    run = rcgen("doc", "a.cdsl", *given)
+    run = rcgen("doc", "a.cdsl", *arguments)
     assert (run.code, run.err) == (0, "")
     written = _tree((here / first).parent)
     assert {Path(path).suffix for path in written} == suffixes
     assert run.out == f"{first}: {len(written)} of {len(written)} files written\n"
 
 
-def test_again_there_is_nothing_to_write(rcgen: Rcgen, here: Path) -> None:
+def test_doc_is_idempotent(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     rcgen("doc", ".", "--format", "both")
     before = _tree(here)
@@ -51,10 +52,10 @@ def test_again_there_is_nothing_to_write(rcgen: Rcgen, here: Path) -> None:
     assert rcgen("doc", ".", "-q").out == ""
 
 
-def test_the_same_bytes_whatever_the_hash_seed(here: Path) -> None:
+def test_doc_output_is_independent_of_hash_seed(here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     (here / "b.cdsl").write_text(GOOD.replace("t a", "t b").replace("requires", "implements"))
-    code = "from robocomp_dsl.cli.rcgen import main; main()"
+    code = "from robocomp_dsl.cli.rcgen.main import main; main()"
     trees = []
     for seed in ("1", "2"):
         command = [sys.executable, "-c", code, "doc", ".", "--title", "t", "--format", "both"]
@@ -65,7 +66,7 @@ def test_the_same_bytes_whatever_the_hash_seed(here: Path) -> None:
     assert len(trees[0]) > 10
 
 
-def test_an_error_is_shown_in_place_and_nothing_is_written(rcgen: Rcgen, here: Path) -> None:
+def test_doc_writes_nothing_after_error(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     (here / "b.cdsl").write_text(BAD)
     run = rcgen("doc", ".")
@@ -74,7 +75,7 @@ def test_an_error_is_shown_in_place_and_nothing_is_written(rcgen: Rcgen, here: P
     assert set(_tree(here)) == {"a.cdsl", "b.cdsl"}
 
 
-def test_an_error_in_a_parameter_file_counts(rcgen: Rcgen, here: Path) -> None:
+def test_doc_reports_error_in_parameter_file(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD.replace("language", 'parameters "a.pdsl"; language'))
     (here / "a.pdsl").write_text("ComponentParams a { rate float 50 60:70; };")
     run = rcgen("doc", "a.cdsl")
@@ -82,7 +83,7 @@ def test_an_error_in_a_parameter_file_counts(rcgen: Rcgen, here: Path) -> None:
     assert "a.pdsl:1:" in run.err
 
 
-def test_warnings_do_not_stop_it(rcgen: Rcgen, here: Path) -> None:
+def test_doc_succeeds_with_warnings(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(LEGACY)
     run = rcgen("doc", "a.cdsl")
     assert run.code == 0
@@ -90,7 +91,7 @@ def test_warnings_do_not_stop_it(rcgen: Rcgen, here: Path) -> None:
     assert (here / "build/doc/components/a.html").is_file()
 
 
-def test_a_file_of_somebody_else_is_not_written_over(rcgen: Rcgen, here: Path) -> None:
+def test_doc_keeps_foreign_files(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     (here / "docs").mkdir()
     (here / "docs" / "index.md").write_text("mine\n")
@@ -101,7 +102,7 @@ def test_a_file_of_somebody_else_is_not_written_over(rcgen: Rcgen, here: Path) -
     assert _tree(here) == before
 
 
-def test_other_files_stay_and_pages_left_over_are_named(rcgen: Rcgen, here: Path) -> None:
+def test_doc_lists_stale_pages(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     (here / "b.cdsl").write_text(GOOD.replace("Component a", "Component b"))
     rcgen("doc", ".", "-o", "out")
@@ -109,12 +110,12 @@ def test_other_files_stay_and_pages_left_over_are_named(rcgen: Rcgen, here: Path
     (here / "b.cdsl").unlink()
     run = rcgen("doc", ".", "-o", "out")
     assert run.code == 0
-    assert run.out.endswith("; pages of an earlier run are left: components/b.html\n")
+    assert run.out.endswith("; stale pages of an earlier run remain: components/b.html\n")
     assert (here / "out" / "components" / "mine.html").read_text() == "mine\n"
     assert (here / "out" / "components" / "b.html").is_file()
 
 
-def test_what_is_in_two_files_has_one_page(rcgen: Rcgen, here: Path) -> None:
+def test_doc_writes_one_page_per_declaration(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     (here / "x.pdsl").write_text("ComponentParams x { rate int 1; };")
     (here / "b.cdsl").write_text(
@@ -127,7 +128,7 @@ def test_what_is_in_two_files_has_one_page(rcgen: Rcgen, here: Path) -> None:
     )
     (here / "c.cdsl").write_text(GOOD.replace("t a", "t c").replace("requires", "implements"))
     for name in ("one", "two"):
-        imports = "".join(f'import "{one}.cdsl"; ' for one in "abc")
+        imports = "".join(f'import "{name}.cdsl"; ' for name in "abc")
         (here / f"{name}.ddsl").write_text(
             f"{imports} Deployment {name} {{ component a; component b; component c; }};"
         )
@@ -145,31 +146,33 @@ def test_what_is_in_two_files_has_one_page(rcgen: Rcgen, here: Path) -> None:
     assert "State machine s" in (here / "out/components/b.html").read_text()
 
 
-USAGE = [
+EXIT_USAGE = [
     (("body.xml",), 2, "bodies have no documentation"),
-    (("nothing",), 1, "there are no descriptions in `nothing`"),
-    (("missing.cdsl",), 1, "there is no such file"),
-    (("notes.txt",), 1, "cannot tell the language"),
+    (("nothing",), 1, "there are no description files in `nothing`"),
+    (("missing.cdsl",), 1, "the file does not exist"),
+    (("notes.txt",), 1, "unknown file suffix: `notes.txt`"),
     ((), 2, "Missing argument"),
 ]
 
 
-@pytest.mark.parametrize(("given", "code", "said"), USAGE)
-def test_wrong_use(rcgen: Rcgen, here: Path, given: tuple[str, ...], code: int, said: str) -> None:
+@pytest.mark.parametrize(("arguments", "code", "message"), EXIT_USAGE)
+def test_doc_usage_errors(
+    rcgen: Rcgen, here: Path, arguments: tuple[str, ...], code: int, message: str
+) -> None:
     (here / "nothing").mkdir()
     (here / "notes.txt").write_text("x")
-    run = rcgen("doc", *given)
-    assert (run.code, said in run.err) == (code, True)
+    run = rcgen("doc", *arguments)
+    assert (run.code, message in run.err) == (code, True)
     assert not (here / "build").exists()
 
 
-def test_a_place_that_cannot_be_written(rcgen: Rcgen, here: Path) -> None:
+def test_doc_reports_unwritable_folder(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     run = rcgen("doc", "a.cdsl", "-o", "a.cdsl")
     assert (run.code, run.err) == (1, "error: `a.cdsl` is a file, not a folder\n")
 
 
-def test_the_title(rcgen: Rcgen, here: Path) -> None:
+def test_doc_title(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     rcgen("doc", "a.cdsl", "--title", "My <Robot>")
     assert "<h1>My &lt;Robot&gt;</h1>" in (here / "build/doc/index.html").read_text()

@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
 
-from robocomp_dsl.check import check_syntax
-from robocomp_dsl.check.fixes import is_automatic
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.fixes import is_safe
+from robocomp_dsl.check.languages import check_syntax
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report, Severity
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import LANGUAGES
+from robocomp_dsl.syntax.parse import LANGUAGES
+from tests.cli.rcgen_run import Rcgen
 
 CASES = Path(__file__).parent.parent / "cases"
 FORMS = {
@@ -28,13 +28,13 @@ def _automatic(path: Path) -> list[str]:
     report = Report()
     workspace = Workspace(environ={})
     check_syntax(path, workspace, report)
-    source = workspace.files.read(path)
-    return [one.message for one in report if is_automatic(one, source)]
+    source = workspace.sources.read(path)
+    return [finding.message for finding in report if is_safe(finding, source)]
 
 
 @pytest.mark.parametrize("name", FORMS)
 @pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["lf", "crlf"])
-def test_legacy_forms_are_gone(rcgen: Rcgen, here: Path, name: str, end: str) -> None:
+def test_fix_replaces_legacy_syntax(rcgen: Rcgen, here: Path, name: str, end: str) -> None:
     path = here / name
     path.write_bytes(FORMS[name].replace("\n", end).encode())
     assert _automatic(path)
@@ -50,7 +50,7 @@ def _shipped_cases() -> list[Path]:
 
 
 @pytest.mark.parametrize("case", _shipped_cases(), ids=lambda p: str(p.relative_to(CASES)))
-def test_the_meaning_stays(rcgen: Rcgen, here: Path, case: Path) -> None:
+def test_fix_keeps_meaning(rcgen: Rcgen, here: Path, case: Path) -> None:
     copy = here / case.name
     copy.write_bytes(case.read_bytes())
     parse, before, after = LANGUAGES[case.suffix], Report(), Report()
@@ -63,10 +63,10 @@ def test_the_meaning_stays(rcgen: Rcgen, here: Path, case: Path) -> None:
 
 
 def _errors(report: Report) -> list[str]:
-    return [one.message for one in report if one.severity is Severity.ERROR]
+    return [finding.message for finding in report if finding.severity is Severity.ERROR]
 
 
-def test_an_interface_keeps_its_shape(rcgen: Rcgen, here: Path) -> None:
+def test_fix_keeps_type_hash(rcgen: Rcgen, here: Path) -> None:
     text = "module M\n{\n    exception X { int a; };\n    interface I { %s };\n};\n"
     (here / "a.idsl").write_text(text % "[command] void run() throws X;")
     run = rcgen("check", "--fix", "a.idsl")
@@ -74,7 +74,7 @@ def test_an_interface_keeps_its_shape(rcgen: Rcgen, here: Path) -> None:
     assert (here / "a.idsl").read_text() == text % "[command] void run() throws X;"
 
 
-def test_an_emptied_line_goes_and_comments_stay(rcgen: Rcgen, here: Path) -> None:
+def test_fix_removes_empty_lines_and_keeps_comments(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(
         "Component a\n{\n    // first\n    useQt qt4;\n    language Python; // last\n};\n"
     )
@@ -84,7 +84,7 @@ def test_an_emptied_line_goes_and_comments_stay(rcgen: Rcgen, here: Path) -> Non
     )
 
 
-def test_diff_writes_nothing(rcgen: Rcgen, here: Path) -> None:
+def test_fix_diff_writes_nothing(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(FORMS["a.cdsl"])
     run = rcgen("check", "--fix", "--diff", "a.cdsl")
     assert run.code == 0
@@ -93,7 +93,7 @@ def test_diff_writes_nothing(rcgen: Rcgen, here: Path) -> None:
     assert (here / "a.cdsl").read_text() == FORMS["a.cdsl"]
 
 
-def test_errors_are_left_to_the_user(rcgen: Rcgen, here: Path) -> None:
+def test_fix_keeps_errors(rcgen: Rcgen, here: Path) -> None:
     text = "Component a { Communications { requires Lasr; }; language Python; };\n"
     (here / "a.cdsl").write_text(text)
     run = rcgen("check", "--fix", "a.cdsl")
@@ -103,7 +103,7 @@ def test_errors_are_left_to_the_user(rcgen: Rcgen, here: Path) -> None:
 
 
 @pytest.mark.parametrize("wrong", ["[Laser]", '"a-b"'])
-def test_what_an_error_is_about_is_not_taken_away(rcgen: Rcgen, here: Path, wrong: str) -> None:
+def test_fix_keeps_code_with_errors(rcgen: Rcgen, here: Path, wrong: str) -> None:
     """`requires` lists nothing then, which alone would be mended by deleting it."""
     path = here / "robot.cdsl"
     text = f"Component c {{ Communications {{ requires {wrong}; }}; language Python; }};\n"
@@ -113,7 +113,7 @@ def test_what_an_error_is_about_is_not_taken_away(rcgen: Rcgen, here: Path, wron
     assert path.read_text() == text
 
 
-def test_a_byte_order_mark_and_a_link_stay(rcgen: Rcgen, here: Path) -> None:
+def test_fix_keeps_byte_order_mark_and_link(rcgen: Rcgen, here: Path) -> None:
     (here / "real.cdsl").write_bytes(b"\xef\xbb\xbf" + FORMS["a.cdsl"].encode())
     (here / "a.cdsl").symlink_to("real.cdsl")
     rcgen("check", "--fix", "a.cdsl")
@@ -122,6 +122,6 @@ def test_a_byte_order_mark_and_a_link_stay(rcgen: Rcgen, here: Path) -> None:
     assert ";;" not in (here / "real.cdsl").read_text()
 
 
-def test_usage(rcgen: Rcgen, here: Path) -> None:
+def test_fix_usage_errors(rcgen: Rcgen, here: Path) -> None:
     assert rcgen("check", "--diff", "a.cdsl").code == 2
     assert rcgen("check", "--fix", "lost.cdsl").code == 1

@@ -6,13 +6,14 @@ import json
 from pathlib import Path
 
 import pytest
-from rcgen_run import Rcgen
+
+from tests.cli.rcgen_run import Rcgen
 
 ALONE = "/** Talks. */ module M { interface Speech { void say(string text); }; };\n"
 IMPORTING = 'import "Laser.idsl";\nmodule N { sequence<RoboCompLaser::TData> Scan; };\n'
 
 
-def test_one_file_goes_to_standard_output(rcgen: Rcgen, here: Path) -> None:
+def test_interface_writes_single_file_to_standard_output(rcgen: Rcgen, here: Path) -> None:
     (here / "Speech.idsl").write_text(ALONE)
     run = rcgen("interface", "Speech.idsl", "--to", "slice")
     assert (run.code, run.err) == (0, "")
@@ -26,12 +27,12 @@ def test_one_file_goes_to_standard_output(rcgen: Rcgen, here: Path) -> None:
     assert "M.Speech.say.request" in json.loads(schema)["$defs"]
 
 
-def test_several_files_want_a_folder(rcgen: Rcgen, here: Path) -> None:
+def test_interface_requires_folder_for_several_files(rcgen: Rcgen, here: Path) -> None:
     (here / "N.idsl").write_text(IMPORTING)
     refused = rcgen("interface", "N.idsl", "--to", "slice")
     assert refused.code == 2
-    assert "3 files result (GenericBase.ice, Laser.ice, N.ice)" in refused.err
-    assert "-o DIR where they go, or leave out imports with --alone" in refused.err
+    assert "3 files would be written (GenericBase.ice, Laser.ice, N.ice)" in refused.err
+    assert "use -o DIR, or leave out imports with --alone" in refused.err
     alone = rcgen("interface", "N.idsl", "--to", "slice", "--alone")
     assert '#include "Laser.ice"' in alone.out
     assert "sequence<::RoboCompLaser::TData> Scan;" in alone.out
@@ -42,7 +43,7 @@ def test_several_files_want_a_folder(rcgen: Rcgen, here: Path) -> None:
     assert again.out == "out: 0 of 3 files written\n"
 
 
-def test_ros2_packages_depend_on_each_other(rcgen: Rcgen, here: Path) -> None:
+def test_interface_ros2_packages_declare_dependencies(rcgen: Rcgen, here: Path) -> None:
     (here / "N.idsl").write_text(IMPORTING)
     assert rcgen("interface", "N.idsl", "--to", "ros2", "-o", "ws/src", "-q").out == ""
     assert (here / "ws/src/n/msg/Scan.msg").read_text().endswith("robocomp_laser/TData[] data\n")
@@ -55,13 +56,13 @@ FINDINGS = {
         "module M { interface IceCream { void a(); }; };",
         "slice",
         0,
-        "warning[RC621]: `IceCream` is exported as `n_IceCream`: Slice does not allow the name",
+        "warning[RC621]: `IceCream` is exported as `n_IceCream`: the name is not valid in Slice",
     ),
     "names that differ in case": (
         "module M { struct A { int x; int X; }; };",
         "slice",
         0,
-        "warning[RC621]: `X` is exported as `X2`: Slice takes it for the same as another name",
+        "warning[RC621]: `X` is exported as `X2`: in Slice it equals another name",
     ),
     "an empty struct": ("module M { struct A { }; };", "slice", 0, "warning[RC622]"),
     "a negative enumerator": (
@@ -74,7 +75,7 @@ FINDINGS = {
         "module M { struct A { int aB; int a_b; }; };",
         "ros2",
         0,
-        "warning[RC621]: `a_b` is exported as `a_b2`: in ROS 2 another one",
+        "warning[RC621]: `a_b` is exported as `a_b2`: another name would be the same in ROS 2",
     ),
     "an error in the file": ("module M { struct A { in x; }; };", "slice", 1, "error[RC3"),
     "no module": ('import "Laser.idsl";', "slice", 1, "error[RC002]"),
@@ -83,16 +84,16 @@ FINDINGS = {
 
 
 @pytest.mark.parametrize("case", FINDINGS)
-def test_findings(case: str, rcgen: Rcgen, here: Path) -> None:
-    text, to, code, said = FINDINGS[case]
+def test_interface_findings(case: str, rcgen: Rcgen, here: Path) -> None:
+    text, to, code, message = FINDINGS[case]
     (here / "M.idsl").write_text(text)
     run = rcgen("interface", "M.idsl", "--to", to, "-o", "out", "--format", "concise")
     assert run.code == code
-    assert said in run.err, run.err
+    assert message in run.err, run.err
     assert (here / "out").exists() is (code == 0)
 
 
-def test_what_cannot_be_read_and_what_cannot_be_written(rcgen: Rcgen, here: Path) -> None:
+def test_interface_reports_unreadable_and_unwritable_files(rcgen: Rcgen, here: Path) -> None:
     assert "cannot read" in rcgen("interface", "no.idsl", "--to", "slice").err
     (here / "Speech.idsl").write_text(ALONE)
     (here / "out").write_text("a file")

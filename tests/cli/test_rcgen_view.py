@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from rcgen_run import Rcgen
-from view_run import view
 
-from robocomp_dsl.hardware.view import screenless
-from robocomp_dsl.hardware.view.picture import Look, Painter, png
+from robocomp_dsl.simulation.view import offscreen
+from robocomp_dsl.simulation.view.picture import Renderer, Viewpoint, png
+from tests.cli.rcgen_run import Rcgen
+from tests.cli.view_run import view
 
-MODELS = Path(__file__).parents[1] / "hardware" / "models"
+MODELS = Path(__file__).parents[1] / "simulation" / "models" / "files"
 
 
 def pixels(path: Path) -> np.ndarray:
@@ -37,37 +37,35 @@ SUBJECTS = ["nao_h21", "nao_h25", "icub_v2", *(MODELS / n for n in ("arm.urdf", 
 
 
 @pytest.mark.parametrize(
-    "subject", [*SUBJECTS, MODELS / "room.xml"], ids=lambda one: Path(one).stem
+    "subject", [*SUBJECTS, MODELS / "room.xml"], ids=lambda subject_: Path(subject_).stem
 )
-def test_a_picture_shows_the_model_in_its_middle(
-    rcgen: Rcgen, tmp_path: Path, subject: object
-) -> None:
+def test_view_screenshot_is_centred(rcgen: Rcgen, tmp_path: Path, subject: object) -> None:
     path = tmp_path / "picture.png"
     result = rcgen("view", str(subject), "--screenshot", str(path), "--size", "320x240")
     assert result.code == 0, result.err
     assert "320 x 240 pixels" in result.out
-    made = pixels(path).astype(int)
-    assert made.shape == (240, 320, 3)
-    sky = made[:, :8].mean(axis=1, keepdims=True)  # it shades from top to bottom only
-    other = np.abs(made - sky).max(axis=2) > 25
+    image = pixels(path).astype(int)
+    assert image.shape == (240, 320, 3)
+    sky = image[:, :8].mean(axis=1, keepdims=True)  # it shades from top to bottom only
+    other = np.abs(image - sky).max(axis=2) > 25
     assert other[60:180, 80:240].mean() > 0.05
     assert 0.01 < other.mean() < 0.9
     assert list(tmp_path.iterdir()) == [path]
 
 
 @pytest.mark.parametrize("more", ["--frames", "--names", "--azimuth=200", "--zoom=2"])
-def test_what_is_asked_for_is_in_the_picture(rcgen: Rcgen, tmp_path: Path, more: str) -> None:
+def test_view_screenshot_options(rcgen: Rcgen, tmp_path: Path, more: str) -> None:
     pictures = []
     for name, options in (("a", ()), ("b", (more,))):
         path = tmp_path / f"{name}.png"
-        said = rcgen("view", "nao_h25", "--screenshot", str(path), "--size", "160x120", *options)
-        assert said.code == 0
+        run = rcgen("view", "nao_h25", "--screenshot", str(path), "--size", "160x120", *options)
+        assert run.code == 0
         pictures.append(pixels(path))
     assert (pictures[0] != pictures[1]).any(axis=2).mean() > 0.003
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", ":3:1"),
         ("<robot>\n<link name='a'/>\n<link name='a'/></robot>", "RC651]: there are two links `a`"),
@@ -76,33 +74,31 @@ def test_what_is_asked_for_is_in_the_picture(rcgen: Rcgen, tmp_path: Path, more:
         ("", "RC"),
     ],
 )
-def test_what_cannot_be_shown_is_told_with_its_place(
-    rcgen: Rcgen, tmp_path: Path, text: str, said: str
+def test_view_reports_invalid_model_with_location(
+    rcgen: Rcgen, tmp_path: Path, text: str, message: str
 ) -> None:
     path = tmp_path / "model.xml"
     path.write_text(text)
     result = rcgen("view", str(path), "--screenshot", str(tmp_path / "no.png"))
     assert result.code == 1
-    assert said in result.err
+    assert message in result.err
     assert "Traceback" not in result.err
     assert not (tmp_path / "no.png").exists()
 
 
-def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(
-    rcgen: Rcgen, tmp_path: Path
-) -> None:
+def test_view_shows_valid_part_of_world(rcgen: Rcgen, tmp_path: Path) -> None:
     path = tmp_path / "world.xml"
     path.write_text(
         '<innerModel><plane id="a" texture="#ff0000"/><plane id="a" px="9"/><nix/></innerModel>'
     )
     result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
-    assert "the id `a` is given twice" in result.err
+    assert "the id `a` is not unique" in result.err
     assert pixels(tmp_path / "w.png").shape == (48, 64, 3)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code", "said"),
+    ("arguments", "code", "message"),
     [
         (("gone.xml",), 1, "`gone.xml` cannot be read: No such file"),
         (("nao_h25", "--screenshot", "gone/a.png"), 1, "No such file or directory"),
@@ -111,49 +107,49 @@ def test_a_world_with_errors_is_shown_as_far_as_it_is_understood(
         (("nao_h25", "--screenshot", "a.png", "--camera", "x"), 1, "the model has no camera `x`"),
     ],
 )
-def test_wrong_orders(
+def test_view_usage_errors(
     rcgen: Rcgen,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     arguments: tuple[str, ...],
     code: int,
-    said: str,
+    message: str,
 ) -> None:
     monkeypatch.chdir(tmp_path)
     result = rcgen("view", *arguments)
-    assert (result.code, said in result.err) == (code, True), result.err
+    assert (result.code, message in result.err) == (code, True), result.err
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    ("libraries", "chosen", "said"),
+    ("libraries", "chosen", "message"),
     [
-        ((), "", "apt install libegl1 libgl1-mesa-dri; `libOSMesa.so.8` is not there: apt install"),
-        ((), "osmesa", "without a screen: `libOSMesa.so.8` is not there: apt install libosmesa6"),
-        (("libEGL.so.1",), "egl", "EGL has no device to draw with: apt install libgl1-mesa-dri"),
+        ((), "", "apt install libegl1 libgl1-mesa-dri; `libOSMesa.so.8` is missing: apt install"),
+        ((), "osmesa", "not available: `libOSMesa.so.8` is missing: apt install libosmesa6"),
+        (("libEGL.so.1",), "egl", "EGL has no rendering device: apt install libgl1-mesa-dri"),
     ],
 )
-def test_the_package_that_is_missing_is_named(
-    monkeypatch: pytest.MonkeyPatch, libraries: tuple[str, ...], chosen: str, said: str
+def test_view_names_missing_package(
+    monkeypatch: pytest.MonkeyPatch, libraries: tuple[str, ...], chosen: str, message: str
 ) -> None:
     def library(name: str) -> object:
         return object() if name in libraries else None
 
-    monkeypatch.setattr(screenless, "_library", library)
-    monkeypatch.setattr(screenless, "_any_device", lambda _: False)
-    monkeypatch.setenv(screenless.CHOSEN, chosen)
-    with pytest.raises(screenless.NoRendering) as error:
-        screenless.new_context(64, 48)
-    assert said in str(error.value)
+    monkeypatch.setattr(offscreen, "_library", library)
+    monkeypatch.setattr(offscreen, "_any_device", lambda _: False)
+    monkeypatch.setenv(offscreen.CHOSEN, chosen)
+    with pytest.raises(offscreen.NoRendering) as error:
+        offscreen.new_context(64, 48)
+    assert message in str(error.value)
 
 
-def test_the_png_of_known_pixels(tmp_path: Path) -> None:
-    made = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
-    (tmp_path / "a.png").write_bytes(png(made))
-    assert (pixels(tmp_path / "a.png") == made).all()
+def test_png_of_known_pixels(tmp_path: Path) -> None:
+    image = np.arange(2 * 3 * 3, dtype=np.uint8).reshape(2, 3, 3)
+    (tmp_path / "a.png").write_bytes(png(image))
+    assert (pixels(tmp_path / "a.png") == image).all()
 
 
-def test_up_is_up() -> None:
+def test_renderer_orientation() -> None:
     import mujoco  # noqa: PLC0415
 
     text = "<mujoco><worldbody><geom size='.2' pos='0 0 1' rgba='1 0 0 1'/>"
@@ -161,13 +157,13 @@ def test_up_is_up() -> None:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    with Painter(model, 64, 64) as painter:
-        made = painter.paint(data, Look(elevation=0)).astype(int)
-    assert made[:32, :, 0].sum() > 10 * made[32:, :, 0].sum() + 1000
-    assert made[32:, :, 2].sum() > made[:32, :, 2].sum()
+    with Renderer(model, 64, 64) as renderer:
+        image = renderer.render(data, Viewpoint(elevation=0)).astype(int)
+    assert image[:32, :, 0].sum() > 10 * image[32:, :, 0].sum() + 1000
+    assert image[32:, :, 2].sum() > image[:32, :, 2].sum()
 
 
-def test_every_one_of_many_sites_is_drawn() -> None:
+def test_renderer_draws_all_sites() -> None:
     import mujoco  # noqa: PLC0415
 
     dots = "<site size='.01' rgba='0 0 1 1'/>" * 3000
@@ -176,14 +172,12 @@ def test_every_one_of_many_sites_is_drawn() -> None:
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    with Painter(model, 64, 64) as painter:
-        made = painter.paint(data, Look(elevation=0, distance=3)).astype(int)
-    assert ((made[:, :, 0] > 150) & (made[:, :, 2] < 80)).any()
+    with Renderer(model, 64, 64) as renderer:
+        image = renderer.render(data, Viewpoint(elevation=0, distance=3)).astype(int)
+    assert ((image[:, :, 0] > 150) & (image[:, :, 2] < 80)).any()
 
 
-def test_bodies_that_start_in_each_other_are_told_where_they_stand(
-    rcgen: Rcgen, tmp_path: Path
-) -> None:
+def test_view_reports_overlapping_bodies_with_location(rcgen: Rcgen, tmp_path: Path) -> None:
     cup = (
         '<transform id="{0}" ty="{1}" engine="bullet" mass="1"><plane id="{0}_p" size="100,100,100"'
     )
@@ -192,11 +186,11 @@ def test_bodies_that_start_in_each_other_are_told_where_they_stand(
     path.write_text("<innerModel>\n" + cup.format("a", 0) + cup.format("b", 80) + "</innerModel>")
     result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
-    assert "RC653]: `a` and `b` are 20 mm in each other" in result.err
+    assert "RC653]: `a` and `b` overlap by 20 mm" in result.err
     assert "world.xml:2:1" in result.err
 
 
-def test_a_mesh_that_is_missing_is_a_box_and_told_where(rcgen: Rcgen, tmp_path: Path) -> None:
+def test_view_replaces_missing_mesh_by_box(rcgen: Rcgen, tmp_path: Path) -> None:
     path = tmp_path / "world.xml"
     path.write_text('<innerModel>\n  <mesh id="m" file="gone.3ds" scale="100"/></innerModel>')
     result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
@@ -205,7 +199,7 @@ def test_a_mesh_that_is_missing_is_a_box_and_told_where(rcgen: Rcgen, tmp_path: 
     assert "world.xml:2:3" in result.err
 
 
-def test_an_empty_world_is_shown(tmp_path: Path) -> None:
+def test_view_of_empty_world(tmp_path: Path) -> None:
     """As a program: what libraries print would be heard, too."""
     path = tmp_path / "world.xml"
     path.write_text("<innerModel/>")
@@ -213,21 +207,19 @@ def test_an_empty_world_is_shown(tmp_path: Path) -> None:
     assert (result.code, result.err) == (0, "")
 
 
-def test_what_is_missing_for_the_browser_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_view_names_missing_browser_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "viser", None)
-    monkeypatch.delitem(sys.modules, "robocomp_dsl.hardware.view.browser", raising=False)
+    monkeypatch.delitem(sys.modules, "robocomp_dsl.simulation.view.browser", raising=False)
     with pytest.raises(ImportError, match=r"pip install 'robocomp_dsl\[view\]'"):
-        importlib.import_module("robocomp_dsl.hardware.view.browser")
+        importlib.import_module("robocomp_dsl.simulation.view.browser")
 
 
-def test_links_that_start_in_each_other_are_told_where_they_stand(
-    rcgen: Rcgen, tmp_path: Path
-) -> None:
+def test_view_reports_overlapping_links_with_location(rcgen: Rcgen, tmp_path: Path) -> None:
     ball = "<body name='{}'><freejoint/><geom size='.1'/></body>\n"
     path = tmp_path / "balls.xml"
     balls = ball.format("a") + ball.format("b")
     path.write_text(f"<mujoco><worldbody>\n{balls}</worldbody></mujoco>")
     result = rcgen("view", str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")
     assert result.code == 0
-    assert "`a` and `b` are 200 mm in each other" in result.err
+    assert "`a` and `b` overlap by 200 mm" in result.err
     assert "balls.xml:2:1" in result.err

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.cli import render
+from robocomp_dsl.cli.output import render
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note, Severity
 from robocomp_dsl.source import Source
 
@@ -23,20 +23,20 @@ def span(text: str, path: str = "robot.cdsl"):  # type: ignore[no-untyped-def]
 
 def shown(text: str, label: str = "") -> str:
     """The excerpt alone."""
-    one = Diagnostic(UNKNOWN, span(text), "m", label)
-    return render.full([one]).partition("\n")[2]
+    diagnostic = Diagnostic(UNKNOWN, span(text), "m", label)
+    return render.full([diagnostic]).partition("\n")[2]
 
 
-def test_as_the_design_has_it() -> None:
+def test_render_matches_design() -> None:
     text = "\n" * 6 + "        requires «Lasr», DifferentialRobot;\n"
-    one = Diagnostic(
+    diagnostic = Diagnostic(
         UNKNOWN,
         span(text),
         "interface `Lasr` is not declared by any import",
         label="did you mean `Laser`?",
         help="Laser is declared in interfaces/Laser.idsl",
     )
-    assert render.full([one]) == (
+    assert render.full([diagnostic]) == (
         "error[RC204]: interface `Lasr` is not declared by any import\n"
         "  --> robot.cdsl:7:18\n"
         "   |\n"
@@ -46,13 +46,13 @@ def test_as_the_design_has_it() -> None:
     )
 
 
-def test_several_with_notes_in_other_files() -> None:
+def test_render_notes_in_other_files() -> None:
     text = "\n" * 99 + "a «b» c\n"
-    one = Diagnostic(
+    diagnostic = Diagnostic(
         UNKNOWN, span(text), "first", notes=(Note(span("x\n«y»", "lib/L.idsl"), "seen here"),)
     )
     two = Diagnostic(LEGACY, span("«»"), "second")
-    assert render.full([one, two]) == (
+    assert render.full([diagnostic, two]) == (
         "error[RC204]: first\n"
         "    --> robot.cdsl:100:3\n"
         "     |\n"
@@ -105,26 +105,28 @@ EXCERPTS = {
 
 
 @pytest.mark.parametrize("case", EXCERPTS)
-def test_excerpt(case: str) -> None:
+def test_render_excerpt(case: str) -> None:
     text, expected = EXCERPTS[case]
     assert shown(text, "L") == expected
 
 
-def test_a_long_line_is_cut_around_the_place() -> None:
+def test_render_cuts_long_line_around_carets() -> None:
     lines = shown("x" * 5000 + "«bad»" + "y" * 5000).splitlines()
-    assert all(len(line) <= render.LONGEST + 10 for line in lines)
+    assert all(len(line) <= render.MAX_EXCERPT_COLUMNS + 10 for line in lines)
     at = lines[-1].index("^^^")
     assert lines[-2][at : at + 3] == "bad"
 
 
-def test_colours_do_not_change_the_text() -> None:
-    one = Diagnostic(UNKNOWN, span("a «b»"), "m", "label", help="h")
-    coloured = render.full([one], colours=True)
+def test_render_colours_do_not_change_text() -> None:
+    diagnostic = Diagnostic(UNKNOWN, span("a «b»"), "m", "label", help="h")
+    coloured = render.full([diagnostic], colours=True)
     assert "\x1b[1;31m" in coloured
-    assert re.sub(r"\x1b\[[0-9;]*m", "", coloured) == render.full([one])
+    assert re.sub(r"\x1b\[[0-9;]*m", "", coloured) == render.full([diagnostic])
 
 
-def test_nothing_from_a_file_steers_the_terminal() -> None:
+def test_render_strips_control_characters() -> None:
     text = "\x1b]0;x\x07«\x9b1m»\u202e"
-    one = Diagnostic(UNKNOWN, span(text, "a\x1b[31m.cdsl"), "m\x1b[0m", "l\x07", help="h\x1b")
-    assert render.full([one]).replace("\n", "").isprintable()
+    diagnostic = Diagnostic(
+        UNKNOWN, span(text, "a\x1b[31m.cdsl"), "m\x1b[0m", "l\x07", help="h\x1b"
+    )
+    assert render.full([diagnostic]).replace("\n", "").isprintable()

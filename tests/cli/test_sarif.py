@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from rcgen_run import Rcgen
+from tests.cli.rcgen_run import Rcgen
 
 GOOD = (
     'import "Laser.idsl";\nComponent a { Communications { requires Laser; }; language Python; };\n'
@@ -15,7 +15,7 @@ BAD = (
 )
 
 
-def test_nothing_found_is_a_run_without_results(rcgen: Rcgen, here: Path) -> None:
+def test_sarif_without_findings_has_no_results(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(GOOD)
     log = json.loads(rcgen("check", "a.cdsl", "--format", "sarif").out)
     assert log["version"] == "2.1.0"
@@ -23,7 +23,7 @@ def test_nothing_found_is_a_run_without_results(rcgen: Rcgen, here: Path) -> Non
     assert log["runs"][0]["tool"]["driver"]["name"] == "rcgen"
 
 
-def test_findings_point_at_their_rules_and_places(rcgen: Rcgen, here: Path) -> None:
+def test_sarif_results_refer_to_rules_and_locations(rcgen: Rcgen, here: Path) -> None:
     (here / "a b.cdsl").write_text(BAD)
     run = rcgen("check", "a b.cdsl", "--format", "sarif")
     assert run.code == 1
@@ -40,7 +40,7 @@ def test_findings_point_at_their_rules_and_places(rcgen: Rcgen, here: Path) -> N
     assert region == {"startLine": 2, "startColumn": 41, "endLine": 2, "endColumn": 45}
 
 
-def test_a_fix_is_a_replacement(rcgen: Rcgen, here: Path) -> None:
+def test_sarif_fix_is_a_replacement(rcgen: Rcgen, here: Path) -> None:
     (here / "a.cdsl").write_text(BAD.replace("Lasr", "Laser"))
     log = json.loads(rcgen("check", "a.cdsl", "--format", "sarif").out)
     (result,) = log["runs"][0]["results"]

@@ -15,8 +15,8 @@ class Result:
 
 def view(*arguments: str) -> Result:
     """Run it to its end, in the current folder."""
-    start = "from robocomp_dsl.cli.rcgen import main; main()"
-    made = subprocess.run(
+    start = "from robocomp_dsl.cli.rcgen.main import main; main()"
+    process = subprocess.run(
         [sys.executable, "-c", start, "view", *arguments],
         capture_output=True,
         text=True,
@@ -24,4 +24,4 @@ def view(*arguments: str) -> Result:
         check=False,
         env=os.environ | {"COLUMNS": "100", "NO_COLOR": "1"},
     )
-    return Result(made.returncode, made.stdout, made.stderr)
+    return Result(process.returncode, process.stdout, process.stderr)

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parts import COMPONENTS, load
 
-from robocomp_dsl.runtime.component_interface import LifeState
+from robocomp_dsl.runtime.component.component_interface import LifeState
 from robocomp_dsl.runtime.errors import MiddlewareError
+from tests.demo.parts import COMPONENTS, load
 
 DEADLINE = 90.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -81,8 +81,8 @@ def test_the_demo_drives_sums_up_and_draws(copy: Path, tmp_path: Path) -> None:
     # 1 with this line: another load on the machine held the simulation up, all else is as it was
     slow = "did not keep up" in ran.stderr
     assert ran.returncode == (1 if slow else 0), ran.stdout + ran.stderr
-    for said in ("all 3 components are ready", "times real time", "getLaserData", "nearest"):
-        assert said in ran.stdout
+    for output in ("all 3 components are ready", "times real time", "getLaserData", "nearest"):
+        assert output in ran.stdout
     assert picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert picture.stat().st_size > 20_000
     path = np.genfromtxt(tmp_path / "build" / "wander" / "path.csv", delimiter=",", names=True)
@@ -103,9 +103,9 @@ def test_the_robot_comes_back_after_sigkill_and_drives_on(copy: Path) -> None:
         finally:
             observer.close()
         process.send_signal(signal.SIGINT)
-        said, _ = process.communicate(timeout=DEADLINE)
-    assert process.returncode == 0, said
-    assert "mobile_base" in said
+        output, _ = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 0, output
+    assert "mobile_base" in output
     assert not [pid for pid in pids if is_alive(pid)]
 
 
@@ -113,17 +113,17 @@ def killed_and_back(observer: object) -> list[int]:
     """Kills mobile_base in mid-run; returns all process ids there were."""
     path = observer.path()  # type: ignore[attr-defined]
     proxies = {
-        one: observer.component(one)  # type: ignore[attr-defined]
-        for one in ("mobile_base", "wander", "path_logger")
+        name: observer.component(name)  # type: ignore[attr-defined]
+        for name in ("mobile_base", "wander", "path_logger")
     }
     until(lambda: path().distance > 300, "the first 300 mm")
-    before = {one: proxy.getInfo().pid for one, proxy in proxies.items()}
+    before = {name: proxy.getInfo().pid for name, proxy in proxies.items()}
     driven = path().distance
     os.kill(before["mobile_base"], signal.SIGKILL)
 
     until(lambda: path().runs == 2, "a second run of the robot")
     until(lambda: path().distance > driven + 300, "another 300 mm")
-    after = {one: proxy.getInfo() for one, proxy in proxies.items()}
+    after = {name: proxy.getInfo() for name, proxy in proxies.items()}
     assert after["mobile_base"].pid != before["mobile_base"]
     assert after["wander"].pid == before["wander"]
     assert after["path_logger"].pid == before["path_logger"]

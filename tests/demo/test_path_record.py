@@ -2,7 +2,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parts import load
+
+from tests.demo.parts import load
 
 PathRecord = load("path_logger/path_record.py").PathRecord
 
@@ -17,14 +18,14 @@ def test_the_way_adds_up_within_a_run_only() -> None:
         record.add(time, at(x, 0.0))
     assert record.runs == 2
     assert record.distance == pytest.approx(65)
-    assert [one.run for one in record.samples] == [0, 0, 0, 1, 1]
+    assert [sample.run for sample in record.samples] == [0, 0, 0, 1, 1]
 
 
 def test_samples_too_close_are_left_out_but_time_goes_on() -> None:
     record = PathRecord(interval=0.1)
     for i in range(11):
         record.add(i * 0.04, at(i * 10.0, 0.0))
-    assert [round(one.time_s, 2) for one in record.samples] == [0.0, 0.12, 0.24, 0.36]
+    assert [round(sample.time_s, 2) for sample in record.samples] == [0.0, 0.12, 0.24, 0.36]
     assert record.time == pytest.approx(0.4)
     assert record.runs == 1
     record.add(0.0, at(0.0, 0.0))  # the base has begun again
@@ -37,11 +38,11 @@ def test_the_file_has_names_and_numbers(tmp_path: Path) -> None:
     record.add(1.0, at(11.0, -20.0))
     path = tmp_path / "new" / "path.csv"
     record.write(path)
-    found = np.genfromtxt(path, delimiter=",", names=True)
-    assert found["x_mm"].tolist() == [10, 11]
-    assert found["z_mm"].tolist() == [-20, -20]
-    assert found["time_s"].tolist() == [0.5, 1.0]
-    assert [one.name for one in path.parent.iterdir()] == ["path.csv"]
+    rows = np.genfromtxt(path, delimiter=",", names=True)
+    assert rows["x_mm"].tolist() == [10, 11]
+    assert rows["z_mm"].tolist() == [-20, -20]
+    assert rows["time_s"].tolist() == [0.5, 1.0]
+    assert [value.name for value in path.parent.iterdir()] == ["path.csv"]
 
 
 def test_an_empty_path_is_a_file_with_names(tmp_path: Path) -> None:

@@ -3,7 +3,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from parts import load
+
+from tests.demo.parts import load
 
 reaction = load("wander/reaction.py")
 Turning = reaction.Turning

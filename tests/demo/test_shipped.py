@@ -5,7 +5,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from parts import COMPONENTS
+
+from tests.demo.parts import COMPONENTS
 
 RCGEN = Path(sys.executable).with_name("rcgen")
 MYPY = (sys.executable, "-m", "mypy", "--strict", "--config-file", "", "--ignore-missing-imports")
@@ -39,7 +40,7 @@ def test_descriptions_have_no_findings() -> None:
 
 
 def test_their_code_passes_mypy_strict() -> None:
-    """One after the other, since each has a package called `generated`."""
+    """One after the other, since each has a module called `specificworker`."""
     wrong = []
     for name in NAMES:
         modules = sorted(path.name for path in (COMPONENTS / name).glob("*.py"))

@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from parts import COMPONENTS
-from touched import demo
 
+from robocomp_dsl.runtime.client import DomainClient
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.onlooker import Onlooker
+from tests.demo.parts import COMPONENTS
+from tests.demo.touched import demo
 
 DEADLINE = 150.0
 COMPONENT_NAMES = ("robot", "arm", "reflex")
@@ -55,11 +55,11 @@ def log(components: Path, name: str) -> str:
 def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, name: str) -> None:
     ran = run(copy, "--robot", key)
     assert ran.returncode == 0, ran.stdout + ran.stderr + log(copy, key)
-    said = ran.stdout.splitlines()
-    assert said[0] == f"{name}: starting simulator, arm and reflex ..."
-    assert said[1] == f"{name}: touching the lower arm outer"
-    row = next(line for line in said if re.match(rf"{name} +lower arm outer +\d", line))
-    force, withdrawn, moved, cleared = (float(one) for one in re.findall(r"[\d.]+", row))
+    output = ran.stdout.splitlines()
+    assert output[0] == f"{name}: starting simulator, arm and reflex ..."
+    assert output[1] == f"{name}: touching the lower arm outer"
+    row = next(line for line in output if re.match(rf"{name} +lower arm outer +\d", line))
+    force, withdrawn, moved, cleared = (float(touch) for touch in re.findall(r"[\d.]+", row))
     assert row.count("lower arm outer") == 2  # the place, and the field that answered
     assert 0.2 < force < 20
     assert withdrawn > 10
@@ -68,12 +68,12 @@ def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, 
     picture = imread(copy.parent / "demo.png")
     assert picture.shape[1] == 1600
 
-    kept = demo().recording.load(copy.parent / "build" / "touch_demo" / f"{key}.npz")
-    assert (np.diff(kept.frame_time) > 0).all()
-    assert np.median(np.diff(kept.frame_time)) == pytest.approx(0.02, abs=2e-3)
-    assert kept.presses[0].place == "lower_arm_outer"
-    assert kept.force.max() > 0
-    assert {one.field for one in kept.answers} >= {"lower_arm_outer"}
+    saved = demo().recording.load(copy.parent / "build" / "touch_demo" / f"{key}.npz")
+    assert (np.diff(saved.frame_time) > 0).all()
+    assert np.median(np.diff(saved.frame_time)) == pytest.approx(0.02, abs=2e-3)
+    assert saved.presses[0].place == "lower_arm_outer"
+    assert saved.force.max() > 0
+    assert {answer.field for answer in saved.answers} >= {"lower_arm_outer"}
 
 
 def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
@@ -110,7 +110,7 @@ def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
 
 def running(domain: str) -> dict[str, int]:
     """The process ids of the components, once all of them run."""
-    links = Onlooker(domain)
+    links = DomainClient(domain)
     deadline = time.monotonic() + DEADLINE
     try:
         while time.monotonic() < deadline:

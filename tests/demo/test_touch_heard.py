@@ -4,12 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from touched import ARM, demo, places, skin
+
+from tests.demo.touched import ARM, demo, places, skin
 
 
 @pytest.fixture
 def heard():
-    return demo().heard.Heard(skin(), ARM)
+    return demo().topic_buffer.TopicBuffer(skin(), ARM)
 
 
 def frame(time: float, *felt: int, size: int = 0) -> SimpleNamespace:
@@ -33,12 +34,12 @@ def others() -> int:
 
 
 def test_the_skin_is_free_since_the_first_frame_without_touch(heard) -> None:
-    said = []
+    message = []
     for i, felt in enumerate([(), (mine(),), (mine(),), (), (others(),)]):
         heard.frame(frame(0.02 * i, *felt))
-        said.append(heard.free_since)
+        message.append(heard.free_since)
     inf = float("inf")
-    assert said == pytest.approx([0.0, inf, inf, 0.06, 0.06])
+    assert message == pytest.approx([0.0, inf, inf, 0.06, 0.06])
 
 
 def test_frames_of_another_length_are_not_taken(heard) -> None:
@@ -123,7 +124,7 @@ def test_all_of_it_becomes_a_recording(heard) -> None:
 
 
 def test_only_the_latest_are_kept_when_there_is_no_end() -> None:
-    heard = demo().heard.Heard(skin(), ARM, 3)
+    heard = demo().topic_buffer.TopicBuffer(skin(), ARM, 3)
     for i in range(10):
         heard.arm_state(state(0.01 * i, float(i)))
         heard.frame(frame(0.01 * i))

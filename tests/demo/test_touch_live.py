@@ -8,21 +8,20 @@ import pytest
 
 pytest.importorskip("viser", reason="needs the extra `view`")
 
-from chromium_tab import CHROMIUM, opened_tab, wait_for
-from parts import COMPONENTS
-from touched import ARM, demo, part, recording
-
-from robocomp_dsl.hardware.mujoco.simulation import Simulation, read_data
-from robocomp_dsl.hardware.scene import Scene
-from robocomp_dsl.hardware.simulation_interface import SIMULATION
+from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.runtime import ServedPort
+from robocomp_dsl.simulation.simulation_interface import SIMULATION
+from robocomp_dsl.simulation.world.simulation import Simulation, read_data
+from tests.demo.parts import COMPONENTS
+from tests.demo.touched import ARM, demo, part, recording
+from tests.support.chromium_tab import needs_chromium, opened_tab, wait_for
 
 
 class Hand:
     """The port of the shipped simulator, in this process; its world stands still."""
 
     def __init__(self) -> None:
-        data = COMPONENTS / "nao_simulator" / "generated" / "scene.json"
+        data = COMPONENTS / "nao_simulator" / "nao_simulator_generated" / "scene.json"
         scene = Scene.of_data(read_data(data)["scene"], data.parent)
         simulation = Simulation(scene)
         port = ServedPort("Simulation", SIMULATION)
@@ -36,7 +35,7 @@ class Hand:
 
 
 def heard_of(it: object) -> object:
-    heard = demo().heard.Heard(it.skin, ARM)
+    heard = demo().topic_buffer.TopicBuffer(it.skin, ARM)
     heard.arm_state(SimpleNamespace(time=0.0, position=part().start, moving=False))
     return heard
 
@@ -88,7 +87,7 @@ def warm(picture: np.ndarray) -> int:
     return int(((red > 0.6) & (red - blue > 0.35)).sum())
 
 
-@pytest.mark.skipif(not CHROMIUM, reason="needs Chromium: apt install chromium")
+@needs_chromium
 def test_a_real_browser_shows_the_touch() -> None:
     it = recording()
     heard = heard_of(it)

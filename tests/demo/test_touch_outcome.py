@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from touched import ARM, FELT, demo, part, recording, skin, world
 
-outcome = demo().outcome
+from tests.demo.touched import ARM, FELT, demo, part, recording, skin, world
+
+outcome = demo().metrics
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +43,7 @@ def test_the_way_of_the_place_is_that_of_the_body(body) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"force": 0.0}, "the skin felt nothing"),
         ({"answers": ()}, "no field of the reflex answered 2.0 N"),
@@ -50,9 +51,9 @@ def test_the_way_of_the_place_is_that_of_the_body(body) -> None:
         ({"motion": 0.0}, "the arm went away by 0 mm only"),
     ],
 )
-def test_what_is_no_withdrawal_is_told(body, changes, said) -> None:
+def test_what_is_no_withdrawal_is_told(body, changes, message) -> None:
     first, _ = outcome.outcomes(recording(**changes), body)
-    assert first.trouble == f"NAO, lower arm outer: {said}"
+    assert first.trouble == f"NAO, lower arm outer: {message}"
 
 
 def test_an_arm_that_stays_in_touch_did_not_come_free(body) -> None:
@@ -95,5 +96,5 @@ def test_a_recording_is_read_as_it_was_written(tmp_path: Path) -> None:
         assert np.array_equal(getattr(back.skin, name), getattr(it.skin, name)), name
     for name in ("robot", "part", "presses", "answers", "rest"):
         assert getattr(back, name) == getattr(it, name), name
-    one, other = back.place("lower_arm_under"), it.place("lower_arm_under")
-    assert (one.limb, one.radius, *one.centre) == (other.limb, other.radius, *other.centre)
+    item, other = back.place("lower_arm_under"), it.place("lower_arm_under")
+    assert (item.limb, item.radius, *item.centre) == (other.limb, other.radius, *other.centre)

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from touched import demo, part, recording, skin, world
 
-from robocomp_dsl.hardware.view.screenless import NoRendering, egl_trouble, osmesa_trouble
+from robocomp_dsl.hardware.devices.errors import NoRendering
+from robocomp_dsl.simulation.view.offscreen import egl_trouble, osmesa_trouble
+from tests.demo.touched import demo, part, recording, skin, world
 
 WIDE = 1600
 
@@ -17,8 +18,8 @@ def body(tmp_path_factory: pytest.TempPathFactory) -> object:
 
 def column(body, photos, why_not="", **changes):
     it = recording(**changes)
-    found = demo().outcome.outcomes(it, body)
-    return demo().sheet.Column(it, found, found[0], photos, why_not)
+    found = demo().metrics.outcomes(it, body)
+    return demo().panel.Column(it, found, found[0], photos, why_not)
 
 
 def like(picture: np.ndarray, colour) -> np.ndarray:
@@ -27,7 +28,7 @@ def like(picture: np.ndarray, colour) -> np.ndarray:
 
 def test_taxels_have_the_colour_of_what_they_felt(body, tmp_path) -> None:
     photos = tuple(np.full((608, 694, 3), value, dtype=np.uint8) for value in (90, 160))
-    demo().poster.draw(
+    demo().figure.draw(
         [column(body, photos), column(body, photos, name="iCub")], "A title", "facts", 1.0,
         tmp_path / "a.png",
     )  # fmt: skip
@@ -40,7 +41,7 @@ def test_taxels_have_the_colour_of_what_they_felt(body, tmp_path) -> None:
     assert like(picture, untouched).sum() > 20 * like(picture, felt).sum()
     for value in (90, 160):
         assert like(picture, np.full(3, value / 255)).sum() > 0.8 * 2 * 340 * 300
-    lines = [like(picture, rgb(one)).sum() for one in demo().colours.JOINTS[:4]]
+    lines = [like(picture, rgb(taxel)).sum() for taxel in demo().colours.JOINTS[:4]]
     assert min(lines) > 300
 
 
@@ -50,9 +51,9 @@ def rgb(code: str) -> tuple[float, ...]:
 
 def test_without_photographs_the_picture_says_why(body, tmp_path) -> None:
     columns = [column(body, None, "this machine has no OpenGL")]
-    demo().poster.draw(columns, "A title", "facts", 1.0, tmp_path / "a.png")
+    demo().figure.draw(columns, "A title", "facts", 1.0, tmp_path / "a.png")
     photos = tuple(np.full((608, 694, 3), 90, dtype=np.uint8) for _ in range(2))
-    demo().poster.draw([column(body, photos)], "A title", "facts", 1.0, tmp_path / "b.png")
+    demo().figure.draw([column(body, photos)], "A title", "facts", 1.0, tmp_path / "b.png")
     bare, with_photos = (imread(tmp_path / name) for name in ("a.png", "b.png"))
     assert bare.shape == with_photos.shape
     assert like(bare, [90 / 255] * 3).sum() < 2000 < like(with_photos, [90 / 255] * 3).sum()
@@ -61,7 +62,7 @@ def test_without_photographs_the_picture_says_why(body, tmp_path) -> None:
 @pytest.mark.skipif(bool(egl_trouble() and osmesa_trouble()), reason="needs libegl1 or libosmesa6")
 def test_photographs_show_the_touched_skin_and_the_arm_gone(body) -> None:
     it = recording(force=1.0)
-    first, _ = demo().outcome.outcomes(it, body)
+    first, _ = demo().metrics.outcomes(it, body)
     before, after = demo().photograph.before_and_after(it, body, first, 1.0, (320, 280))
     assert before.shape == after.shape == (280, 320, 3)
 
@@ -76,17 +77,17 @@ def test_photographs_show_the_touched_skin_and_the_arm_gone(body) -> None:
 
 def test_the_best_seen_touch_is_one_that_went_well(body) -> None:
     it = recording(answers=recording().answers[2:])  # nothing answered the first
-    found = demo().outcome.outcomes(it, body)
+    found = demo().metrics.outcomes(it, body)
     assert found[0].trouble
     assert demo().photograph.best_seen(it, body, found) is found[1]
 
 
 def test_what_cannot_draw_is_told(body, monkeypatch) -> None:
     def nothing(*_: object) -> None:
-        raise NoRendering("pictures cannot be made without a screen: none")
+        raise NoRendering("offscreen rendering is not available: none")
 
-    monkeypatch.setattr(demo().photograph, "Painter", nothing)
+    monkeypatch.setattr(demo().photograph, "Renderer", nothing)
     it = recording()
-    first, _ = demo().outcome.outcomes(it, body)
-    with pytest.raises(NoRendering, match="without a screen"):
+    first, _ = demo().metrics.outcomes(it, body)
+    with pytest.raises(NoRendering, match="offscreen rendering is not available"):
         demo().photograph.before_and_after(it, body, first, 1.0, (320, 280))

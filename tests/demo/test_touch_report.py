@@ -2,9 +2,9 @@
 
 import pytest
 from matplotlib.image import imread
-from touched import demo, recording
 
-from robocomp_dsl.hardware.view.screenless import NoRendering
+from robocomp_dsl.simulation.view.offscreen import NoRendering
+from tests.demo.touched import demo, recording
 
 program = demo().demo
 report = demo().report
@@ -13,22 +13,22 @@ NAO = demo().subject.SUBJECTS["nao"]
 
 def test_the_facts_of_all_touches_in_a_line() -> None:
     body = demo().body.Body(NAO.world, recording().skin, NAO.part)
-    rows = demo().outcome.outcomes(recording(), body)
+    rows = demo().metrics.outcomes(recording(), body)
     assert report.facts(rows) == (
         "2 of 2 touches: the arm withdrew by 58 to 91 mm"
         " · first motion 60 ms after the contact · free after 140 ms"
     )
-    some = demo().outcome.outcomes(recording(answers=recording().answers[2:]), body)
+    some = demo().metrics.outcomes(recording(answers=recording().answers[2:]), body)
     assert report.facts(some).startswith("1 of 2 touches: the arm withdrew by 91 mm · ")
-    none = demo().outcome.outcomes(recording(force=0.0), body)
+    none = demo().metrics.outcomes(recording(force=0.0), body)
     assert report.facts(none) == "0 of 2 touches: the arm withdrew"
 
 
 def test_table_picture_and_no_trouble(tmp_path, capsys) -> None:
     assert report.report([NAO], [recording()], tmp_path / "a.png") == []
-    said = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in said if line.strip()][:4] == ["robot", "N", "NAO", "NAO"]
-    assert said[-1] == f"picture: {tmp_path / 'a.png'}"
+    message = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in message if line.strip()][:4] == ["robot", "N", "NAO", "NAO"]
+    assert message[-1] == f"picture: {tmp_path / 'a.png'}"
     assert imread(tmp_path / "a.png").shape[1] == 1600
 
 
@@ -36,13 +36,13 @@ def test_where_nothing_can_draw_the_picture_is_made_without_photographs(
     tmp_path, capsys, monkeypatch
 ) -> None:
     def nothing(*_: object) -> None:
-        raise NoRendering("pictures cannot be made without a screen: none")
+        raise NoRendering("offscreen rendering is not available: none")
 
-    monkeypatch.setattr(demo().photograph, "Painter", nothing)
+    monkeypatch.setattr(demo().photograph, "Renderer", nothing)
     assert report.report([NAO, NAO], [recording(), recording()], tmp_path / "a.png") == []
-    said = capsys.readouterr().out
-    why = "no photographs in the picture: pictures cannot be made without a screen: none\n"
-    assert said.count(why) == 1
+    message = capsys.readouterr().out
+    why = "no photographs in the picture: offscreen rendering is not available: none\n"
+    assert message.count(why) == 1
     assert imread(tmp_path / "a.png").shape[1] == 1600
 
 
@@ -54,12 +54,12 @@ def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys)
     ]
     untouched = recording(force=0.0, answers=())
     troubles = report.report([NAO], [untouched], tmp_path / "b.png")
-    assert [one.rpartition(": ")[2] for one in troubles] == ["the skin felt nothing"] * 2
+    assert [trouble.rpartition(": ")[2] for trouble in troubles] == ["the skin felt nothing"] * 2
     assert imread(tmp_path / "b.png").shape[1] == 1600
 
 
 @pytest.mark.parametrize(
-    ("options", "said"),
+    ("options", "message"),
     [
         (["--touches", "0"], "--touches: one at least"),
         (["--picture", "/nowhere/at/all/a.png"], "there is no folder /nowhere/at/all"),
@@ -67,13 +67,13 @@ def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys)
     ],
 )
 def test_what_cannot_be_done_is_told_before_anything_starts(
-    monkeypatch, capsys, options, said
+    monkeypatch, capsys, options, message
 ) -> None:
     monkeypatch.setattr("sys.argv", ["demo.py", *options])
     with pytest.raises(SystemExit) as ended:
         program.main()
     assert ended.value.code == 2
-    assert said in capsys.readouterr().err
+    assert message in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_what_cannot_be_done_is_told_before_anything_starts(
 def test_a_touch_of_a_frozen_reflex_is_made_again(
     monkeypatch, capsys, frozen, touches, lines
 ) -> None:
-    made = []
+    repeated = []
 
     class Stage:
         class heard:  # noqa: N801
@@ -92,11 +92,11 @@ def test_a_touch_of_a_frozen_reflex_is_made_again(
                 return frozen[int(time)]
 
     def press(_stage: object, _body: object, place: object) -> object:
-        made.append(place)
-        return demo().recording.Press("p", float(len(made) - 1), 0.0)
+        repeated.append(place)
+        return demo().recording.Press("p", float(len(repeated) - 1), 0.0)
 
     monkeypatch.setattr(program, "press", press)
     last = program.pressed("NAO", Stage(), None, "place")
     assert last.began == touches - 1
-    assert len(made) == touches
+    assert len(repeated) == touches
     assert capsys.readouterr().out.count("the reflex was frozen meanwhile") == lines

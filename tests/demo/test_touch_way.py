@@ -4,11 +4,11 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from touched import demo, part, places, recording, skin, world
 
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from tests.demo.touched import demo, part, places, recording, skin, world
 
-way = demo().way
+path_planner = demo().path_planner
 
 
 def ball(centre, radius):
@@ -21,12 +21,14 @@ def sampled(points):
 
 def test_the_way_is_straight_where_nothing_is_between() -> None:
     goal = np.array([0.3, 0.0, 0.0])
-    assert [p.tolist() for p in way.way(ball((0, 1, 0), 0.1), np.zeros(3), goal)] == [[0.3, 0, 0]]
+    assert [
+        p.tolist() for p in path_planner.plan_path(ball((0, 1, 0), 0.1), np.zeros(3), goal)
+    ] == [[0.3, 0, 0]]
 
 
 def test_the_way_goes_around_what_is_between() -> None:
     clear, start, goal = ball((0.2, 0, 0), 0.05), np.zeros(3), np.array([0.4, 0.0, 0.0])
-    points = [start, *way.way(clear, start, goal)]
+    points = [start, *path_planner.plan_path(clear, start, goal)]
     assert len(points) > 2
     assert points[-1] is goal
     assert min(map(clear, sampled(points))) > 0.005
@@ -34,7 +36,7 @@ def test_the_way_goes_around_what_is_between() -> None:
 
 def test_a_goal_close_to_something_is_reached_from_its_free_side() -> None:
     clear, start, goal = ball((0.2, 0, 0), 0.05), np.zeros(3), np.array([0.254, 0.0, 0.0])
-    points = [start, *way.way(clear, start, goal)]
+    points = [start, *path_planner.plan_path(clear, start, goal)]
     assert min(map(clear, sampled(points))) > 0.003
 
 
@@ -42,8 +44,8 @@ def test_no_way_is_told() -> None:
     def shell(point):
         return abs(float(np.linalg.norm(point)) - 0.1) - 0.02
 
-    with pytest.raises(way.NoWay, match="touches nothing else"):
-        way.way(shell, np.zeros(3), np.array([0.5, 0.0, 0.0]))
+    with pytest.raises(path_planner.NoPath, match="touches nothing else"):
+        path_planner.plan_path(shell, np.zeros(3), np.array([0.5, 0.0, 0.0]))
 
 
 @pytest.mark.parametrize("name", ["nao_h25", "icub_v2"])
@@ -60,7 +62,7 @@ def test_places_are_where_the_finger_begins_to_touch(tmp_path, name) -> None:
         body.pose(finger=body.finger_joints(spot))
         assert body.finger_point == pytest.approx(spot)
         goal = spot + 0.035 * out
-        points = [home, *way.way(body.clearance, home, goal)]
+        points = [home, *path_planner.plan_path(body.clearance, home, goal)]
         assert min(map(body.clearance, sampled(points))) > 0.004, place.name
         body.pose(finger=np.zeros(3))
 

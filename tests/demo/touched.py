@@ -8,14 +8,14 @@ from types import SimpleNamespace
 
 import mujoco
 import numpy as np
-from parts import COMPONENTS
 
-from robocomp_dsl.hardware.robots.build import add_robot, new_world
-from robocomp_dsl.hardware.robots.catalog import ROBOTS, description
+from robocomp_dsl.simulation.robots.build import add_robot, new_world
+from robocomp_dsl.simulation.robots.catalog import ROBOTS, description
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+from tests.demo.parts import COMPONENTS
 
-NAMES = ("recording", "way", "outcome", "body", "heard", "skin_map", "colours", "photograph",
-         "sheet", "curves", "poster", "pressing", "deployed", "failure", "watching",
+NAMES = ("recording", "path_planner", "metrics", "body", "topic_buffer", "skin_map", "colours",
+         "photograph", "panel", "curves", "figure", "pressing", "deployed", "failure", "wait_for",
          "live", "subject", "report", "demo")  # fmt: skip
 ARM = "left_arm"
 STEP = 0.02
@@ -58,6 +58,7 @@ def part(name: str = "nao_h25") -> object:
     return description(name).part(ARM)
 
 
+@cache
 def skin(name: str = "nao_h25") -> object:
     """The skin as the robot's Skin port tells it."""
     found = SkinGeometry.of(description(name))
@@ -66,9 +67,9 @@ def skin(name: str = "nao_h25") -> object:
         found.normals,
         found.limb,
         found.limbs,
-        tuple(one.body for one in found.frames),
-        np.array([one.origin for one in found.frames]),
-        np.array([one.axes for one in found.frames]),
+        tuple(frame.body for frame in found.frames),
+        np.array([frame.origin for frame in found.frames]),
+        np.array([frame.axes for frame in found.frames]),
     )
 
 
@@ -82,7 +83,7 @@ def recording(force: float = 2.0, motion: float = 1.0, name: str = "NAO", **chan
     """Touches of outer and under, 2 s apart; the arm goes by `motion` times the fields' motion."""
     r = demo().recording
     time = np.arange(0, 5, STEP)
-    where, fields = skin(), {one.name: one for one in part().fields}
+    where, fields = skin(), {field.name: field for field in part().fields}
     felt = np.zeros((len(time), len(where.limb)))
     arm = np.tile(part().start, (len(time), 1))
     presses, answers = [], []
@@ -98,7 +99,7 @@ def recording(force: float = 2.0, motion: float = 1.0, name: str = "NAO", **chan
         presses.append(r.Press(place.name, PRESSED + late, 2.0 + late))
         answers += [r.Answer(FELT + late, place.name, 0.9, force / 4),
                     r.Answer(FELT + late, "another", 0.1, force / 4)]  # fmt: skip
-    given = {
+    options = {
         "robot": name,
         "part": ARM,
         "skin": where,
@@ -113,4 +114,4 @@ def recording(force: float = 2.0, motion: float = 1.0, name: str = "NAO", **chan
         "finger": np.zeros((len(time), 3)),
         "rest": dict(ROBOTS["nao_h25"]().start),
     }
-    return r.Recording(**given | changes)
+    return r.Recording(**options | changes)

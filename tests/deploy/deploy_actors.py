@@ -11,8 +11,8 @@ import sys
 import threading
 from pathlib import Path
 
-from robocomp_dsl.deploy.engines.watch import Seen
 from robocomp_dsl.deploy.plan import Plan, Process
+from robocomp_dsl.deploy.supervisor.lifecycle_monitor import StateCallback
 
 PRELUDE = """
 import os, signal, sys, threading
@@ -29,19 +29,19 @@ STEADY = 'tell("initialize"); tell("compute"); wait(); print("finalized")'
 
 
 class FifoWatch:
-    """A `Watch` that reads a FIFO in a thread."""
+    """A `LifecycleMonitor` that reads a FIFO in a thread."""
 
     def __init__(self, path: Path) -> None:
         os.mkfifo(path)
         self._stream = os.open(path, os.O_RDWR)
         self._thread = threading.Thread(target=self._listen, daemon=True)
 
-    def start(self, seen: Seen) -> None:
+    def start(self, seen: StateCallback) -> None:
         self._seen = seen
         self._thread.start()
 
-    def time(self) -> None:
-        """It has no clock."""
+    def simulated_time(self) -> None:
+        """There is no simulated clock."""
 
     def close(self) -> None:
         os.write(self._stream, b"end 0 end\n")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robocomp_dsl.check import check_cdsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_cdsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.write import write
 
 ARM = """
@@ -41,8 +41,8 @@ import os
 import signal
 import sys
 import time
-from generated.genericworker import GenericWorker
-from generated.interfaces import *
+from {name}_generated.genericworker import GenericWorker
+from {name}_generated.interfaces import *
 """
 
 
@@ -56,7 +56,7 @@ def build(folder: Path, workers: dict[str, str] | None = None) -> None:
         report = Report()
         component = check_cdsl(cdsl, Workspace(), report)
         assert component
-        assert not report.failed
+        assert not report.has_errors
         write(cdsl.parent, plan(component))
         if workers and name in workers:
-            (cdsl.parent / "specificworker.py").write_text(HEAD + workers[name])
+            (cdsl.parent / "specificworker.py").write_text(HEAD.format(name=name) + workers[name])

@@ -9,15 +9,14 @@ import json
 import sys
 from pathlib import Path
 
-from deploy_actors import FifoWatch, actor, plan_of
-
-from robocomp_dsl.deploy import folder, session
-from robocomp_dsl.deploy.engines.local import Options
-from robocomp_dsl.deploy.logs import Record
+from robocomp_dsl.deploy import instances, session
+from robocomp_dsl.deploy.logs import LogRecord
+from robocomp_dsl.deploy.supervisor.supervisor import Options
+from tests.deploy.deploy_actors import FifoWatch, actor, plan_of
 
 
 class Printing(session.Display):
-    def record(self, record: Record) -> None:
+    def record(self, record: LogRecord) -> None:
         say(f"{record.component}: {record.text}")
 
 
@@ -33,17 +32,17 @@ def main() -> int:
     processes = [
         actor(
             where,
-            one["name"],
-            one["body"],
-            after=tuple(one.get("after", ())),
-            stops_after=tuple(o["name"] for o in spec if one["name"] in o.get("after", ())),
+            process["name"],
+            process["body"],
+            after=tuple(process.get("after", ())),
+            stops_after=tuple(o["name"] for o in spec if process["name"] in o.get("after", ())),
         )
-        for one in spec
+        for process in spec
     ]
     plan = plan_of(where, *processes, name=name)
     try:
-        claim = folder.claim(name)
-    except folder.Unavailable as error:
+        claim = instances.acquire(name)
+    except instances.Unavailable as error:
         say(str(error))
         return 1
     try:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from graphlib import CycleError
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from robocomp_dsl.deploy import logs, status
-from robocomp_dsl.deploy.engines.restart import judge
-from robocomp_dsl.deploy.plan import plan, qos_text, strictest, waves
+from robocomp_dsl.deploy.plan import batches, format_qos, merge_qos, plan
+from robocomp_dsl.deploy.supervisor.restart import decide_restart
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.deployment import (
     Clock,
@@ -26,7 +27,7 @@ from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.source import Source
 
-SPAN = Source(Path("x.ddsl"), "x").whole
+SPAN = Source(Path("x.ddsl"), "x").file_span
 HERE = Host("", "127.0.0.1")
 LASER = Interface("RoboCompLaser", "Laser", SPAN, "", ())
 SCAN = Interface("RoboCompScan", "Scan", SPAN, "", ())
@@ -66,9 +67,9 @@ def deployment(instances: list[Instance], *connections: Connection) -> Deploymen
     return Deployment("robot", Path("robot.ddsl"), SPAN, "zenoh", tuple(instances), connections)
 
 
-def commands(one: Deployment) -> dict[str, tuple[str, ...]]:
-    made = plan(one, name="robot", domain="d-1", interpreter="/py")
-    return {p.name: p.argv for p in made.processes}
+def commands(deployment: Deployment) -> dict[str, tuple[str, ...]]:
+    planned = plan(deployment, name="robot", domain="d-1", interpreter="/py")
+    return {p.name: p.argv for p in planned.processes}
 
 
 COMMON = ("--domain", "d-1", "--middleware", "zenoh", "--log-format", "json")
@@ -97,27 +98,28 @@ def test_command_lines() -> None:
 def test_a_prefix_is_before_the_names_of_all_that_meet_it() -> None:
     base = instance("base", BASE, prefix="left", after=("nav",))
     nav, far = instance("nav", NAV), instance("far", NAV, prefix="right")
-    wires = [wire(one, 0, base, 0, Qos()) for one in (nav, far)]
+    wires = [wire(user, 0, base, 0, Qos()) for user in (nav, far)]
     clock = Clock("sim", base, lockstep=True)
-    robot = deployment([nav, base, far], *wires).replaced(clock=clock)
-    made = plan(robot, name="robot", domain="d-1", interpreter="/py")
-    argv = {process.name: process.argv for process in made.processes}
+    robot = deployment([nav, base, far], *wires).replace(clock=clock)
+    planned = plan(robot, name="robot", domain="d-1", interpreter="/py")
+    argv = {process.name: process.argv for process in planned.processes}
     assert list(argv) == ["nav", "left/base", "right/far"]
     assert argv["left/base"][2:6] == ("--name", "base", "--prefix", "left")
     assert "laser=left/base.front" in argv["nav"]
     assert "laser=/left/base.front" in argv["right/far"]
     assert "lockstep,from=/left/base,with=/nav+/right/far,limit=10" in argv["left/base"]
     assert "lockstep,from=left/base,limit=10" in argv["nav"]
-    assert made.processes[1].after == ("nav",)
-    assert made.processes[1].stops_after == ("right/far",)
-    assert made.stop_waves() == [["right/far"], ["left/base"], ["nav"]]
-    assert made.clock.startswith("simulated, from left/base")
+    assert planned.processes[1].after == ("nav",)
+    assert planned.processes[1].stops_after == ("right/far",)
+    assert planned.shutdown_batches() == [["right/far"], ["left/base"], ["nav"]]
+    assert planned.clock.startswith("simulated, from left/base")
 
 
 def test_a_search_is_told_to_the_component() -> None:
-    base = instance("base", BASE, context="lab", searched="left/base.yaml")
+    base = instance("base", BASE, context="lab", config_name="left/base.yaml")
     assert commands(deployment([base]))["base"] == (
-        "/py", "main.py", "--name", "base", *COMMON, "--context", "lab", "--from", "left/base.yaml",
+        "/py", "main.py", "--name", "base", *COMMON,
+        "--context", "lab", "--config-name", "left/base.yaml",
     )  # fmt: skip
 
 
@@ -134,15 +136,15 @@ WORLD = component("world", port(Role.PUBLISHES, SCAN))
             "lockstep,from=w,with=a+b,limit=2.5",
             "lockstep,from=w,limit=2.5",
             "on-failure",
-            "simulated, from w, in lock-step: at most 2.5 s a step,"
-            " goes on without one that is lost",
+            "simulated, from w, lock-step: at most 2.5 s per step,"
+            " continues without the component on a time-out",
         ),
         (
-            {"kind": "sim", "lockstep": True, "stops_when_lost": True},
+            {"kind": "sim", "lockstep": True, "stop_on_timeout": True},
             "lockstep,from=w,with=a+b,limit=10,lost=stop",
             "lockstep,from=w,limit=10,lost=stop",
             "never",  # a source that begins anew would not find the others where they were
-            "simulated, from w, in lock-step: at most 10 s a step, stops when one is lost",
+            "simulated, from w, lock-step: at most 10 s per step, stops on a time-out",
         ),
     ],
 )
@@ -153,11 +155,11 @@ def test_clocks(
     if clock:
         clock["source"] = them[1]
     planned = plan(
-        deployment(them).replaced(clock=Clock(**clock)), name="x", domain="d", interpreter="p"
+        deployment(them).replace(clock=Clock(**clock)), name="x", domain="d", interpreter="p"
     )
-    said = {one.name: _flag(one.argv, "--clock") for one in planned.processes}
-    assert said == {"b": of_other, "w": of_source, "a": of_other}
-    assert [one.restart.policy for one in planned.processes] == [
+    clocks = {process.name: _flag(process.argv, "--clock") for process in planned.processes}
+    assert clocks == {"b": of_other, "w": of_source, "a": of_other}
+    assert [process.restart.policy for process in planned.processes] == [
         "on-failure",
         restart,
         "on-failure",
@@ -170,11 +172,13 @@ def _flag(argv: tuple[str, ...], name: str) -> str | None:
 
 
 def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
-    base, one, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
+    base, server, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
     best = Qos(reliable=False, depth=1, deadline_ms=40)
     found = commands(
         deployment(
-            [base, one, nav], wire(nav, 0, one, 0, Qos(reliable=True)), wire(base, 2, nav, 1, best)
+            [base, server, nav],
+            wire(nav, 0, server, 0, Qos(reliable=True)),
+            wire(base, 2, nav, 1, best),
         )
     )
     tail = len(("/py", "main.py", "--name", "x", *COMMON))
@@ -189,17 +193,17 @@ def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
 
 
 def test_users_stop_before_what_they_use() -> None:
-    base, one, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
+    base, server, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
     spare = instance("spare", NAV, after=("base",))
-    made = plan(
+    planned = plan(
         deployment(
-            [base, one, nav, spare], wire(nav, 0, one, 0, Qos()), wire(base, 2, nav, 1, Qos())
+            [base, server, nav, spare], wire(nav, 0, server, 0, Qos()), wire(base, 2, nav, 1, Qos())
         ),
         name="r", domain="d", interpreter="/py",
     )  # fmt: skip
-    assert [p.stops_after for p in made.processes] == [("nav", "spare"), ("nav",), (), ()]
-    assert made.stop_waves() == [["nav", "spare"], ["base", "one"]]
-    assert [p.after for p in made.processes] == [(), (), (), ("base",)]
+    assert [p.stops_after for p in planned.processes] == [("nav", "spare"), ("nav",), (), ()]
+    assert planned.shutdown_batches() == [["nav", "spare"], ["base", "one"]]
+    assert [p.after for p in planned.processes] == [(), (), (), ("base",)]
 
 
 @pytest.mark.parametrize(
@@ -208,16 +212,22 @@ def test_users_stop_before_what_they_use() -> None:
         ({}, []),
         ({"a": set(), "b": set()}, [["a", "b"]]),
         ({"a": {"b"}, "b": set(), "c": {"a"}}, [["b"], ["a"], ["c"]]),
-        ({"a": {"b"}, "b": {"a"}, "c": set()}, [["c"], ["a", "b"]]),
         ({"a": {"elsewhere"}}, [["a"]]),
     ],
 )
-def test_waves(waits: dict[str, set[str]], expected: list[list[str]]) -> None:
-    assert waves(waits) == expected
+def test_batches_are_a_topological_order(
+    waits: dict[str, set[str]], expected: list[list[str]]
+) -> None:
+    assert batches(waits) == expected
+
+
+def test_batches_reject_a_cycle() -> None:
+    with pytest.raises(CycleError):
+        batches({"a": {"b"}, "b": {"a"}, "c": set()})
 
 
 @pytest.mark.parametrize(
-    ("wanted", "expected"),
+    ("requested", "expected"),
     [
         ([Qos()], ""),
         ([Qos(reliable=False, priority="low", depth=1, deadline_ms=40)],
@@ -227,8 +237,8 @@ def test_waves(waits: dict[str, set[str]], expected: list[list[str]]) -> None:
         ([Qos(deadline_ms=40), Qos(deadline_ms=12.5)], "deadline=12.5"),
     ],
 )  # fmt: skip
-def test_qualities(wanted: list[Qos], expected: str) -> None:
-    assert qos_text(strictest(wanted)) == expected
+def test_qualities(requested: list[Qos], expected: str) -> None:
+    assert format_qos(merge_qos(requested)) == expected
 
 
 @pytest.mark.parametrize(
@@ -247,7 +257,7 @@ def test_qualities(wanted: list[Qos], expected: str) -> None:
     ],
 )
 def test_restarts(policy: Restart, failed: bool, restarts: list[float], wait: float | None) -> None:
-    assert judge(policy, restarts, 100.0, failed=failed).wait_s == wait
+    assert decide_restart(policy, restarts, 100.0, failed=failed).delay_s == wait
 
 
 CHUNKS = [
@@ -270,64 +280,66 @@ CHUNKS = [
 
 @pytest.mark.parametrize(("chunks", "texts"), CHUNKS)
 def test_lines(chunks: list[bytes], texts: list[str]) -> None:
-    lines = logs.Lines("c", "stdout")
+    lines = logs.LineSplitter("c", "stdout")
     found = [record for chunk in chunks for record in lines.feed(chunk, 5.0)] + lines.end(5.0)
     assert [record.text for record in found] == texts
     assert all(record.time == 5.0 for record in found)
-    assert [logs.Record.of_json(record.as_json()) for record in found] == found
+    assert [logs.LogRecord.from_json(record.to_json()) for record in found] == found
 
 
 @pytest.mark.parametrize("size", [1, 7, 4096, 100_000])
 def test_long_lines_come_in_pieces_that_keep_every_character(size: int) -> None:
     data = ("ä" * 100_000 + "\n" + "€" * 50_001).encode()
-    lines = logs.Lines("c", "stdout")
+    lines = logs.LineSplitter("c", "stdout")
     texts = [
         record.text
         for at in range(0, len(data), size)
         for record in lines.feed(data[at : at + size], 0.0)
     ] + [record.text for record in lines.end(0.0)]
     assert "".join(texts) == "ä" * 100_000 + "€" * 50_001
-    assert all(len(text.encode()) <= logs.LONGEST for text in texts)
+    assert all(len(text.encode()) <= logs.MAX_LINE_BYTES for text in texts)
 
 
 def test_the_time_of_a_log_line_is_believed_unless_it_is_far_off() -> None:
-    for told, believed in ((1000.25, 1000.25), (5e9, 1001.0), ("noon", 1001.0)):
-        line = json.dumps({"message": "m", "level": "INFO", "time": told}).encode() + b"\n"
-        assert logs.Lines("c", "stdout").feed(line, 1001.0)[0].time == believed
+    for stamp, believed in ((1000.25, 1000.25), (5e9, 1001.0), ("noon", 1001.0)):
+        line = json.dumps({"message": "m", "level": "INFO", "time": stamp}).encode() + b"\n"
+        assert logs.LineSplitter("c", "stdout").feed(line, 1001.0)[0].time == believed
 
 
 def test_records_as_text() -> None:
-    record = logs.Record(3600.0625, "arm", "WARNING", "hot\x1b[2J\a\nsecond \x1b[31mred")
-    shown = logs.as_text(record, 6, colours=False)
+    record = logs.LogRecord(3600.0625, "arm", "WARNING", "hot\x1b[2J\a\nsecond \x1b[31mred")
+    shown = logs.format_record(record, 6, colours=False)
     stamp, _, rest = shown.partition(" ")
     assert stamp.endswith(":00:00.062")
     assert rest == (
         "arm    | warning: hot\N{REPLACEMENT CHARACTER}[2J\N{REPLACEMENT CHARACTER}\n"
         + " " * 20 + "| second \x1b[31mred"
     )  # fmt: skip
-    coloured = logs.as_text(record, 6, colours=True)
+    coloured = logs.format_record(record, 6, colours=True)
     assert "\x1b[33mwarning: hot" in coloured
-    assert f"\x1b[{logs.colour('arm')}marm   \x1b[0m" in coloured
+    assert f"\x1b[{logs.colour_of('arm')}marm   \x1b[0m" in coloured
 
 
 def test_table() -> None:
     rows = [
-        status.Row("arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "hot", "emergency"),
-        status.Row("base", status.WAITING, note="for arm"),
+        status.ProcessStatus(
+            "arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "hot", "emergency"
+        ),
+        status.ProcessStatus("base", status.WAITING, note="for arm"),
     ]
-    assert status.table(rows, 200, colours=False) == [
+    assert status.format_table(rows, 200, colours=False) == [
         "NAME  STATE    LIFE       PID   UP         RESTARTS  CPU   MEMORY",
         "arm   ready    emergency  4711  1 h 2 min  2         26 %  52 MB   hot",
         "base  waiting  -          -     -          0         -     -       for arm",
     ]
     moving = replace(rows[0], machine=("moving", "left", "right"))
-    assert [line[15:51] for line in status.table([moving, rows[1]], 200, colours=False)] == [
+    assert [line[15:51] for line in status.format_table([moving, rows[1]], 200, colours=False)] == [
         "LIFE       MACHINE              PID ",
         "emergency  moving, left, right  4711",
         "-          -                    -   ",
     ]
-    assert all(len(line) <= 20 for line in status.table(rows, 20, colours=False))
-    assert status.table(rows, 200, colours=True)[1].startswith("\x1b[32marm")
+    assert all(len(line) <= 20 for line in status.format_table(rows, 20, colours=False))
+    assert status.format_table(rows, 200, colours=True)[1].startswith("\x1b[32marm")
 
 
 @pytest.mark.parametrize(
@@ -335,4 +347,4 @@ def test_table() -> None:
     [(0.04, "0.0 s"), (59.94, "59.9 s"), (60, "1 min 0 s"), (3600, "1 h 0 min")],
 )
 def test_durations(seconds: float, text: str) -> None:
-    assert status.duration(seconds) == text
+    assert status.format_duration(seconds) == text

@@ -10,11 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from deploy_robot import build
 
-from robocomp_dsl.cli.rcdeploy import ordered
-from robocomp_dsl.cli.rcdeploy_app import Checked, check
-from robocomp_dsl.cli.rcdeploy_plan import as_text
+from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
+from robocomp_dsl.cli.rcdeploy.main import normalise_arguments
+from robocomp_dsl.cli.rcdeploy.plan import as_text
+from tests.deploy.deploy_robot import build
 
 APP = """
 import "arm/arm.cdsl";
@@ -35,24 +35,24 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def judged(folder: Path, arm: str = "", eye: str = "", app: str = APP) -> Checked:
+def judged(folder: Path, arm: str = "", eye: str = "", app: str = APP) -> CheckedDeployment:
     path = folder / "app.ddsl"
     path.write_text(app.replace("ARM", arm).replace("EYE", eye))
     return check(path, ())
 
 
-def told(checked: Checked, folder: Path) -> list[str]:
-    made = []
-    for one in checked.findings:
-        path = one.span.source.path.absolute().relative_to(folder)
-        place = ":".join(map(str, one.span.begin))
-        made.append(f"{path}:{place} {one.code.id} {one.message}")
-    return made
+def finding_lines(checked: CheckedDeployment, folder: Path) -> list[str]:
+    lines = []
+    for finding in checked.findings:
+        path = finding.span.source.path.absolute().relative_to(folder)
+        place = ":".join(map(str, finding.span.start_position))
+        lines.append(f"{path}:{place} {finding.code.id} {finding.message}")
+    return lines
 
 
 def test_a_right_deployment_has_a_plan(folder: Path) -> None:
     checked = judged(folder, "set rate = 20;")
-    assert told(checked, folder) == []
+    assert finding_lines(checked, folder) == []
     assert checked.plan
     assert [p.name for p in checked.plan.processes] == ["arm", "eye"]
     assert checked.plan.domain.startswith("app-")
@@ -82,7 +82,7 @@ def spoil_own_config(folder: Path) -> None:
 
 
 def touch_generated(folder: Path) -> None:
-    with (folder / "arm" / "generated" / "params.py").open("a") as stream:
+    with (folder / "arm" / "arm_generated" / "params.py").open("a") as stream:
         stream.write("# changed\n")
 
 
@@ -96,30 +96,29 @@ NO_ENTRY = (
 )
 NO_SERIAL = "arm/etc/config.yaml:1:1 RC901 `serial` is not given and has no default (`arm`)"
 NO_MAIN = (
-    "app.ddsl:7:15 RC903 `eye`: its code has not been generated, "
-    "there is no main.py beside eye/eye.cdsl"
+    "app.ddsl:7:15 RC903 `eye`: component not generated: no main.py in the folder of eye/eye.cdsl"
 )
 CASES = [
     # what is done to the folder, `component arm`, `component eye`, the findings
     (spoil_config, 'config "own.yaml";', "", [
         "own.yaml:1:7 RC901 `rate` is 5000 Hz, its highest value is 1000 Hz (`arm`)",
-        "own.yaml:2:1 RC901 there is no parameter `serail` (`arm`)",
+        "own.yaml:2:1 RC901 unknown parameter `serail` (`arm`)",
         "own.yaml:4:9 RC901 `motors[0].id` is 300, its highest value is 127 (`arm`)",
     ]),
     (nothing, "set motors[0].id = 5; set motors[2].id = 5;", "", [NO_ENTRY]),
     (remove_config, "", "", []),
     (empty_config, "", "", []),
-    (spoil_own_config, "", "", ["arm/etc/config.yaml:1:1 RC901 there is no parameter `x` (`arm`)"]),
+    (spoil_own_config, "", "", ["arm/etc/config.yaml:1:1 RC901 unknown parameter `x` (`arm`)"]),
     (remove_main, "", "", [NO_MAIN]),
     (nothing, 'executable "./arm --fast";', 'executable "no-such-program-anywhere main.py";', [
-        "app.ddsl:6:15 RC902 `arm`: there is no program `./arm` for it",
-        "app.ddsl:7:15 RC902 `eye`: there is no program `no-such-program-anywhere` for it",
+        "app.ddsl:6:15 RC902 `arm`: program not found: `./arm`",
+        "app.ddsl:7:15 RC902 `eye`: program not found: `no-such-program-anywhere`",
     ]),
     (nothing, "", 'executable "python3 other.py";', [
-        "app.ddsl:7:15 RC902 `eye`: there is no other.py in eye",
+        "app.ddsl:7:15 RC902 `eye`: no other.py in eye",
     ]),
     (touch_generated, "", "", [
-        "app.ddsl:6:15 RC905 the generated code of `arm` is not what its description gives now",
+        "app.ddsl:6:15 RC905 the generated code of `arm` is outdated",
     ]),
 ]  # fmt: skip
 
@@ -130,7 +129,7 @@ def test_what_the_machine_lacks(
 ) -> None:
     change(folder)
     checked = judged(folder, arm, eye)
-    assert told(checked, folder) == expected
+    assert finding_lines(checked, folder) == expected
     assert checked.plan
     assert checked.ready == all("RC905" in line for line in expected)
 
@@ -140,52 +139,54 @@ def share(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An installed place with a context for `arm`; nothing else of this machine is searched."""
     for name in ("CONFIG_HOME", "DATA_HOME", "CONFIG_DIRS", "DATA_DIRS"):
         monkeypatch.setenv(f"ROBOCOMP_{name}", str(folder / name))
-    made = folder / "DATA_DIRS" / "contexts" / "lab"
-    made.mkdir(parents=True)
-    return made
+    context = folder / "DATA_DIRS" / "contexts" / "lab"
+    context.mkdir(parents=True)
+    return context
 
 
 def test_what_a_component_will_find_is_checked(folder: Path, share: Path) -> None:
     (share / "arm.yaml").write_text("rate: 5000\n")
-    assert told(judged(folder, 'context "lab";'), folder) == [
+    assert finding_lines(judged(folder, 'context "lab";'), folder) == [
         "DATA_DIRS/contexts/lab/arm.yaml:1:7 RC901 `rate` is 5000 Hz, its highest value is 1000 Hz"
         " (`arm`)"
     ]
     own = folder / "DATA_HOME" / "contexts" / "lab"
     own.mkdir(parents=True)
     (own / "arm.yaml").write_text("rate: 500\n")
-    assert told(judged(folder, 'context "lab";'), folder) == []
-    assert told(judged(folder, 'context "other";'), folder) == []
+    assert finding_lines(judged(folder, 'context "lab";'), folder) == []
+    assert finding_lines(judged(folder, 'context "other";'), folder) == []
 
 
 def test_what_a_component_will_not_find_is_told(folder: Path, share: Path) -> None:
     (share / "arm.yaml").write_text("rate: 500\n")
     checked = judged(folder, 'context "lab"; from "amr.yaml";')
-    said = "app.ddsl:6:15 RC901 there is no configuration `amr.yaml` (`arm`)"
-    assert told(checked, folder) == [said]
+    message = "app.ddsl:6:15 RC901 configuration not found: `amr.yaml` (`arm`)"
+    assert finding_lines(checked, folder) == [message]
     assert checked.findings[0].label == "did you mean `arm.yaml`?"
-    assert f"{share}/amr.yaml (installed, contexts/lab): not there" in checked.findings[0].help
-    assert told(judged(folder, 'context "lab"; from "arm.yaml";'), folder) == []
+    assert f"{share}/amr.yaml (installed, contexts/lab): not found" in checked.findings[0].help
+    assert finding_lines(judged(folder, 'context "lab"; from "arm.yaml";'), folder) == []
 
 
 def test_what_must_be_given_is_missed_in_the_file_that_should_give_it(folder: Path) -> None:
     empty_config(folder)
-    assert told(judged(folder, app=APP.replace('set serial = "abc";', "")), folder) == [NO_SERIAL]
+    assert finding_lines(judged(folder, app=APP.replace('set serial = "abc";', "")), folder) == [
+        NO_SERIAL
+    ]
 
 
 def test_a_port_in_use(folder: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        found = told(judged(folder, f"port {port};"), folder)
-    said = f"`arm`: port {port} cannot be used: Address already in use"
-    assert found == [f"app.ddsl:6:15 RC904 {said}"]
-    assert told(judged(folder, f"port {port};"), folder) == []
+        found = finding_lines(judged(folder, f"port {port};"), folder)
+    message = f"`arm`: port {port} cannot be used: Address already in use"
+    assert found == [f"app.ddsl:6:15 RC904 {message}"]
+    assert finding_lines(judged(folder, f"port {port};"), folder) == []
 
 
 def test_all_findings_come_in_one_run(folder: Path) -> None:
     spoil_config(folder)
     remove_main(folder)
-    found = told(judged(folder, 'config "own.yaml";'), folder)
+    found = finding_lines(judged(folder, 'config "own.yaml";'), folder)
     assert [line.split()[1] for line in found] == ["RC903", "RC901", "RC901", "RC901"]
 
 
@@ -214,11 +215,11 @@ ORDERS = [
 
 @pytest.mark.parametrize(("written", "meant"), ORDERS)
 def test_the_file_may_stand_before_the_command(written: list[str], meant: list[str]) -> None:
-    assert ordered(written) == meant
+    assert normalise_arguments(written) == meant
 
 
 def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
-    program = "from robocomp_dsl.cli.rcdeploy import main; main()"
+    program = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
     return subprocess.run(
         [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False
     )
@@ -241,10 +242,10 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     judged(folder, 'executable "nothing";')
     wrong = rcdeploy("check", "app.ddsl", "--format", "json")
     assert wrong.returncode == 1
-    assert [one["code"] for one in json.loads(wrong.stdout)] == ["RC902"]
+    assert [load["code"] for load in json.loads(wrong.stdout)] == ["RC902"]
     shown = rcdeploy("plan", "app.ddsl")
     assert shown.returncode == 1
-    assert "there is no program `nothing` for it" in shown.stderr
+    assert "program not found: `nothing`" in shown.stderr
     assert "cd arm && nothing --name arm" in shown.stdout
     started = rcdeploy("app.ddsl")
     assert started.returncode == 1
@@ -274,8 +275,8 @@ Deployment app
 
 def test_another_machine_is_refused_where_it_is_named(folder: Path) -> None:
     checked = judged(folder, app=PLACED.replace("WHERE", "robot"))
-    said = "`left-arm` is on `robot` (10.0.0.2), and nothing can be started there yet"
-    assert told(checked, folder) == [f"app.ddsl:8:19 RC907 {said}"]
+    message = "`left-arm` is on `robot` (10.0.0.2); remote hosts are not supported yet"
+    assert finding_lines(checked, folder) == [f"app.ddsl:8:19 RC907 {message}"]
     assert not checked.ready
 
 
@@ -283,7 +284,7 @@ def test_groups_and_hosts_of_this_machine_run(folder: Path) -> None:
     for where in ("desk", "localhost"):
         app = PLACED.replace("WHERE", where)
         checked = judged(folder, app=app)
-        assert told(checked, folder) == []
+        assert finding_lines(checked, folder) == []
         assert checked.plan is not None
         arm, eye = checked.plan.processes
         assert (arm.name, arm.group, eye.after) == ("left-arm", "left", ("left-arm",))

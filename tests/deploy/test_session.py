@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from deploy_actors import STEADY
-from deploy_process import DEADLINE_S, Running, runtime_folder
 
-from robocomp_dsl.deploy import control, folder
-from robocomp_dsl.deploy.engines import sentinel
+from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.deploy.supervisor import reaper
+from tests.deploy.deploy_actors import STEADY
+from tests.deploy.deploy_process import DEADLINE_S, Running, runtime_folder
 
 DRIVER = Path(__file__).with_name("driver.py")
 PAIR: list[dict[str, Any]] = [
@@ -33,8 +33,8 @@ def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 @pytest.fixture
 def sessions() -> Iterator[ExitStack]:
-    with ExitStack() as made:
-        yield made
+    with ExitStack() as stack:
+        yield stack
 
 
 def begin(
@@ -45,7 +45,7 @@ def begin(
 
 
 def pids(name: str) -> list[int]:
-    answer = next(control.ask(name, {"verb": "status"}))
+    answer = next(control.send_request(name, {"verb": "status"}))
     return [row["pid"] for row in answer["rows"]]
 
 
@@ -58,7 +58,7 @@ def is_alive(pid: int) -> bool:
 
 
 def wait_for_end(processes: list[int]) -> None:
-    sentinel._wait(processes, DEADLINE_S)
+    reaper._wait_for_exit(processes, DEADLINE_S)
     assert not [pid for pid in processes if is_alive(pid)]
 
 
@@ -66,26 +66,29 @@ def wait_for_end(processes: list[int]) -> None:
 def test_a_signal_stops_in_reverse_order(
     tmp_path: Path, sessions: ExitStack, number: signal.Signals
 ) -> None:
-    one = begin(sessions, tmp_path / "x", PAIR)
-    one.until("all 2 components are ready")
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
     running = pids("demo")
-    one.process.send_signal(number)
-    assert one.end() == 0
-    assert [line for line in one.lines if "finalized" in line] == ["b: finalized", "a: finalized"]
+    session.process.send_signal(number)
+    assert session.end() == 0
+    assert [line for line in session.lines if "finalized" in line] == [
+        "b: finalized",
+        "a: finalized",
+    ]
     wait_for_end(running)
-    assert folder.running() == []
+    assert instances.running() == []
 
 
 def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
     tmp_path: Path, sessions: ExitStack
 ) -> None:
     body = 'signal.signal(2, lambda *_: print("hit")); ' + STEADY
-    one = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
-    one.until("the component is ready")
-    os.killpg(one.process.pid, signal.SIGINT)  # as a terminal does it
-    assert one.end() == 0
-    assert "a: hit" not in one.lines
-    assert "a: finalized" in one.lines
+    session = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
+    session.until("the component is ready")
+    os.killpg(session.process.pid, signal.SIGINT)  # as a terminal does it
+    assert session.end() == 0
+    assert "a: hit" not in session.lines
+    assert "a: finalized" in session.lines
 
 
 def test_killed_rcdeploy_leaves_nothing_and_motors_stop_in_order(
@@ -101,102 +104,102 @@ child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(6
 print("daemon", child.pid); tell("compute"); wait()
 """
     spec = [{"name": n, "body": b} for n, b in (("a", gentle), ("b", deaf), ("c", daemon))]
-    one = begin(sessions, tmp_path / "x", spec)
-    escaped = int(one.until("c: daemon").split()[-1])
-    one.until("all 3 components are ready")
+    session = begin(sessions, tmp_path / "x", spec)
+    escaped = int(session.until("c: daemon").split()[-1])
+    session.until("all 3 components are ready")
     running = [*pids("demo"), escaped]
-    one.process.kill()
-    one.end()
+    session.process.kill()
+    session.end()
     wait_for_end(running)
     assert note.exists()
-    assert folder.running() == []
+    assert instances.running() == []
     begin(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
 
 
 def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: ExitStack) -> None:
     crash = 'print("life", os.getpid()); sys.exit(1)'
     spec = [{"name": f"c{i}", "body": crash} for i in range(4)]
-    one = begin(sessions, tmp_path / "x", spec)
-    one.until("life")
-    one.process.kill()
-    one.end()
-    lives = [int(line.split()[-1]) for line in one.lines if "life" in line]
+    session = begin(sessions, tmp_path / "x", spec)
+    session.until("life")
+    session.process.kill()
+    session.end()
+    lives = [int(line.split()[-1]) for line in session.lines if "life" in line]
     wait_for_end(lives)
-    token = f"demo-{tmp_path.name}-x.{one.process.pid}"
-    wait_for_end(sentinel.marked(token))
-    assert sentinel.marked(token) == []
+    token = f"demo-{tmp_path.name}-x.{session.process.pid}"
+    wait_for_end(reaper.find_processes(token))
+    assert reaper.find_processes(token) == []
 
 
 def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: ExitStack) -> None:
-    one = begin(sessions, tmp_path / "x", PAIR)
-    one.until("all 2 components are ready")
-    (entry,) = folder.running()
-    assert (entry.name, entry.pid) == ("demo", one.process.pid)
-    rows = next(control.ask("demo", {"verb": "status"}))["rows"]
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    (entry,) = instances.running()
+    assert (entry.name, entry.pid) == ("demo", session.process.pid)
+    rows = next(control.send_request("demo", {"verb": "status"}))["rows"]
     assert [(r["name"], r["state"], r["restarts"]) for r in rows] == [
         ("a", "ready", 0), ("b", "ready", 0),
     ]  # fmt: skip
     assert all(r["memory"] > 1e6 for r in rows)
-    logs = list(control.ask("demo", {"verb": "logs"}))
+    logs = list(control.send_request("demo", {"verb": "logs"}))
     assert "all 2 components are ready" in logs[-1]["text"]
-    assert len(list(control.ask("demo", {"verb": "logs", "last": 1}))) == 1
-    following = control.ask("demo", {"verb": "logs", "follow": True})
+    assert len(list(control.send_request("demo", {"verb": "logs", "last": 1}))) == 1
+    following = control.send_request("demo", {"verb": "logs", "follow": True})
     assert next(following)["component"] == "rcdeploy"
-    assert list(control.ask("demo", {"verb": "stop"})) == [
-        {"code": 0, "reason": "asked to by `rcdeploy stop`"}
+    assert list(control.send_request("demo", {"verb": "stop"})) == [
+        {"code": 0, "reason": "requested by `rcdeploy stop`"}
     ]
     rest = [f"{r['component']}: {r['text']}" for r in following]
     assert rest[-2:] == ["b: finalized", "a: finalized"]
-    assert one.end() == 0
-    with pytest.raises(folder.Unavailable, match="`demo` does not answer"):
-        list(control.ask("demo", {"verb": "status"}))
+    assert session.end() == 0
+    with pytest.raises(instances.Unavailable, match="`demo` does not respond"):
+        list(control.send_request("demo", {"verb": "status"}))
 
 
 def test_the_same_name_twice_is_refused_with_the_pid(tmp_path: Path, sessions: ExitStack) -> None:
-    one = begin(sessions, tmp_path / "x", PAIR)
-    one.until("all 2 components are ready")
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
     second = begin(sessions, tmp_path / "y", PAIR)
     assert second.end() == 1
-    who = f"pid {one.process.pid}, {tmp_path}/x/demo.ddsl"
-    advice = "stop it, or give this one another --name"
-    assert second.lines == [f"`demo` is running already ({who}); {advice}"]
+    who = f"pid {session.process.pid}, {tmp_path}/x/demo.ddsl"
+    advice = "stop it, or use another --name"
+    assert second.lines == [f"`demo` is already running ({who}); {advice}"]
     third = begin(sessions, tmp_path / "z", PAIR, name="other")
     third.until("all 2 components are ready")
-    assert [r.name for r in folder.running()] == ["demo", "other"]
-    assert next(control.ask("other", {"verb": "stop"}))["code"] == 0
+    assert [r.name for r in instances.running()] == ["demo", "other"]
+    assert next(control.send_request("other", {"verb": "stop"}))["code"] == 0
     assert len(pids("demo")) == 2
     assert third.end() == 0
 
 
 def test_nonsense_on_the_control_socket_is_survived(tmp_path: Path, sessions: ExitStack) -> None:
-    one = begin(sessions, tmp_path / "x", PAIR)
-    one.until("all 2 components are ready")
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
     for nonsense in ({"verb": "dance"}, {"verb": "logs", "last": "many"}, {}, "text", [1]):
-        assert list(control.ask("demo", nonsense)) == []  # type: ignore[arg-type]
-    assert list(control.ask("demo", {"verb": "x" * 200_000})) == []
+        assert list(control.send_request("demo", nonsense)) == []  # type: ignore[arg-type]
+    assert list(control.send_request("demo", {"verb": "x" * 200_000})) == []
     assert len(pids("demo")) == 2
-    one.process.send_signal(signal.SIGTERM)
-    assert one.end() == 0
+    session.process.send_signal(signal.SIGTERM)
+    assert session.end() == 0
 
 
 def test_stale_entries_are_swept(tmp_path: Path) -> None:
-    claim = folder.claim("demo")
-    claim.tell(folder.Running("demo", "x.ddsl", "d", 2**22 - 1, 0.0))
+    claim = instances.acquire("demo")
+    claim.publish(instances.RunningDeployment("demo", "x.ddsl", "d", 2**22 - 1, 0.0))
     os.close(claim._lock)  # as the kernel does when a process is killed
     assert claim.folder.exists()
-    assert folder.running() == []
+    assert instances.running() == []
     assert not claim.folder.exists()
-    again = folder.claim("demo")
-    with pytest.raises(folder.Unavailable, match="running already"):
-        folder.claim("demo")
+    again = instances.acquire("demo")
+    with pytest.raises(instances.Unavailable, match="already running"):
+        instances.acquire("demo")
     again.release()
-    folder.claim("demo").release()
+    instances.acquire("demo").release()
 
 
 @pytest.mark.parametrize("name", ["", "..", "a/b", "-x", "a b", "x" * 65, "ü"])
 def test_names_that_are_none(name: str) -> None:
-    with pytest.raises(folder.Unavailable, match="is no name"):
-        folder.claim(name)
+    with pytest.raises(instances.Unavailable, match="is not a valid name"):
+        instances.acquire(name)
 
 
 def test_a_long_path_still_has_a_socket(
@@ -205,7 +208,7 @@ def test_a_long_path_still_has_a_socket(
     deep = tmp_path / ("d" * 120)
     deep.mkdir()
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(deep))
-    one = begin(sessions, tmp_path / "x", PAIR)
-    one.until("all 2 components are ready")
-    assert next(control.ask("demo", {"verb": "stop"}))["code"] == 0
-    assert one.end() == 0
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    assert next(control.send_request("demo", {"verb": "stop"}))["code"] == 0
+    assert session.end() == 0

@@ -11,14 +11,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from deploy_actors import STEADY, FifoWatch, actor, plan_of
 
-from robocomp_dsl.deploy.engines.local import Local, Options, Outcome
-from robocomp_dsl.deploy.engines.sentinel import marked
-from robocomp_dsl.deploy.logs import Record
+from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Process
-from robocomp_dsl.deploy.status import Row
+from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.deploy.supervisor.reaper import find_processes
+from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 from robocomp_dsl.model.deployment import Restart
+from tests.deploy.deploy_actors import STEADY, FifoWatch, actor, plan_of
 
 NEVER = Restart("never")
 FAR_TOO_LONG_S = 120.0
@@ -31,7 +31,7 @@ class Run:
         self.plan = plan_of(tmp_path, *processes)
         self.watch = FifoWatch(tmp_path / "fifo")
         self.options = options or Options(grace_s=5.0)
-        self.records: list[Record] = []
+        self.records: list[LogRecord] = []
         self.changed: Callable[[], None] = lambda: None
         self.reactions: list[tuple[str, Callable[[Run], object]]] = []
 
@@ -40,29 +40,29 @@ class Run:
         self.reactions.append((text, reaction))
         return self
 
-    def emit(self, record: Record) -> None:
+    def emit(self, record: LogRecord) -> None:
         self.records.append(record)
-        for one in [r for r in self.reactions if r[0] in f"{record.component}: {record.text}"]:
-            self.reactions.remove(one)
-            one[1](self)
+        for reaction in [r for r in self.reactions if r[0] in f"{record.component}: {record.text}"]:
+            self.reactions.remove(reaction)
+            reaction[1](self)
 
     def run(self) -> Outcome:
         token = f"{self.plan.domain}.{os.getpid()}"
 
         async def supervised() -> Outcome:
-            self.engine = Local(
+            self.engine = Supervisor(
                 self.plan, token, self.watch,
                 emit=self.emit, changed=self.changed, options=self.options,
             )  # fmt: skip
             return await asyncio.wait_for(self.engine.run(), FAR_TOO_LONG_S)
 
         outcome = asyncio.run(supervised())
-        assert marked(token) == []
+        assert find_processes(token) == []
         assert self.reactions == []
         return outcome
 
-    def row(self, name: str) -> Row:
-        return next(row for row in self.engine.rows() if row.name == name)
+    def row(self, name: str) -> ProcessStatus:
+        return next(row for row in self.engine.statuses() if row.name == name)
 
     def texts(self, component: str) -> list[str]:
         return [r.text for r in self.records if r.component == component]
@@ -89,7 +89,7 @@ def test_each_starts_when_what_it_needs_is_ready_and_stops_before_it(tmp_path: P
              "log: finalized", "nav: finalized", "base: finalized"]  # fmt: skip
     places = [run.at(text) for text in order]
     assert places == sorted(places)
-    assert {row.state for row in run.engine.rows()} == {"ended"}
+    assert {row.state for row in run.engine.statuses()} == {"exited"}
 
 
 def test_those_without_order_start_together(tmp_path: Path) -> None:
@@ -106,7 +106,7 @@ def test_a_crash_is_restarted_and_the_new_life_must_be_ready_itself(tmp_path: Pa
     body = 'print("life", os.getpid()); tell("initialize"); tell("compute"); wait()'
     run = Run(tmp_path, actor(tmp_path, "a", body), actor(tmp_path, "b", STEADY))
     run.on("all 2 components are ready", kill)
-    run.on("a: killed by SIGKILL, starts again in 0.1 s", lambda r: r.on("a is ready", stop))
+    run.on("a: killed by SIGKILL, restarting in 0.1 s", lambda r: r.on("a is ready", stop))
     assert run.run().code == 0
     first, second = run.texts("a")
     assert first != second
@@ -119,24 +119,24 @@ def test_restarts_wait_longer_and_longer_and_end(tmp_path: Path) -> None:
     run = Run(tmp_path, crash, actor(tmp_path, "b", STEADY))
     assert run.run() == Outcome(1, "failed: a")
     assert run.texts("a") == ["dying"] * 4
-    said = [t for t in run.texts("rcdeploy") if t.startswith(("a:", "a has"))]
-    assert said == [
-        "a: exit code 3, starts again in 0.1 s",
-        "a: exit code 3, starts again in 0.2 s",
-        "a: exit code 3, starts again in 0.4 s",
-        "a has failed for good: exit code 3 (restarted 3 times in 60 s, that is enough)",
+    lines = [t for t in run.texts("rcdeploy") if t.startswith(("a:", "a failed"))]
+    assert lines == [
+        "a: exit code 3, restarting in 0.1 s",
+        "a: exit code 3, restarting in 0.2 s",
+        "a: exit code 3, restarting in 0.4 s",
+        "a failed permanently: exit code 3 (restart limit reached: 3 in 60 s)",
     ]
-    assert "stopping: a has failed" in run.texts("rcdeploy")
-    assert run.row("b").state == "ended"
+    assert "stopping: a failed" in run.texts("rcdeploy")
+    assert run.row("b").state == "exited"
 
 
 @pytest.mark.parametrize(
     ("policy", "body", "code", "lives", "state"),
     [
         ("never", "sys.exit(1)", 1, 1, "failed"),
-        ("never", "tell('compute')", 0, 1, "ended"),
-        ("on-failure", "tell('compute')", 0, 1, "ended"),
-        ("always", "tell('compute')", 0, 3, "ended"),
+        ("never", "tell('compute')", 0, 1, "exited"),
+        ("on-failure", "tell('compute')", 0, 1, "exited"),
+        ("always", "tell('compute')", 0, 3, "exited"),
         ("always", "sys.exit(1)", 1, 3, "failed"),
         ("on-failure", "os.kill(os.getpid(), signal.SIGSEGV)", 1, 3, "failed"),
     ],
@@ -152,13 +152,13 @@ def test_policies(
 
 
 def test_not_ready_in_time_ends_the_deployment(tmp_path: Path) -> None:
-    slow = actor(tmp_path, "a", 'tell("initialize"); wait()', ready_within_s=0.5)
+    slow = actor(tmp_path, "a", 'tell("initialize"); wait()', start_timeout_s=0.5)
     never = actor(tmp_path, "c", "print('never')", after=("a",))
     run = Run(tmp_path, slow, actor(tmp_path, "b", STEADY), never)
     assert run.run() == Outcome(1, "failed: a")
     assert run.row("a").note.startswith("not ready within 0.5 s")
     assert run.texts("c") == []
-    assert run.row("c").note == "not started, a was not ready"
+    assert run.row("c").note == "not started: a was not ready"
 
 
 def test_keep_going(tmp_path: Path) -> None:
@@ -166,7 +166,7 @@ def test_keep_going(tmp_path: Path) -> None:
     news = tmp_path / "news"
     body = f'tell("compute")\nwhile not os.path.exists({str(news)!r}): pass\nprint("alive"); wait()'
     run = Run(tmp_path, bad, actor(tmp_path, "b", body), options=Options(keep_going=True))
-    run.on("a has failed for good", lambda _: news.touch()).on("b: alive", stop)
+    run.on("a failed permanently", lambda _: news.touch()).on("b: alive", stop)
     assert run.run() == Outcome(1, "failed: a")
 
 
@@ -180,8 +180,8 @@ def test_sigterm_ignored_is_killed_after_its_grace(tmp_path: Path) -> None:
     deaf = actor(tmp_path, "a", 'signal.signal(15, signal.SIG_IGN); tell("compute"); wait()')
     run = Run(tmp_path, deaf, options=Options(grace_s=0.3)).on("a is ready", stop)
     assert run.run() == Outcome(1, "failed: a")
-    assert "a did not end in 0.3 s and was killed" in run.texts("rcdeploy")
-    assert run.row("a").note == "killed by SIGKILL while it was stopping"
+    assert "a did not exit within 0.3 s and was killed" in run.texts("rcdeploy")
+    assert run.row("a").note == "killed by SIGKILL while stopping"
 
 
 def test_asked_twice_everything_is_killed_at_once(tmp_path: Path) -> None:
@@ -199,7 +199,7 @@ def test_all_together_have_a_deadline(tmp_path: Path) -> None:
         actor(tmp_path, f"a{i}", deaf, stops_after=(f"a{i + 1}",) if i < 4 else ())
         for i in range(5)
     ]
-    run = Run(tmp_path, *chain, options=Options(grace_s=10, stop_within_s=0.5))
+    run = Run(tmp_path, *chain, options=Options(grace_s=10, stop_timeout_s=0.5))
     assert run.on("all 5 components are ready", stop).run().code == 1
 
 
@@ -208,12 +208,12 @@ def test_stop_while_starting_and_while_waiting_to_restart(tmp_path: Path) -> Non
     run = Run(tmp_path, starting, actor(tmp_path, "b", STEADY, after=("a",)))
     run.on("a: on my way", stop)
     assert run.run().code == 0
-    assert run.row("b").note == "not started, a was not ready"
+    assert run.row("b").note == "not started: a was not ready"
 
 
 def test_stop_while_waiting_to_restart(tmp_path: Path) -> None:
     run = Run(tmp_path, actor(tmp_path, "a", "sys.exit(1)", restart=Restart(max=90)))
-    run.on("starts again in 0.4 s", stop)
+    run.on("restarting in 0.4 s", stop)
     assert run.run().code == 0
 
 
@@ -268,7 +268,7 @@ def test_a_flood_of_output_does_not_stop_the_supervisor(tmp_path: Path) -> None:
 
 def test_duration_counts_from_when_all_are_ready(tmp_path: Path) -> None:
     run = Run(tmp_path, actor(tmp_path, "a", STEADY), options=Options(duration_s=0.2))
-    assert run.run() == Outcome(0, "0.2 s have passed")
+    assert run.run() == Outcome(0, "duration of 0.2 s is over")
 
 
 def test_the_status_follows_what_is_seen(tmp_path: Path) -> None:
@@ -283,19 +283,19 @@ wait()
     def changed() -> None:
         row = run.row("a")
         seen.append((row.state, row.life))
-        if seen[-2:] == [("unseen", ""), ("ready", "compute")]:
+        if seen[-2:] == [("unknown", ""), ("ready", "compute")]:
             run.engine.stop("test")
 
     run.changed = changed
     assert run.run().code == 0
-    told = [step for step, before in zip(seen, [None, *seen], strict=False) if step != before]
-    assert told[:6] == [
+    steps = [step for step, before in zip(seen, [None, *seen], strict=False) if step != before]
+    assert steps[:6] == [
         ("starting", ""), ("starting", "initialize"), ("ready", "compute"), ("ready", "emergency"),
-        ("unseen", ""), ("ready", "compute"),
+        ("unknown", ""), ("ready", "compute"),
     ]  # fmt: skip
 
 
 def test_what_another_process_says_in_its_name_is_not_believed(tmp_path: Path) -> None:
     liar = actor(tmp_path, "b", 'NAME = "a"; tell("compute"); NAME = "b"; ' + STEADY)
-    silent = actor(tmp_path, "a", "wait()", ready_within_s=0.5)
+    silent = actor(tmp_path, "a", "wait()", start_timeout_s=0.5)
     assert Run(tmp_path, silent, liar).run() == Outcome(1, "failed: a")

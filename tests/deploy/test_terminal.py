@@ -7,14 +7,14 @@ import os
 import threading
 from pathlib import Path
 
-from robocomp_dsl.cli import rcdeploy_terminal
-from robocomp_dsl.cli.rcdeploy_terminal import Terminal
-from robocomp_dsl.deploy.logs import Record
-from robocomp_dsl.deploy.status import READY, Row
+from robocomp_dsl.cli.rcdeploy import terminal as rcdeploy_terminal
+from robocomp_dsl.cli.rcdeploy.terminal import Terminal
+from robocomp_dsl.deploy.logs import LogRecord
+from robocomp_dsl.deploy.status import READY, ProcessStatus
 
 
-def record(text: str, component: str = "arm") -> Record:
-    return Record(0.0, component, "INFO", text)
+def record(text: str, component: str = "arm") -> LogRecord:
+    return LogRecord(0.0, component, "INFO", text)
 
 
 class Stream(io.StringIO):
@@ -59,17 +59,17 @@ def test_lines_of_all_components_in_order() -> None:
 def test_json_has_one_record_a_line() -> None:
     stream = Stream()
     shown = terminal(stream, as_json=True)
-    made = [record("one"), record("two\nlines", "eye")]
-    for one in made:
-        shown.record(one)
+    records = [record("one"), record("two\nlines", "eye")]
+    for entry in records:
+        shown.record(entry)
     shown.close()
-    assert [Record.of_json(line) for line in stream.getvalue().splitlines()] == made
+    assert [LogRecord.from_json(line) for line in stream.getvalue().splitlines()] == records
 
 
 def test_the_table_stays_below_the_lines_and_goes_at_the_end() -> None:
     stream = Stream()
     shown = terminal(stream, live=True)
-    rows = [Row("arm", READY, 4711, 1.0), Row("eye", READY, 4712, 1.0)]
+    rows = [ProcessStatus("arm", READY, 4711, 1.0), ProcessStatus("eye", READY, 4712, 1.0)]
     shown.attach(lambda: rows, lambda _: None)
     shown.changed()
     stream.wait_for("4712")
@@ -87,26 +87,26 @@ def test_a_held_terminal_holds_nobody_and_the_lost_are_counted() -> None:
     shown = terminal(stream)
     shown.record(record("first"))
     assert stream.asked.wait(20)
-    for i in range(rcdeploy_terminal.WAITING_LINES + 10):
+    for i in range(rcdeploy_terminal.MAX_QUEUED_LINES + 10):
         shown.record(record(f"line {i}"))
     stream.free.set()
-    stream.wait_for(f"line {rcdeploy_terminal.WAITING_LINES + 9}")
+    stream.wait_for(f"line {rcdeploy_terminal.MAX_QUEUED_LINES + 9}")
     shown.close()
     text = stream.getvalue()
     counted = sum(int(line.split()[1]) for line in text.splitlines() if "too slow" in line)
     assert counted == 10
-    assert len(text.splitlines()) == 1 + 1 + rcdeploy_terminal.WAITING_LINES
+    assert len(text.splitlines()) == 1 + 1 + rcdeploy_terminal.MAX_QUEUED_LINES
 
 
 def test_a_reader_that_is_gone_stops_the_deployment() -> None:
     reader, writer = os.pipe()
     os.close(reader)
-    told = threading.Event()
+    reader_gone = threading.Event()
     with os.fdopen(writer, "w") as stream:
         shown = Terminal(stream, ["arm"], live=False, colours=False, as_json=False)
-        shown.attach(list, lambda _: told.set())
+        shown.attach(list, lambda _: reader_gone.set())
         shown.record(record("nobody reads this"))
-        assert told.wait(20)
+        assert reader_gone.wait(20)
         shown.close()
         # What is still in the buffer has nowhere to go.
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
@@ -115,7 +115,7 @@ def test_a_reader_that_is_gone_stops_the_deployment() -> None:
 def test_many_components_leave_room_for_the_lines(tmp_path: Path) -> None:
     stream = Stream()
     shown = terminal(stream, live=True)
-    shown.attach(lambda: [Row(f"c{i}", READY, i + 1) for i in range(100)], lambda _: None)
+    shown.attach(lambda: [ProcessStatus(f"c{i}", READY, i + 1) for i in range(100)], lambda _: None)
     shown.changed()
     stream.wait_for("more (rcdeploy status)")
     shown.close()

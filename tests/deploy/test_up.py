@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from deploy_process import Running, runtime_folder
-from deploy_robot import build
 
-from robocomp_dsl.deploy.engines import sentinel
+from robocomp_dsl.deploy.supervisor import reaper
+from tests.deploy.deploy_process import Running, runtime_folder
+from tests.deploy.deploy_robot import build
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy import main; main()"
+PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 ARM = """
 class SpecificWorker(GenericWorker):
     def initialize(self):
@@ -104,10 +104,10 @@ def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
         assert "eye" not in logs
         app.process.send_signal(signal.SIGINT)
         assert app.end() == 0
-    told = [line.partition("| ")[2] for line in app.lines]
-    assert told.index("eye finalizes") < told.index("arm finalizes")
-    assert "stopping: Ctrl-C" in told
-    assert sentinel.marked(f"{state['domain']}.{app.process.pid}") == []
+    messages = [line.partition("| ")[2] for line in app.lines]
+    assert messages.index("eye finalizes") < messages.index("arm finalizes")
+    assert "stopping: Ctrl-C" in messages
+    assert reaper.find_processes(f"{state['domain']}.{app.process.pid}") == []
     assert [path.name for path in sockets.iterdir()] == [".deployments"]
     assert list((sockets / ".deployments").iterdir()) == []
 
@@ -122,12 +122,12 @@ def test_parameters_of_running_components(folder: Path) -> None:
         assert rcdeploy("param", "get", "app", "arm", "rate", "serial").stdout == "20.0\nabc\n"
         refused = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "serial=x")
         assert refused.returncode == 1
-        assert "`arm` refuses: `serial` is not live" in refused.stderr
+        assert "`arm` rejects the change: `serial` is not live" in refused.stderr
         assert rcdeploy("param", "get", "app.ddsl", "arm", "rate").stdout == "20.0\n"
         done = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "--save")
-        kept = folder / "arm" / "etc" / "config.saved.yaml"
-        assert done.stdout == f"arm: rate = 30\nkept in {kept.resolve()}\n"
-        assert '"rate": 30.0\n' in kept.read_text()
+        saved = folder / "arm" / "etc" / "config.saved.yaml"
+        assert done.stdout == f"arm: rate = 30\nkept in {saved.resolve()}\n"
+        assert '"rate": 30.0\n' in saved.read_text()
         data = json.loads(rcdeploy("param", "list", "app", "arm", "--format", "json").stdout)
         assert data["arm"][0]["value"] == "30.0"
         for wrong, hint in (
@@ -158,13 +158,13 @@ def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> N
     with up() as app:
         first = pid_in(app.until("eye sees a new arm"))
         os.kill(first, signal.SIGKILL)
-        app.until("arm: killed by SIGKILL, starts again in 0.1 s")
+        app.until("arm: killed by SIGKILL, restarting in 0.1 s")
         second = pid_in(app.until("eye sees a new arm"))
         assert second != first
         rows = status()["components"]
         assert [(row["name"], row["restarts"]) for row in rows] == [("arm", 1), ("eye", 0)]
         stopped = rcdeploy("app.ddsl", "stop")
-        assert (stopped.returncode, stopped.stdout) == (0, "app: asked to by `rcdeploy stop`\n")
+        assert (stopped.returncode, stopped.stdout) == (0, "app: requested by `rcdeploy stop`\n")
         assert app.end() == 0
 
 
@@ -210,7 +210,7 @@ def test_one_group_runs_alone(folder: Path) -> None:
         assert app.end() == 0
     unknown = rcdeploy("plan", "app.ddsl", "--group", "right")
     assert unknown.returncode == 2
-    assert "`app` has no group `right`; it has left" in unknown.stderr
+    assert "`app` has no group `right`; its groups: left" in unknown.stderr
 
 
 def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Path) -> None:
@@ -223,7 +223,7 @@ def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Pat
         assert f"--listen-port {port}" in rcdeploy("app.ddsl", "plan").stdout
         again = rcdeploy("app.ddsl")
         assert again.returncode == 1
-        assert "`app` is running already (pid" in again.stderr
+        assert "`app` is already running (pid" in again.stderr
         other = rcdeploy("app.ddsl", "--name", "other")
         assert other.returncode == 1
         assert f"port {port} cannot be used" in other.stderr
@@ -232,11 +232,11 @@ def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Pat
 
 
 def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
-    with up() as one:
-        one.until("all 2 components are ready")
+    with up() as first:
+        first.until("all 2 components are ready")
         with up() as refused:
             assert refused.end() == 1
-            assert refused.has(f"`app` is running already (pid {one.process.pid},")
+            assert refused.has(f"`app` is already running (pid {first.process.pid},")
         with up("--name", "other") as other:
             server = pid_in(other.until("eye sees a new arm"))
             assert server == next(
@@ -248,21 +248,21 @@ def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
             assert rcdeploy("stop", "other").returncode == 0
             assert other.end() == 0
         assert [row["state"] for row in status("app")["components"]] == ["ready", "ready"]
-        one.process.terminate()
-        assert one.end() == 0
-    assert not one.has("AmbiguousServer")
+        first.process.terminate()
+        assert first.end() == 0
+    assert not first.has("AmbiguousServer")
 
 
 def test_killed_rcdeploy_lets_components_finalize(folder: Path, sockets: Path) -> None:
     with up() as app:
         app.until("all 2 components are ready")
         token = f"{status()['domain']}.{app.process.pid}"
-        running = sentinel.marked(token)
+        running = reaper.find_processes(token)
         assert len(running) == 2
         app.process.kill()
         app.end()
-        sentinel._wait(running, 30)
-        assert sentinel.marked(token) == []
+        reaper._wait_for_exit(running, 30)
+        assert reaper.find_processes(token) == []
     assert [path.name for path in sockets.iterdir()] == [".deployments"]
     # Its name is free at once, although nobody gave it back.
     with up("--duration", "0") as again:
@@ -284,7 +284,7 @@ def test_a_component_that_cannot_initialize_ends_the_deployment(folder: Path) ->
     with up() as app:
         assert app.end() == 1
     assert app.has("initialize failed")
-    assert app.has("arm has failed for good: exit code 1 (restarted once in 60 s")
+    assert app.has("arm failed permanently: exit code 1 (restart limit reached: 1 in 60 s")
     assert app.lines[-1] == "error: failed: arm"
     assert not app.has("eye is ready")
 

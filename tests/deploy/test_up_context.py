@@ -9,10 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from deploy_process import Running, runtime_folder
-from deploy_robot import build
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy import main; main()"
+from tests.deploy.deploy_process import Running, runtime_folder
+from tests.deploy.deploy_robot import build
+
+PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 ARM = """
 class SpecificWorker(GenericWorker):
     def initialize(self):
@@ -43,12 +44,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def test_live_values_are_kept_with_the_user_and_found_again(folder: Path) -> None:
-    kept = folder / "DATA_HOME" / "contexts" / "lab" / "arm.saved.yaml"
+    saved = folder / "DATA_HOME" / "contexts" / "lab" / "arm.saved.yaml"
     with Running(sys.executable, "-c", PROGRAM, "app.ddsl") as app:
         app.until("arm begins with installed 30.0", "arm is ready")
         change = [sys.executable, "-c", PROGRAM, "param", "set", "app", "arm", "rate=40", "--save"]
-        told = subprocess.run(change, capture_output=True, text=True, check=False, timeout=60)
-        assert told.stdout.splitlines()[-1] == f"kept in {kept}"
+        result = subprocess.run(change, capture_output=True, text=True, check=False, timeout=60)
+        assert result.stdout.splitlines()[-1] == f"kept in {saved}"
         app.process.send_signal(signal.SIGINT)
         assert app.end() == 0
     with Running(sys.executable, "-c", PROGRAM, "app.ddsl") as app:

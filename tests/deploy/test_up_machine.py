@@ -11,16 +11,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from deploy_process import Running, runtime_folder
-from deploy_robot import HEAD
 
-from robocomp_dsl.check import check_cdsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_cdsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.write import write
+from tests.deploy.deploy_process import Running, runtime_folder
+from tests.deploy.deploy_robot import HEAD
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy import main; main()"
+PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 CDSL = 'Component arm { language Python; period 10; statemachine "arm.smdsl"; };\n'
 SMDSL = """
 arm
@@ -65,9 +65,9 @@ def component(folder: Path, cdsl: str, worker: str) -> None:
     report = Report()
     model = check_cdsl(path, Workspace(), report)
     assert model
-    assert not report.failed, [one.message for one in report]
+    assert not report.has_errors, [finding.message for finding in report]
     write(folder, plan(model))
-    (folder / "specificworker.py").write_text(HEAD + worker)
+    (folder / "specificworker.py").write_text(HEAD.format(name=folder.name) + worker)
 
 
 @pytest.fixture
@@ -96,7 +96,7 @@ def test_life_and_all_active_states_are_shown(app: Running) -> None:
     assert arm.endswith("the left hand is stuck")
     assert " compute    -  " in eye
     data = json.loads(rcdeploy("status", "app", "--format", "json").stdout)["components"]
-    assert [(one["life"], one["machine"]) for one in data] == [
+    assert [(entry["life"], entry["machine"]) for entry in data] == [
         ("emergency", ["moving", "left", "up", "right"]),
         ("compute", []),
     ]

@@ -10,28 +10,28 @@ from pathlib import Path, PurePosixPath
 from posixpath import normpath
 from urllib.parse import unquote
 
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli import render
-from robocomp_dsl.cli.doc_subject import read_subject
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.output import render
+from robocomp_dsl.cli.rcgen.doc_subject import read_subject
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.doc import Subject, documentation
+from robocomp_dsl.generate.doc.documentation import DocumentationSubject, documentation
 
 ROOT = Path(__file__).parents[2]
 DEMO = ROOT / "components" / "wander" / "wander.ddsl"
 VOID = {"meta", "link", "br", "hr", "img", "input"}
 
 
-def subject(*paths: Path, title: str = "Robot") -> Subject:
+def subject(*paths: Path, title: str = "Robot") -> DocumentationSubject:
     """What is in files without errors."""
     report = Report()
-    found = read_subject(paths, title, Workspace(environ={}), report)
-    assert not report.failed, render.full(report)
-    return found
+    documented = read_subject(paths, title, Workspace(environ={}), report)
+    assert not report.has_errors, render.full(report)
+    return documented
 
 
 def pages(*paths: Path, title: str = "Robot") -> dict[str, str]:
     """The text of each file that documents them, by its path."""
-    return {one.path: one.text for one in documentation(subject(*paths, title=title))}
+    return {item.path: item.text for item in documentation(subject(*paths, title=title))}
 
 
 @dataclass
@@ -59,8 +59,8 @@ class _Reader(HTMLParser):
         self.open: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        given = dict(attrs)
-        if len(given) != len(attrs):
+        attributes = dict(attrs)
+        if len(attributes) != len(attrs):
             self.seen.mistakes.append(f"<{tag}> has an attribute twice")
         self.seen.tags.append(tag)
         self.seen.ids += [v for k, v in attrs if k == "id" and v]
@@ -90,7 +90,7 @@ def read(html: str) -> Seen:
     assert reader.open == [], reader.open
     assert reader.seen.mistakes == []
     ids = reader.seen.ids
-    assert len(ids) == len(set(ids)), sorted(one for one in ids if ids.count(one) > 1)
+    assert len(ids) == len(set(ids)), sorted(item for item in ids if ids.count(item) > 1)
     return reader.seen
 
 
@@ -117,9 +117,9 @@ def check_links(files: dict[str, str]) -> int:
 
 
 def _leads(path: str, link: str, places: dict[str, set[str]]) -> bool:
-    way, _, anchor = unquote(link).partition("#")
+    resolved, _, anchor = unquote(link).partition("#")
     folder = str(PurePosixPath(path).parent)
-    target = normpath(f"{folder}/{way}") if way else path
+    target = normpath(f"{folder}/{resolved}") if resolved else path
     return target in places and (not anchor or anchor in places[target])
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from doc_site import read
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from markdown_it import MarkdownIt
 
 from robocomp_dsl.generate import literals
-from robocomp_dsl.generate.doc import Subject, documentation
+from robocomp_dsl.generate.doc.documentation import DocumentationSubject, documentation
 from robocomp_dsl.model.component import Component
 from robocomp_dsl.source import Source
+from tests.doc.doc_site import read
 
 SIGNS = "ab1 \n\t`*_[](){}<>#+-=.!|~&;:$@^\\/\"'\u00e9\u4e2d\u202e\x07"
 TEXTS = st.text(st.sampled_from(SIGNS) | st.characters(exclude_categories=["Cs"]), max_size=60)
@@ -22,9 +22,11 @@ READER = MarkdownIt("commonmark", {"html": True, "xhtmlOut": False}).enable(
 
 
 def _pages(doc: str) -> dict[str, str]:
-    span = Source(Path("c.cdsl"), "c").whole
-    one = Component("c", Path("c.cdsl"), span, "Python", (), (), doc=doc)
-    return {f.path: f.text for f in documentation(Subject("t", components=(one,)))}
+    span = Source(Path("c.cdsl"), "c").file_span
+    component = Component("c", Path("c.cdsl"), span, "Python", (), (), doc=doc)
+    return {
+        f.path: f.text for f in documentation(DocumentationSubject("t", components=(component,)))
+    }
 
 
 def _bare(text: str) -> str:
@@ -38,16 +40,16 @@ def _bare(text: str) -> str:
 @example("`a|b` ``x`` ` `")
 @example("&amp; &#60; <!-- <br> http://a.b [x]: y")
 def test_any_text(doc: str) -> None:
-    made = _pages(doc)
-    html = made["components/c.html"]
-    told = read(html[html.index("</dl>") + len("</dl>") : html.index("</main>")])
-    assert set(told.tags) <= {"p", "ul", "li", "code"}
+    pages_ = _pages(doc)
+    html = pages_["components/c.html"]
+    texts = read(html[html.index("</dl>") + len("</dl>") : html.index("</main>")])
+    assert set(texts.tags) <= {"p", "ul", "li", "code"}
     letters = _bare("".join(literals.lines(doc)))
     for sign in "`-+*":  # ticks and the signs of lists are not told
         letters = letters.replace(sign, "")
-    assert [c for c in _bare(told.text) if c not in "`-+*"] == list(letters)
-    markdown = READER.render(made["components/c.md"])
+    assert [c for c in _bare(texts.text) if c not in "`-+*"] == list(letters)
+    markdown = READER.render(pages_["components/c.md"])
     facts = "every 100 ms</p>"
     seen = read(markdown[markdown.index(facts) + len(facts) :])
-    assert _bare(seen.text) == _bare(told.text)
-    assert [tag for tag in seen.tags if tag != "p"] == [tag for tag in told.tags if tag != "p"]
+    assert _bare(seen.text) == _bare(texts.text)
+    assert [tag for tag in seen.tags if tag != "p"] == [tag for tag in texts.tags if tag != "p"]

@@ -7,8 +7,9 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
-from doc_site import check_links, pages, read
 from markdown_it import MarkdownIt
+
+from tests.doc.doc_site import check_links, pages, read
 
 EVIL = (
     "</title><script>alert(1)</script> <img src=x onerror=y> &lt; & `<b>code</b>` | **bold** "
@@ -58,8 +59,8 @@ FILES = {
 @pytest.fixture
 def evil(tmp_path: Path) -> dict[str, str]:
     """The pages of files that try everything."""
-    for name, said in FILES.items():
-        (tmp_path / name).write_text(said, encoding="utf-8")
+    for name, text_ in FILES.items():
+        (tmp_path / name).write_text(text_, encoding="utf-8")
     return pages(tmp_path / "evil.ddsl", title="<script>x</script>")
 
 
@@ -80,8 +81,8 @@ def test_html_says_it_and_obeys_nothing(evil: dict[str, str]) -> None:
     assert '"<script>{{x}}</script>|"' in shown
     assert _bare(TELLING) in _bare(read(evil["components/evil.html"]).text)
     deployed = _bare(read(evil["deployments/evil.html"]).text)
-    for said in (TELLING, '$X = "<p onclick=1>|"', "runs a <b> | c", 'name = "<script>|`"'):
-        assert _bare(said) in deployed
+    for text_ in (TELLING, '$X = "<p onclick=1>|"', "runs a <b> | c", 'name = "<script>|`"'):
+        assert _bare(text_) in deployed
 
 
 def test_markdown_says_the_same(evil: dict[str, str]) -> None:
@@ -108,5 +109,5 @@ def test_drawings_are_xml(evil: dict[str, str]) -> None:
     drawings = [text for path, text in evil.items() if path.endswith(".svg")]
     assert len(drawings) == 3
     for text in drawings:
-        tags = {one.tag.rpartition("}")[2] for one in ET.fromstring(text).iter()}
+        tags = {element.tag.rpartition("}")[2] for element in ET.fromstring(text).iter()}
         assert tags <= {"svg", "title", "style", "rect", "g", "path", "text"}

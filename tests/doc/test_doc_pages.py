@@ -6,7 +6,8 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from doc_site import DEMO, ROOT, check_links, headings, pages, read
+
+from tests.doc.doc_site import DEMO, ROOT, check_links, headings, pages, read
 
 INTERFACES = sorted((ROOT / "interfaces").glob("*.idsl"))
 
@@ -70,9 +71,9 @@ TOLD = [
 ]
 
 
-@pytest.mark.parametrize(("page", "said"), TOLD)
-def test_what_is_told(demo: dict[str, str], page: str, said: str) -> None:
-    assert said in read(demo[f"{page}.html"]).text
+@pytest.mark.parametrize(("page", "text"), TOLD)
+def test_what_is_told(demo: dict[str, str], page: str, text: str) -> None:
+    assert text in read(demo[f"{page}.html"]).text
 
 
 def test_the_whole_name_of_an_instance_is_told(tmp_path: Path) -> None:

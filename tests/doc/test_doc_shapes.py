@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from doc_site import check_links, pages, read
+
+from tests.doc.doc_site import check_links, pages, read
 
 COMPONENT = (
     'import "{file}"; Component {name} {{ Communications {{ {ports} }}; language Python; }};'
@@ -13,10 +14,10 @@ COMPONENT = (
 
 
 def _write(folder: Path, files: dict[str, str]) -> None:
-    for name, said in files.items():
+    for name, text in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(said)
+        path.write_text(text)
 
 
 def _text(files: dict[str, str], page: str) -> str:
@@ -32,10 +33,10 @@ def test_two_modules_in_one_file(tmp_path: Path) -> None:
             "c.cdsl": COMPONENT.format(file="Two.idsl", name="c", ports="implements I;"),
         },
     )
-    made = pages(tmp_path / "c.cdsl")
-    assert check_links(made)
-    assert "interfaces/B.I.html" in made
-    assert 'id="type.S"' in made["modules/A.html"]
+    site = pages(tmp_path / "c.cdsl")
+    assert check_links(site)
+    assert "interfaces/B.I.html" in site
+    assert 'id="type.S"' in site["modules/A.html"]
 
 
 @pytest.mark.parametrize(("other", "count"), [("int a;", 1), ("float b;", 2)])
@@ -51,11 +52,13 @@ def test_two_copies_of_a_file_are_one_page(tmp_path: Path, other: str, count: in
             "y/y.cdsl": COMPONENT.format(file="I.idsl", name="y", ports="requires I;"),
         },
     )
-    made = pages(tmp_path / "x" / "x.cdsl", tmp_path / "y" / "y.cdsl")
-    assert check_links(made)
-    found = [path for path in made if path.startswith("interfaces/") and path.endswith(".html")]
-    assert len(found) == count
-    assert ("y requires it" in _text(made, "interfaces/M.I")) == (count == 1)
+    site = pages(tmp_path / "x" / "x.cdsl", tmp_path / "y" / "y.cdsl")
+    assert check_links(site)
+    documented = [
+        path for path in site if path.startswith("interfaces/") and path.endswith(".html")
+    ]
+    assert len(documented) == count
+    assert ("y requires it" in _text(site, "interfaces/M.I")) == (count == 1)
 
 
 def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> None:
@@ -66,18 +69,18 @@ def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> No
             for name in ("base", "Base")
         },
     )
-    made = pages(tmp_path / "base.cdsl", tmp_path / "Base.cdsl")
-    assert check_links(made)
-    assert {"components/Base.html", "components/base-2.html"} <= set(made)
+    site = pages(tmp_path / "base.cdsl", tmp_path / "Base.cdsl")
+    assert check_links(site)
+    assert {"components/Base.html", "components/base-2.html"} <= set(site)
 
 
 def test_a_port_that_may_stay_alone_says_so(tmp_path: Path) -> None:
     ports = "requires Laser, Laser as spare optional;"
     text = COMPONENT.format(file="Laser.idsl", name="base", ports=ports)
     _write(tmp_path, {"base.cdsl": text})
-    said = _text(pages(tmp_path / "base.cdsl"), "components/base")
-    assert "Laser requires Laser" in said
-    assert "spare requires, optional Laser" in said
+    text = _text(pages(tmp_path / "base.cdsl"), "components/base")
+    assert "Laser requires Laser" in text
+    assert "spare requires, optional Laser" in text
 
 
 def test_types_of_all_sorts(tmp_path: Path) -> None:
@@ -102,10 +105,10 @@ def test_types_of_all_sorts(tmp_path: Path) -> None:
             };"""
         },
     )
-    made = pages(tmp_path / "T.idsl")
-    assert check_links(made)
-    said = _text(made, "interfaces/T.Garage")
-    for one in (
+    site = pages(tmp_path / "T.idsl")
+    assert check_links(site)
+    text = _text(site, "interfaces/T.Garage")
+    for item in (
         "get query idempotent",
         "paint command",
         "call query publish",
@@ -118,9 +121,9 @@ def test_types_of_all_sorts(tmp_path: Path) -> None:
         "blue 7",
         "int longest( string firstParameter, string secondParameter, out Car third,",
     ):
-        assert one in said
-    assert 'href="#type.Car"' in made["interfaces/T.Garage.html"]
-    assert 'href="#type.Broken"' in made["interfaces/T.Garage.html"]
+        assert item in text
+    assert 'href="#type.Car"' in site["interfaces/T.Garage.html"]
+    assert 'href="#type.Broken"' in site["interfaces/T.Garage.html"]
 
 
 def test_parameters_of_all_sorts(tmp_path: Path) -> None:
@@ -138,10 +141,10 @@ def test_parameters_of_all_sorts(tmp_path: Path) -> None:
             };"""
         },
     )
-    made = pages(tmp_path / "p.pdsl")
-    assert check_links(made)
-    said = _text(made, "parameters/p").replace("\u00a0", " ")
-    for one in (
+    site = pages(tmp_path / "p.pdsl")
+    assert check_links(site)
+    text = _text(site, "parameters/p").replace("\u00a0", " ")
+    for item in (
         "must string must be given",
         "half float 0.5 ≥ 0",
         "low int must be given ≤ 10",
@@ -150,14 +153,14 @@ def test_parameters_of_all_sorts(tmp_path: Path) -> None:
         "motors[] list of 1 to 4 groups",
         "motors[].limits.top float 1.5 rad",
     ):
-        assert one in said
+        assert item in text
 
 
 def test_a_component_without_anything(tmp_path: Path) -> None:
     _write(tmp_path, {"e.cdsl": "Component e { language Python; period 0; };"})
-    made = pages(tmp_path / "e.cdsl")
-    assert check_links(made)
-    assert "Computes only on events" in _text(made, "components/e")
+    site = pages(tmp_path / "e.cdsl")
+    assert check_links(site)
+    assert "Computes only on events" in _text(site, "components/e")
 
 
 def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
@@ -165,13 +168,13 @@ def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
     _write(
         tmp_path,
         {
-            f"{name}.cdsl": COMPONENT.format(file="Laser.idsl", name=name, ports=said)
-            for name, said in ports.items()
+            f"{name}.cdsl": COMPONENT.format(file="Laser.idsl", name=name, ports=text)
+            for name, text in ports.items()
         },
     )
-    made = pages(*(tmp_path / f"{name}.cdsl" for name in ports))
-    assert check_links(made)
-    index = made["index.html"]
+    site = pages(*(tmp_path / f"{name}.cdsl" for name in ports))
+    assert check_links(site)
+    index = site["index.html"]
     assert index.count('class="line call"') == 3  # a to b, b to itself, and the legend
     assert '<a href="components/c.html">' in index
 

@@ -7,17 +7,17 @@ from itertools import combinations
 from pathlib import Path
 
 import pytest
-from doc_site import check_links, pages, read
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.generate.doc.drawing import Box, Line
+from robocomp_dsl.generate.doc.drawing import Curve, Rectangle
 from robocomp_dsl.generate.doc.state_figure import state_figure
-from robocomp_dsl.generate.doc.state_words import label
+from robocomp_dsl.generate.doc.state_words import transition_label
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 from robocomp_dsl.source import Source
+from tests.doc.doc_site import check_links, pages, read
 
-SPAN = Source(Path("x.smdsl"), "x").whole
+SPAN = Source(Path("x.smdsl"), "x").file_span
 NEAR = 0.21
 """Places are written with one decimal."""
 
@@ -37,17 +37,17 @@ def machines(draw: st.DrawFn) -> StateMachine:
     around = [draw(st.integers(-1, i - 1)) for i in range(count)]
 
     def inside(parent: int) -> tuple[State, ...]:
-        found = [i for i in range(count) if around[i] == parent]
+        states = [i for i in range(count) if around[i] == parent]
         return tuple(
             State(
                 f"s{i}",
                 SPAN,
-                initial=i == found[0] and draw(st.booleans()),
+                initial=i == states[0] and draw(st.booleans()),
                 final=draw(st.booleans()),
                 parallel=draw(st.booleans()),
-                inside=inside(i),
+                substates=inside(i),
             )
-            for i in found
+            for i in states
         )
 
     names = st.integers(0, count - 1).map(lambda i: f"s{i}")
@@ -59,39 +59,43 @@ def machines(draw: st.DrawFn) -> StateMachine:
 @given(machines())
 def test_any_machine(machine: StateMachine) -> None:
     drawing = state_figure(machine, "x").drawing
-    boxes = {p.about.removesuffix(": an end"): p for p in drawing.parts if isinstance(p, Box)}
+    boxes = {
+        p.tooltip.removesuffix(": final state"): p
+        for p in drawing.parts
+        if isinstance(p, Rectangle)
+    }
     _check_boxes(machine.states, boxes)
     for state in boxes.values():
         assert state.x >= 0
         assert state.x + state.width <= drawing.width
         assert state.y + state.height <= drawing.height
-    for one in machine.transitions:
-        said = re.compile(f"{one.source} to {one.target}(:|$)")
-        lines = [p for p in drawing.parts if isinstance(p, Line) and said.match(p.about)]
-        _check_way(lines, boxes[one.source], boxes[one.target])
+    for transition in machine.transitions:
+        text = re.compile(f"{transition.source} to {transition.target}(:|$)")
+        lines = [p for p in drawing.parts if isinstance(p, Curve) and text.match(p.tooltip)]
+        _check_way(lines, boxes[transition.source], boxes[transition.target])
 
 
 def _check_boxes(
-    states: tuple[State, ...], boxes: dict[str, Box], around: Box | None = None
+    states: tuple[State, ...], boxes: dict[str, Rectangle], outer: Rectangle | None = None
 ) -> None:
-    for one, other in combinations(states, 2):
-        a, b = boxes[one.name], boxes[other.name]
+    for item, other in combinations(states, 2):
+        a, b = boxes[item.name], boxes[other.name]
         apart = a.x + a.width <= b.x or b.x + b.width <= a.x
         assert apart or a.y + a.height <= b.y or b.y + b.height <= a.y
-    for one in states:
-        box = boxes[one.name]
-        if around:
-            assert around.x < box.x
-            assert around.y < box.y
-            assert box.x + box.width < around.x + around.width
-            assert box.y + box.height < around.y + around.height
-        _check_boxes(one.inside, boxes, box)
+    for state in states:
+        box = boxes[state.name]
+        if outer:
+            assert outer.x < box.x
+            assert outer.y < box.y
+            assert box.x + box.width < outer.x + outer.width
+            assert box.y + box.height < outer.y + outer.height
+        _check_boxes(state.substates, boxes, box)
 
 
-def _check_way(lines: list[Line], source: Box, target: Box) -> None:
+def _check_way(lines: list[Curve], source: Rectangle, target: Rectangle) -> None:
     """One line, in as many pieces as there are borders in its way, from border to border."""
     ends = [_ends(line) for line in lines]
-    (arrow,) = [end for line, (_, end) in zip(lines, ends, strict=True) if line.head]
+    (arrow,) = [end for line, (_, end) in zip(lines, ends, strict=True) if line.arrow_head]
     assert _on_border(arrow, target)
     begins = [begin for begin, _ in ends if not any(_same(begin, end) for _, end in ends)]
     begins = begins or [begin for begin, _ in ends]  # a line to itself
@@ -99,17 +103,17 @@ def _check_way(lines: list[Line], source: Box, target: Box) -> None:
     assert _on_border(begins[0], source)
 
 
-def _ends(line: Line) -> tuple[tuple[float, float], tuple[float, float]]:
+def _ends(line: Curve) -> tuple[tuple[float, float], tuple[float, float]]:
     numbers = [float(n) for n in re.findall(r"-?[0-9.]+(?:e-?[0-9]+)?", line.path)]
-    tip = [float(n) for n in re.findall(r"-?[0-9.]+", line.head)] or numbers[-2:]
+    tip = [float(n) for n in re.findall(r"-?[0-9.]+", line.arrow_head)] or numbers[-2:]
     return (numbers[0], numbers[1]), (tip[0], tip[1])
 
 
-def _same(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    return abs(one[0] - other[0]) < NEAR and abs(one[1] - other[1]) < NEAR
+def _same(item: tuple[float, float], other: tuple[float, float]) -> bool:
+    return abs(item[0] - other[0]) < NEAR and abs(item[1] - other[1]) < NEAR
 
 
-def _on_border(point: tuple[float, float], box: Box) -> bool:
+def _on_border(point: tuple[float, float], box: Rectangle) -> bool:
     x, y = point
     left, top, right, bottom = box.x, box.y, box.x + box.width, box.y + box.height
     within = left - NEAR <= x <= right + NEAR and top - NEAR <= y <= bottom + NEAR
@@ -128,20 +132,20 @@ LABELS = [
 ]
 
 
-@pytest.mark.parametrize(("transition", "said"), LABELS)
-def test_labels(transition: Transition, said: str) -> None:
-    assert label(transition) == said
+@pytest.mark.parametrize(("transition", "text"), LABELS)
+def test_labels(transition: Transition, text: str) -> None:
+    assert transition_label(transition) == text
 
 
 def test_marks_of_states() -> None:
     inner = (State("in", SPAN, initial=True), State("h", SPAN, history="deep", start=("in",)))
-    states = (State("a", SPAN, initial=True, inside=inner), State("z", SPAN, final=True))
+    states = (State("a", SPAN, initial=True, substates=inner), State("z", SPAN, final=True))
     parts = state_figure(_machine(states), "x").drawing.parts
-    boxes = [p for p in parts if isinstance(p, Box)]
+    boxes = [p for p in parts if isinstance(p, Rectangle)]
     assert [p.kind for p in boxes].count("dot") == 2
     assert [p.kind for p in boxes].count("ring") == 1
-    assert "H* h" in {one.text for p in boxes for one in p.labels}
-    assert "h to in" in {p.about for p in parts if isinstance(p, Line)}
+    assert "H* h" in {item.text for p in boxes for item in p.labels}
+    assert "h to in" in {p.tooltip for p in parts if isinstance(p, Curve)}
 
 
 def test_a_component_shows_its_machine(tmp_path: Path) -> None:
@@ -152,12 +156,12 @@ def test_a_component_shows_its_machine(tmp_path: Path) -> None:
         ":work { initial_state think; states act; "
         "transitions { think => act; act => over on fall; }; };"
     )
-    made = pages(tmp_path / "c.cdsl")
-    assert check_links(made)
-    said = read(made["components/c.html"]).text
-    assert "State machine c.smdsl" in said
-    assert "act over fall" in said
-    assert "work over after 120 s" in said
-    assert "act to over: fall" in said
-    assert "components/c.states.svg" in made
-    assert not any(path.startswith("statemachines/") for path in made)
+    site = pages(tmp_path / "c.cdsl")
+    assert check_links(site)
+    text = read(site["components/c.html"]).text
+    assert "State machine c.smdsl" in text
+    assert "act over fall" in text
+    assert "work over after 120 s" in text
+    assert "act to over: fall" in text
+    assert "components/c.states.svg" in site
+    assert not any(path.startswith("statemachines/") for path in site)

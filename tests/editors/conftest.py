@@ -6,15 +6,16 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from real_editor import Project
+
+from tests.support.real_editor import Project
 
 
 @pytest.fixture(scope="module")
 def project(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Project]:
     """The folder; at the end no server that was started in it may be left."""
-    made = Project(tmp_path_factory.mktemp("project"))
-    yield made
-    made.assert_no_server_left()
+    project = Project(tmp_path_factory.mktemp("project"))
+    yield project
+    project.assert_no_server_left()
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from real_editor import EDITORS
+
+from tests.support.real_editor import EDITORS
 
 BRACES = {"idsl", "cdsl", "pdsl", "ddsl", "smdsl"}
 COMMAND = ["rcgen", "lsp"]
@@ -24,13 +25,13 @@ def test_helix() -> None:
     read = toml(EDITORS / "helix" / "languages.toml")
     server = read["language-server"]["robocomp"]
     assert [server["command"], *server["args"]] == COMMAND
-    languages = {one["name"]: one for one in read["language"]}
+    languages = {item["name"]: item for item in read["language"]}
     assert set(languages) == {*BRACES, "scxml", "innermodel"}
-    for name, one in languages.items():
-        assert one["language-servers"] == ["robocomp"]
+    for name, language in languages.items():
+        assert language["language-servers"] == ["robocomp"]
         if name in BRACES:
-            assert one["file-types"] == [name]
-            assert one["scope"] == f"source.{name}"
+            assert language["file-types"] == [name]
+            assert language["scope"] == f"source.{name}"
 
 
 def test_zed() -> None:
@@ -39,12 +40,14 @@ def test_zed() -> None:
     languages = {
         path.parent.name: toml(path) for path in sorted(folder.glob("languages/*/config.toml"))
     }
-    assert {name: one["path_suffixes"] for name, one in languages.items()} == {
+    assert {name: language["path_suffixes"] for name, language in languages.items()} == {
         name: [name] for name in BRACES
     }
     server = extension["language_servers"]["rcgen"]
-    assert set(server["languages"]) == {one["name"] for one in languages.values()}
-    assert server["language_ids"] == {one["name"]: name for name, one in languages.items()}
+    assert set(server["languages"]) == {language["name"] for language in languages.values()}
+    assert server["language_ids"] == {
+        language["name"]: name for name, language in languages.items()
+    }
     assert toml(folder / "Cargo.toml")["package"]["version"] == extension["version"]
     binary = json.loads((folder / "settings.json").read_text())["lsp"]["rcgen"]["binary"]
     assert binary["arguments"] == ["lsp"]
@@ -54,7 +57,7 @@ def test_zed() -> None:
 def test_zed_program_is_rust() -> None:
     rustfmt = shutil.which("rustfmt")
     if rustfmt is None:
-        pytest.skip("rustfmt is not installed; the extension is compiled by Zed")
+        pytest.skip("rustfmt is not installed, and no make target installs it: see rustup.rs")
     source = EDITORS / "zed" / "src" / "lib.rs"
     command = [rustfmt, "--edition", "2021", "--check", source]
     subprocess.run(command, check=True, timeout=60)
@@ -64,6 +67,6 @@ def test_kate() -> None:
     servers = json.loads((EDITORS / "kate" / "lspclient.json").read_text())["servers"]
     assert set(servers) == BRACES
     assert servers["idsl"]["command"] == COMMAND
-    assert all(servers[one]["use"] == "idsl" for one in BRACES - {"idsl"})
-    for name, one in servers.items():
-        assert one["highlightingModeRegex"] == f"^{name.upper()}$"
+    assert all(servers[item]["use"] == "idsl" for item in BRACES - {"idsl"})
+    for name, server in servers.items():
+        assert server["highlightingModeRegex"] == f"^{name.upper()}$"

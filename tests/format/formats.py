@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.format import PARSERS, formatted
+from robocomp_dsl.format.formatter import PARSERS, format_source
 from robocomp_dsl.source import Source
 
 CASES = Path(__file__).parent / "cases"
@@ -21,4 +21,4 @@ def parse(name: str, text: str) -> tuple[object, Report]:
 
 def fmt(name: str, text: str) -> str | None:
     """The text as the house writes it, or None where it has errors."""
-    return formatted(Source(Path(name), text), list(parse(name, text)[1]))
+    return format_source(Source(Path(name), text), list(parse(name, text)[1]))

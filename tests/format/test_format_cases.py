@@ -5,23 +5,23 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from formats import CASES, fmt
 
-from robocomp_dsl.check import CHECKS
-from robocomp_dsl.format import PARSERS
+from robocomp_dsl.check.languages import CHECKS
+from robocomp_dsl.format.formatter import PARSERS
+from tests.format.formats import CASES, fmt
 
 CASE_FILES = sorted(path for path in CASES.iterdir() if path.suffix != ".out")
 
 
 @pytest.mark.parametrize("case", CASE_FILES, ids=lambda path: path.name)
-def test_case(case: Path, update_golden: bool) -> None:
-    made = fmt(case.name, case.read_text(encoding="utf-8"))
-    assert made is not None, "the case has errors"
+def test_format_case(case: Path, update_golden: bool) -> None:
+    result = fmt(case.name, case.read_text(encoding="utf-8"))
+    assert result is not None, "the case has errors"
     beside = case.with_name(f"{case.name}.out")
     if update_golden:
-        beside.write_text(made, encoding="utf-8")
-    assert made == beside.read_text(encoding="utf-8")
+        beside.write_text(result, encoding="utf-8")
+    assert result == beside.read_text(encoding="utf-8")
 
 
-def test_every_language_is_formatted_and_has_a_case() -> None:
+def test_every_format_language_has_a_case() -> None:
     assert {case.suffix for case in CASE_FILES} == set(PARSERS) == set(CHECKS)

@@ -8,13 +8,13 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from formats import CASES, ROOT, fmt, parse
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.format import PARSERS, changes
+from robocomp_dsl.format.formatter import PARSERS, changes
 from robocomp_dsl.source import Source
+from tests.format.formats import CASES, ROOT, fmt, parse
 
 TEXT = r"\"(?:[^\"\\\n]|\\.)*\""
 LINE_END = re.compile(r"(?: |\\t|\\r)+(?=\\n)")
@@ -38,48 +38,48 @@ WRITTEN = _described("interfaces", "components", "tests/cases", "tests/format/ca
 def _comments(text: str) -> list[str]:
     """The words of all comments, each line without the blanks around it."""
     found = (match[1] for match in COMMENT.finditer(text) if match[1])
-    return ["\n".join(line.strip() for line in one.split("\n")) for one in found]
+    return ["\n".join(line.strip() for line in item.split("\n")) for item in found]
 
 
-def _stays(name: str, text: str, made: str) -> None:
-    """`made` of `text` says the same, and is not formatted any further."""
-    (old, before), (new, after) = parse(name, text), parse(name, made)
+def _stays(name: str, text: str, result: str) -> None:
+    """`result` of `text` says the same, and is not formatted any further."""
+    (old, before), (new, after) = parse(name, text), parse(name, result)
     # Trees without their spans; the ends of lines in doc comments are those of the file then.
     assert LINE_END.sub("", repr(new)) == LINE_END.sub("", repr(old))
-    assert [one.code.id for one in after.sorted()] == [one.code.id for one in before.sorted()]
-    assert fmt(name, made) == made
+    assert [item.code.id for item in after.sorted()] == [item.code.id for item in before.sorted()]
+    assert fmt(name, result) == result
     patched = text
     source = Source(Path(name), text)
-    for start, end, put in reversed(changes(source, made)):
+    for start, end, put in reversed(changes(source, result)):
         patched = patched[:start] + put + patched[end:]
-    assert patched == made
+    assert patched == result
 
 
 @pytest.mark.parametrize("path", WRITTEN, ids=lambda path: str(path.relative_to(ROOT)))
 @pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["lf", "crlf"])
-def test_files(path: Path, end: str) -> None:
+def test_formatter_is_idempotent_on_files(path: Path, end: str) -> None:
     text = Source.read(path).text.replace("\r\n", "\n").replace("\n", end)
-    made = fmt(path.name, text)
-    if made is None:
-        assert parse(path.name, text)[1].failed
+    result = fmt(path.name, text)
+    if result is None:
+        assert parse(path.name, text)[1].has_errors
         return
-    _stays(path.name, text, made)
-    assert _comments(made.replace("\r", "")) == _comments(text.replace("\r", ""))
-    assert made.endswith(end)
-    assert not made.endswith(end * 2)
-    assert not made.startswith(end)
-    assert end * 3 not in made
-    assert made.count("\r\n") == (made.count("\n") if end == "\r\n" else 0)
+    _stays(path.name, text, result)
+    assert _comments(result.replace("\r", "")) == _comments(text.replace("\r", ""))
+    assert result.endswith(end)
+    assert not result.endswith(end * 2)
+    assert not result.startswith(end)
+    assert end * 3 not in result
+    assert result.count("\r\n") == (result.count("\n") if end == "\r\n" else 0)
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: str(path.relative_to(ROOT)))
-def test_what_is_shipped_is_formatted(path: Path) -> None:
+def test_shipped_files_are_in_canonical_style(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert fmt(path.name, text) == text
 
 
 @pytest.mark.parametrize("path", sorted(CASES.glob("*.out")), ids=lambda path: path.name)
-def test_trailing_blanks_and_tabs_go(path: Path) -> None:
+def test_formatter_removes_trailing_whitespace_and_tabs(path: Path) -> None:
     inside_comment = {"comments.cdsl.out": ["\t*/"], "legacy.cdsl.out": ["\t\t    line */"]}
     lines = path.read_text(encoding="utf-8").split("\n")
     odd = [line for line in lines if line.startswith("\t") or line != line.rstrip()]
@@ -145,17 +145,17 @@ def _reflowed(name: str, chance: Random) -> str:
 
 @given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
 @settings(max_examples=150)
-def test_any_blanks_and_comments_between_tokens(name: str, seed: int) -> None:
+def test_formatter_accepts_any_whitespace_and_comments(name: str, seed: int) -> None:
     text = _reflowed(name, Random(seed))
-    made = fmt(name, text)
-    assert made is not None, [one.message for one in parse(name, text)[1]]
-    _stays(name, text, made)
-    assert _comments(made) == _comments(text)
+    result = fmt(name, text)
+    assert result is not None, [item.message for item in parse(name, text)[1]]
+    _stays(name, text, result)
+    assert _comments(result) == _comments(text)
 
 
 @given(st.sampled_from(sorted(TEXTS)), st.integers(0, 2**32))
 @settings(max_examples=60)
-def test_blanks_within_lines_make_no_difference(name: str, seed: int) -> None:
+def test_formatter_ignores_spaces_within_lines(name: str, seed: int) -> None:
     neat = fmt(name, TEXTS[name])
     assert neat is not None
     chance = Random(seed)
@@ -172,16 +172,16 @@ def test_blanks_within_lines_make_no_difference(name: str, seed: int) -> None:
 
 @given(st.integers(0, 2**32))
 @settings(max_examples=150)
-def test_any_blanks_and_comments_between_tags(seed: int) -> None:
+def test_formatter_accepts_any_whitespace_and_comments_in_xml(seed: int) -> None:
     chance = Random(seed)
     text = ""
     for token in WORLD:
         gap = _gap(chance, XML_COMMENTS if token[0] == "<" else ()) if text else ""
         text += (gap or " " * bool(text)) + token
-    made = fmt("world.xml", text)
-    assert made is not None, [one.message for one in parse("world.xml", text)[1]]
-    _stays("world.xml", text, made)
-    assert _comments(made) == _comments(text)
+    result = fmt("world.xml", text)
+    assert result is not None, [item.message for item in parse("world.xml", text)[1]]
+    _stays("world.xml", text, result)
+    assert _comments(result) == _comments(text)
 
 
 DAMAGE = [
@@ -204,7 +204,7 @@ DAMAGE = [
 
 @given(st.sampled_from(sorted(DAMAGED)), st.integers(0, 2**32))
 @settings(max_examples=300)
-def test_damaged_and_legacy_texts(name: str, seed: int) -> None:
+def test_formatter_of_damaged_and_legacy_texts(name: str, seed: int) -> None:
     """What is lost or added at random is an error or understood, and then kept as it is."""
     chance = Random(seed)
     text = DAMAGED[name]
@@ -212,18 +212,18 @@ def test_damaged_and_legacy_texts(name: str, seed: int) -> None:
         ends = [match.start() for match in re.finditer("[;}]", text)] or [0]
         at = chance.choice(ends) if chance.random() < 0.7 else chance.randrange(len(text))
         text = text[:at] + chance.choice(DAMAGE) + text[at + chance.randint(0, 1) :]
-    made = fmt(name, text)
-    if made is not None:
-        _stays(name, text, made)
+    result = fmt(name, text)
+    if result is not None:
+        _stays(name, text, result)
 
 
 @given(
     st.sampled_from(sorted(PARSERS)), st.text("ab1 \n\t{};,:()<>[]=\"'/*#.+-&!?é\r", max_size=60)
 )
 @settings(max_examples=300)
-def test_any_text(suffix: str, text: str) -> None:
-    made = fmt(f"x{suffix}", text)
-    if made is not None:
-        assert fmt(f"x{suffix}", made) == made
-        old, new = (PARSERS[suffix](Source(Path("x"), t), Report()) for t in (text, made))
+def test_formatter_accepts_any_text(suffix: str, text: str) -> None:
+    result = fmt(f"x{suffix}", text)
+    if result is not None:
+        assert fmt(f"x{suffix}", result) == result
+        old, new = (PARSERS[suffix](Source(Path("x"), t), Report()) for t in (text, result))
         assert repr(old) == repr(new)

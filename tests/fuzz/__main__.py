@@ -58,7 +58,7 @@ def directed(suffix: str, seconds: float) -> None:
     for number, text in enumerate(seeds(suffix)):
         (corpus / f"seed{number}").write_text(text, "utf-8", "replace")
 
-    def one(data: bytes) -> None:
+    def check_input(data: bytes) -> None:
         if not holds(suffix, data.decode("utf-8", "replace")):
             sys.stdout.flush()
             raise SystemExit(1)
@@ -74,7 +74,7 @@ def directed(suffix: str, seconds: float) -> None:
     limits = [f"-max_len={LARGEST}", f"-timeout={TEXT_S}", "-rss_limit_mb=1500"]
     options = [f"-max_total_time={seconds:.0f}", *limits]
     quiet = ["-print_final_stats=1", "-verbosity=0", f"-artifact_prefix={HOME}/"]
-    atheris.Setup(["fuzz", *options, *quiet, str(corpus)], one, custom_mutator=mutate)
+    atheris.Setup(["fuzz", *options, *quiet, str(corpus)], check_input, custom_mutator=mutate)
     atheris.Fuzz()
 
 

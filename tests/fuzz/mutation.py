@@ -9,8 +9,8 @@ import random
 from functools import cache
 from pathlib import Path
 
-from robocomp_dsl.check import PARSERS
-from robocomp_dsl.syntax.tables import load
+from robocomp_dsl.check.languages import PARSERS
+from robocomp_dsl.syntax.grammar.tables import load
 
 ROOT = Path(__file__).parents[2]
 FOLDERS = ("interfaces", "components", "tests/cases", "tests/format/cases", "tests/syntax")
@@ -90,9 +90,9 @@ def seeds(suffix: str) -> tuple[str, ...]:
     """The texts of one language in this repository, the shorter half of a page each."""
     found = sorted(path for folder in FOLDERS for path in (ROOT / folder).rglob(f"*{suffix}"))
     texts = (path.read_text("utf-8", "replace") for path in found)
-    kept = tuple(text for text in texts if len(text) <= LARGEST)
-    assert kept, f"no file ends in {suffix}"
-    return kept
+    remaining = tuple(text for text in texts if len(text) <= LARGEST)
+    assert remaining, f"no file ends in {suffix}"
+    return remaining
 
 
 @cache

@@ -10,15 +10,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.check import CHECKS, PARSERS
-from robocomp_dsl.check.files import Files
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import CHECKS, PARSERS
+from robocomp_dsl.check.workspace.source_cache import SourceCache
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
-from robocomp_dsl.syntax.findings import Findings
-from robocomp_dsl.syntax.lexer import Lexer
-from robocomp_dsl.syntax.node import Node
-from robocomp_dsl.syntax.tables import END, load
+from robocomp_dsl.syntax.ast.node import Node
+from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.lexer import Lexer
+from robocomp_dsl.syntax.grammar.tables import END, load
 
 HOME = Path("/nonexistent/workspace")
 SECONDS = 2.0
@@ -60,12 +60,12 @@ def judge_tree(suffix: str, text: str) -> None:
 
 def judge_check(suffix: str, text: str) -> None:
     """All checks of a file among others end without an exception, with findings in place."""
-    files = Files()
+    files = SourceCache()
     texts = {HOME / name: other for name, other in NEIGHBOURS.items()}
     here = HOME / f"x{suffix}"
     texts[here] = text
-    for path, one in texts.items():
-        files.open_buffer(path, one)
+    for path, diagnostic in texts.items():
+        files.set_overlay(path, diagnostic)
     report = Report()
     CHECKS[suffix](here, Workspace((), {}, files=files), report)
     judge_findings(report, texts)
@@ -73,25 +73,25 @@ def judge_check(suffix: str, text: str) -> None:
 
 def judge_findings(report: Report, texts: dict[Path, str]) -> None:
     """Every finding has words, and every place of it is in its file."""
-    for one in report:
-        assert one.message.strip()
-        for span in _places(one):
+    for diagnostic in report:
+        assert diagnostic.message.strip()
+        for span in _places(diagnostic):
             size = len(texts.get(span.source.path, span.source.text))
-            assert 0 <= span.start <= span.end <= size, f"{one.message}: {span!r}"
-            assert span.begin <= span.finish
+            assert 0 <= span.start <= span.end <= size, f"{diagnostic.message}: {span!r}"
+            assert span.start_position <= span.end_position
 
 
-def _places(one: Diagnostic) -> Iterator[Span]:
-    yield one.span
-    yield from (note.span for note in one.notes)
-    yield from (edit.span for edit in one.fix.edits) if one.fix else ()
+def _places(diagnostic: Diagnostic) -> Iterator[Span]:
+    yield diagnostic.span
+    yield from (note.span for note in diagnostic.notes)
+    yield from (edit.span for edit in diagnostic.fix.edits) if diagnostic.fix else ()
 
 
 def _nothing_lost(source: Source, tree: Node) -> None:
     """Every word of the user that is no keyword is in a leaf of the tree."""
     leaves = [n.span for n in _nodes(tree) if n is not tree and not any(_children(n))]
     covered = {at for span in leaves for at in range(span.start, span.end)}
-    lexer = Lexer(source, load(source.path.suffix[1:]), Findings(source, Report()))
+    lexer = Lexer(source, load(source.path.suffix[1:]), FileDiagnostics(source, Report()))
     for token in lexer.tokens():
         if token.kind == END:
             return
@@ -117,5 +117,5 @@ def _within(value: Any) -> Iterator[Node]:
     if isinstance(value, Node):
         yield value
     elif isinstance(value, tuple):
-        for one in value:
-            yield from _within(one)
+        for diagnostic in value:
+            yield from _within(diagnostic)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robocomp_dsl.check import check_cdsl
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli import render
+from robocomp_dsl.check.passes import check_cdsl
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.output import render
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import OutputFile, plan
+from robocomp_dsl.generate.plan import OutputFile, plan
 from robocomp_dsl.model.component import Component
 
 GOLDEN = Path(__file__).parents[1] / "golden"
@@ -19,7 +19,7 @@ def component(path: Path) -> Component:
     """The component in a CDSL file without errors; only shipped interfaces are found beside it."""
     report = Report()
     found = check_cdsl(path, Workspace(environ={}), report)
-    assert not report.failed, render.full(report)
+    assert not report.has_errors, render.full(report)
     assert found is not None
     return found
 
@@ -32,7 +32,7 @@ def files(case: str) -> list[OutputFile]:
 
 def put(files: list[OutputFile], folder: Path) -> None:
     """Bring files into an empty folder."""
-    for one in files:
-        path = folder / one.path
+    for file in files:
+        path = folder / file.path
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(one.data)
+        path.write_bytes(file.data)

@@ -10,16 +10,17 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-import golden_cases as golden
 import pytest
 
-from robocomp_dsl.generate import names, plan
+from robocomp_dsl.generate import names
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.model import types as t
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 from robocomp_dsl.source import Source
+from tests.generate import golden_cases as golden
 
-HERE = Source(Path("x.idsl"), "").whole
+HERE = Source(Path("x.idsl"), "").file_span
 TABLES = (value for name, value in vars(names).items() if name.isupper())
 OWN = """self cls query command publish request request_ _ __ _x __x __init__ __class__ __slots__
 _fields_ _names_ _element_ _bind _link _call_a a b c x x_ x__ Pose PoseProxy POSE pose laser_proxy
@@ -33,7 +34,7 @@ POOL = sorted(
 PLAIN = (t.BOOL, t.BYTE, t.SHORT, t.INT, t.LONG, t.FLOAT, t.DOUBLE, t.STRING)
 
 
-class Made:
+class RandomComponent:
     """A component of three modules, drawn by chance."""
 
     def __init__(self, seed: int) -> None:
@@ -45,9 +46,9 @@ class Made:
     def component(self) -> Component:
         modules: list[Module] = []
         for name in ("One", "Two", "Three"):
-            made = tuple(self.declaration(name, n) for n in self.chance.sample(POOL, 40))
+            declarations = tuple(self.declaration(name, n) for n in self.chance.sample(POOL, 40))
             path = Path(f"{name}.idsl")
-            modules.append(Module(name, path, HERE, "", tuple(modules), made))
+            modules.append(Module(name, path, HERE, "", tuple(modules), declarations))
         ports = tuple(self.ports())
         name = self.chance.choice(POOL)
         return Component(name, Path("c.cdsl"), HERE, "Python", tuple(modules), ports)
@@ -80,13 +81,13 @@ class Made:
         called = self.chance.sample(POOL, self.chance.randrange(6))
         return tuple(t.Field(n, self.type(), HERE) for n in called)
 
-    def kept(self, made: t.Type) -> t.Declaration:
-        self.types.append(made)
-        assert isinstance(made, t.Declaration)
-        return made
+    def register(self, type_: t.Type) -> t.Declaration:
+        self.types.append(type_)
+        assert isinstance(type_, t.Declaration)
+        return type_
 
     def struct(self, module: str, name: str) -> t.Declaration:
-        return self.kept(t.Struct(module, name, HERE, "", self.fields()))
+        return self.register(t.Struct(module, name, HERE, "", self.fields()))
 
     def error(self, module: str, name: str) -> t.Declaration:
         self.errors.append(t.ExceptionType(module, name, HERE, "", self.fields()))
@@ -95,14 +96,14 @@ class Made:
     def enum(self, module: str, name: str) -> t.Declaration:
         called = self.chance.sample(POOL, self.chance.randrange(1, 5))
         values = tuple(t.Enumerator(n, i, HERE) for i, n in enumerate(called))
-        return self.kept(t.Enum(module, name, HERE, "", values))
+        return self.register(t.Enum(module, name, HERE, "", values))
 
     def sequence(self, module: str, name: str) -> t.Declaration:
-        return self.kept(t.Sequence(module, name, HERE, "", self.type()))
+        return self.register(t.Sequence(module, name, HERE, "", self.type()))
 
     def dictionary(self, module: str, name: str) -> t.Declaration:
         key = self.chance.choice([t.STRING, t.INT])
-        return self.kept(t.Dictionary(module, name, HERE, "", key, self.type()))
+        return self.register(t.Dictionary(module, name, HERE, "", key, self.type()))
 
     def interface(self, module: str, name: str) -> t.Declaration:
         called = self.chance.sample(POOL, self.chance.randrange(8))
@@ -133,7 +134,7 @@ COMMANDS = (
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_any_name(seed: int, tmp_path: Path) -> None:
-    golden.put(plan(Made(seed).component()), tmp_path)
+    golden.put(plan(RandomComponent(seed).component()), tmp_path)
     for command in COMMANDS:
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr

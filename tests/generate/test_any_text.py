@@ -9,19 +9,20 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import golden_cases as golden
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.generate import OutputFile, literals, plan
+from robocomp_dsl.generate import literals
+from robocomp_dsl.generate.plan import OutputFile, plan
 from robocomp_dsl.model import types as t
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
 from robocomp_dsl.source import Source
+from tests.generate import golden_cases as golden
 
-HERE = Source(Path("x.idsl"), "").whole
+HERE = Source(Path("x.idsl"), "").file_span
 TEXTS = st.text(max_size=40) | st.text("\"'\\\n\r\t{}%#*/ \x00\u2028é`|", max_size=20)
 
 
@@ -51,14 +52,14 @@ def test_any_text(doc: str, text: str, unit: str) -> None:
     files = {f.path: f for f in plan(component(doc, text, unit))}
     for path, file in files.items():
         if path.endswith(".py"):
-            compile(file.text, path, "exec")
-    interfaces = executed(files["generated/interfaces.py"])
+            compile(file.text, path, "exec", dont_inherit=True)
+    interfaces = executed(files["c_generated/interfaces.py"])
     assert interfaces.S().s == text
     assert interfaces.X().s == text
     title = literals.lines(doc)
     assert doc_of(interfaces.S)[: len(title) or 1] == (title or ["M::S."])
     assert doc_of(interfaces.E) == (title or ["M::E."])
-    params = executed(files["generated/params.py"])
+    params = executed(files["c_generated/params.py"])
     assert params.CParams.load(None).p == text
     config = yaml.safe_load(files["etc/config.yaml"].text)
     assert config == {"p": text, "c": "a"}
@@ -70,17 +71,17 @@ def executed(file: OutputFile) -> Any:
     """The module, run."""
     module = ModuleType("made")
     sys.modules["made"] = module
-    exec(compile(file.text, file.path, "exec"), module.__dict__)
+    exec(compile(file.text, file.path, "exec", dont_inherit=True), module.__dict__)
     return module
 
 
-def doc_of(made: type) -> list[str]:
-    return (inspect.getdoc(made) or "").split("\n")
+def doc_of(class_: type) -> list[str]:
+    return (inspect.getdoc(class_) or "").split("\n")
 
 
 def test_the_same_texts_through_the_languages() -> None:
     """The hostile golden case has them in files; here is what they become."""
-    (file,) = (f for f in golden.files("hostile") if f.path == "generated/interfaces.py")
+    (file,) = (f for f in golden.files("hostile") if f.path == "hostile_generated/interfaces.py")
     module = executed(file)
     assert module.A().s == '""" {{ x }} \\ \' \n'
     assert doc_of(module.E) == ["ends with a backslash\\"]

@@ -11,7 +11,6 @@ import sys
 import time
 from pathlib import Path
 
-import golden_cases as golden
 import jsonschema
 import pytest
 import yaml
@@ -20,6 +19,8 @@ from robocomp_dsl.generate import names
 from robocomp_dsl.runtime import Component
 from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.parameters import ParameterGroup, Parameters
+from tests.generate import golden_cases as golden
+from tests.support.generated_package import with_package
 
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
 PATIENCE_S = 120
@@ -95,14 +96,14 @@ def catches_sigterm(pid: int) -> bool:
 
 USED = """
 import numpy as np
-from generated import interfaces as i
+from PACKAGE import interfaces as i
 from robocomp_dsl.runtime import types as rt
 for interface in vars(i).values():
     if isinstance(interface, rt.Interface):
-        for one in interface.operations:
-            given = tuple(zero(t) for _, t in one.inputs)
-            back = one.decode_request(one.encode_request(given))
-            assert str(back) == str(given), (one.name, back, given)
+        for operation in interface.operations:
+            values = tuple(zero(t) for _, t in operation.inputs)
+            decoded = operation.decode_request(operation.encode_request(values))
+            assert str(decoded) == str(values), (operation.name, decoded, values)
             results = tuple(zero(t) for _, t in one.outputs)
             answer = results[0] if len(results) == 1 else results or None
             back = one.decode_reply(one.encode_reply(answer))
@@ -134,7 +135,7 @@ def test_every_type_travels(generated: Path, case: str) -> None:
 
 
 DEFAULTS = """
-from generated.interfaces import *
+from PACKAGE.interfaces import *
 n = Numbers()
 assert (n.flag, n.small, n.port, n.count, n.stamp) == (True, 7, -1, 0, 0)
 assert (n.ratio, n.exact, n.gear, n.other) == (2.0, 1e-7, Gear.High, Gear.Low)
@@ -152,8 +153,8 @@ assert e.nested.where.column("x").tolist() == [1.5]
 assert e.nested.inner.column("gear").tolist() == [2]
 """
 RENAMED = """
-from generated.interfaces import *
-p = RoboCompA_Pose(1, self_=2, class_=3, private_=4, secret__=5, rt=6)
+from PACKAGE.interfaces import *
+p = RoboCompA_Pose(1, self_=2, class_=3, private_=4, secret__=5, rt_=6)
 assert p._names_[3:7] == ("self_", "class_", "private_", "secret__")
 assert (p.id, p.self_, p.private_) == (1, 2, 4)
 assert [name for name, _ in p._fields_][3:7] == ["self", "class", "_private", "__secret"]
@@ -175,7 +176,7 @@ def test_values(generated: Path, case: str, code: str) -> None:
 
 def run(folder: Path, code: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", with_package(folder, code)],
         cwd=folder,
         capture_output=True,
         text=True,
@@ -187,7 +188,7 @@ def run(folder: Path, code: str) -> None:
 
 CONFIGURED = """
 import sys
-from generated.params import *
+from PACKAGE.params import *
 (main,) = (v for n, v in list(globals().items()) if n.endswith("Params"))
 assert main.load("etc/config.yaml").values() == eval(sys.stdin.read())
 """
@@ -215,7 +216,7 @@ VALUES = {
 @pytest.mark.parametrize("case", VALUES)
 def test_the_first_configuration_holds_the_defaults(generated: Path, case: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", CONFIGURED],
+        [sys.executable, "-c", with_package(generated / case, CONFIGURED)],
         cwd=generated / case,
         input=repr(VALUES[case]),
         capture_output=True,

@@ -9,8 +9,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import golden_cases as golden
 import pytest
+
+from tests.generate import golden_cases as golden
 
 EXPECTED = "expected"
 
@@ -25,15 +26,15 @@ def test_golden(case: str, update_golden: bool) -> None:
     found = {
         str(p.relative_to(folder)): p.read_text("utf-8") for p in folder.rglob("*") if p.is_file()
     }
-    for one in files:
-        assert one.text == found.pop(one.path, None), one.path
+    for file in files:
+        assert file.text == found.pop(file.path, None), file.path
     assert not found
 
 
 HASHED = """
 import sys
 from pathlib import Path
-import golden_cases as golden
+from tests.generate import golden_cases as golden
 for one in golden.files(sys.argv[1]):
     sys.stdout.buffer.write(one.data)
 """
@@ -46,7 +47,7 @@ def test_same_input_same_bytes(case: str) -> None:
         subprocess.run(
             [sys.executable, "-c", HASHED, case],
             env={**os.environ, "PYTHONHASHSEED": seed},
-            cwd=Path(__file__).parent,
+            cwd=Path(__file__).parents[2],
             check=True,
             capture_output=True,
         ).stdout
@@ -57,7 +58,7 @@ def test_same_input_same_bytes(case: str) -> None:
 
 @pytest.mark.parametrize("case", golden.CASES)
 def test_no_place_or_date_of_this_machine(case: str) -> None:
-    for one in golden.files(case):
-        assert str(golden.GOLDEN) not in one.text
-        assert "/home" not in one.text
-        assert not re.search(r"20\d\d-\d\d-\d\d", one.text)
+    for file in golden.files(case):
+        assert str(golden.GOLDEN) not in file.text
+        assert "/home" not in file.text
+        assert not re.search(r"20\d\d-\d\d-\d\d", file.text)

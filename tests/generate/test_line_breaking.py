@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.generate import layout
-from robocomp_dsl.generate.layout import Group, Item
+from robocomp_dsl.generate.python import layout
+from robocomp_dsl.generate.python.layout import Brackets, Item
 
 LONG = "a_name_of_about_fifty_characters_which_is_really_long"
 
@@ -59,14 +59,14 @@ def items(depth: int) -> st.SearchStrategy[Item]:
         names,
         st.builds(lambda i: layout.call("f", *i), inner),
         st.builds(lambda i: layout.tuple_of(*i), inner),
-        st.builds(lambda i: Group("{", i, "}"), inner),
+        st.builds(lambda i: Brackets("{", i, "}"), inner),
     )
 
 
 @settings(max_examples=4)
 @given(st.lists(items(3), min_size=60, max_size=60))
-def test_the_formatter_changes_nothing(made: list[Item]) -> None:
-    text = "".join(layout.statement("value = ", item) + "\n" for item in made)
+def test_the_formatter_changes_nothing(layout_items: list[Item]) -> None:
+    text = "".join(layout.statement("value = ", item) + "\n" for item in layout_items)
     assert formatted(text) == text
 
 

@@ -47,10 +47,10 @@ def test_any_text_in_a_docstring(text: str) -> None:
 def check_docstring(text: str) -> None:
     shown = literals.lines(text)
     source = f"class A:\n    {literals.docstring(text, '    ')}\n    x = 1\n"
-    made: dict[str, type] = {}
-    exec(source, made)
-    assert made["A"].__dict__["x"] == 1
-    assert (inspect.getdoc(made["A"]) or "").split("\n") == (shown or [""])
+    namespace: dict[str, type] = {}
+    exec(source, namespace)
+    assert namespace["A"].__dict__["x"] == 1
+    assert (inspect.getdoc(namespace["A"]) or "").split("\n") == (shown or [""])
 
 
 @given(TEXTS)

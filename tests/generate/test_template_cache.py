@@ -28,19 +28,19 @@ def rendered() -> str:
 
 def test_kept_and_used(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = rendered()
-    (kept,) = cache.iterdir()
+    (cached,) = cache.iterdir()
     monkeypatch.setattr("jinja2.Environment.compile", None)  # nothing is compiled any more
     assert rendered() == text
-    assert list(cache.iterdir()) == [kept]
+    assert list(cache.iterdir()) == [cached]
 
 
 @pytest.mark.parametrize("damage", [b"", b"garbage", b"j2\x05\x00" * 100])
 def test_damaged(cache: Path, damage: bytes) -> None:
     text = rendered()
-    (kept,) = cache.iterdir()
-    kept.write_bytes(damage)
+    (cached,) = cache.iterdir()
+    cached.write_bytes(damage)
     assert rendered() == text
-    assert kept.read_bytes() != damage
+    assert cached.read_bytes() != damage
 
 
 def test_no_place_for_it(cache: Path) -> None:

@@ -13,12 +13,12 @@ import pytest
 
 from robocomp_dsl.generate import write as writer
 from robocomp_dsl.generate.output import OutputFile
-from robocomp_dsl.generate.write import Action, CannotWrite, compare, write
+from robocomp_dsl.generate.write import CannotWrite, FileAction, compare, write
 
 FILES = [
     OutputFile("main.py", "main\n"),
     OutputFile("generated/a.py", "a\n"),
-    OutputFile("mine.py", "stub\n", keep=True),
+    OutputFile("mine.py", "stub\n", write_once=True),
 ]
 
 
@@ -28,7 +28,7 @@ def tree(folder: Path) -> dict[str, str]:
 
 def test_files_are_written(tmp_path: Path) -> None:
     changes = write(tmp_path / "deep" / "out", FILES)
-    assert [c.action for c in changes] == [Action.CREATE] * 3
+    assert [c.action for c in changes] == [FileAction.CREATE] * 3
     assert tree(tmp_path / "deep" / "out") == {f.path: f.text for f in FILES}
 
 
@@ -36,7 +36,7 @@ def test_a_second_time_nothing_is_touched(tmp_path: Path) -> None:
     write(tmp_path, FILES)
     stamps = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")}
     changes = write(tmp_path, FILES)
-    assert [c.action for c in changes] == [Action.SAME, Action.SAME, Action.KEEP]
+    assert [c.action for c in changes] == [FileAction.SAME, FileAction.SAME, FileAction.KEEP]
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")} == stamps
 
 
@@ -58,7 +58,7 @@ def test_a_dangling_link_of_the_user_is_theirs(tmp_path: Path) -> None:
 def test_compare_writes_nothing(tmp_path: Path) -> None:
     (tmp_path / "main.py").write_text("old\n")
     changes = compare(tmp_path, FILES)
-    assert [c.action for c in changes] == [Action.UPDATE, Action.CREATE, Action.CREATE]
+    assert [c.action for c in changes] == [FileAction.UPDATE, FileAction.CREATE, FileAction.CREATE]
     assert changes[0].old == b"old\n"
     assert tree(tmp_path) == {"main.py": "old\n"}
     assert not compare(tmp_path / "absent", FILES[:1])[0].old
@@ -231,13 +231,13 @@ def test_two_writers_at_once(tmp_path: Path) -> None:
             subprocess.Popen([sys.executable, "-c", WRITE, word], cwd=tmp_path)
             for word in ("a", "b")
         ]
-        assert [one.wait(60) for one in both] == [0, 0]
+        assert [writer.wait(60) for writer in both] == [0, 0]
         texts = set(tree(tmp_path / "out").values())
         assert len(texts) == 1
         assert len(tree(tmp_path / "out")) == 20
 
 
 def test_a_writer_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(writer, "LOCK_PATIENCE_S", 0.05)
+    monkeypatch.setattr(writer, "LOCK_TIMEOUT_S", 0.05)
     with writer._locked(tmp_path), pytest.raises(CannotWrite, match="another rcgen is writing"):
         write(tmp_path, FILES)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from simulated_arm import ARMS, Arm
+
+from tests.support.simulated_arm import ARMS, Arm
 
 
 @pytest.fixture(params=ARMS)

@@ -7,20 +7,21 @@ import math
 import mujoco
 import numpy as np
 import pytest
-from simulated_arm import Arm
 
-from robocomp_dsl.hardware.cartesian import Goal, goal_of, rotation_vector, solve, step
-from robocomp_dsl.hardware.cartesian_controller import (
+from robocomp_dsl.hardware.control.errors import ModeRefused
+from robocomp_dsl.hardware.control.faults import FaultCode
+from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.devices.errors import CommandRefused, SceneError
+from robocomp_dsl.hardware.kinematics.cartesian import goal_of, solve, step
+from robocomp_dsl.hardware.kinematics.cartesian_controller import (
     CartesianController,
     CartesianState,
-    Unreachable,
+    UnreachableGoal,
 )
-from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import Fault
-from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.errors import CommandRefused, SceneError
-from robocomp_dsl.hardware.mujoco import axes
-from robocomp_dsl.hardware.mujoco.control_board_chain import chain_of
+from robocomp_dsl.simulation.devices.control_board_chain import extract_chain
+from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.tactile.arm.inverse import Goal, rotation_vector
+from tests.support.simulated_arm import Arm
 
 ARMS = {"nao": (5, "l_hand"), "icub": (7, "r_hand")}
 
@@ -35,7 +36,7 @@ class Hand:
         self.arm = Arm(name)
         count, self.tip = ARMS[name]
         self.joints = self.arm.spec.names[:count]
-        self.chain = chain_of(self.arm.world.model, self.joints, self.tip)
+        self.chain = extract_chain(self.arm.world.model, self.joints, self.tip)
         self.controller = CartesianController(self.arm.board, self.chain, self.joints)
         self.arm.command.set_mode(None, Mode.POSITION)
         self.arm.settings.set_reference_speed(None, 1.0)
@@ -68,7 +69,7 @@ def test_the_chain_tells_poses_as_mujoco_does(hand):
     world = hand.arm.world
     for k in range(10):
         for joint in hand.chain.held:
-            hand.chain.hold(joint, 0.05 * k)
+            hand.chain.fix_joint(joint, 0.05 * k)
             world.data.joint(joint).qpos[0] = 0.05 * k
         pose = hand.some_pose(random)
         for joint, frame in zip(hand.joints, hand.chain.joints, strict=True):
@@ -130,7 +131,7 @@ def test_the_hand_goes_on_a_straight_line(hand):
     assert off < 4.0  # a tenth of the way
 
 
-def test_what_the_goal_leaves_free_goes_to_rest(hand):
+def test_inverse_kinematics_draws_free_joints_to_rest(hand):
     """A place takes three of the joints' freedoms; the others bring the arm near its rest."""
     chain = hand.chain
     place = chain.pose(chain.rest)[:3, 3] + 5.0
@@ -145,20 +146,20 @@ def test_steps_keep_to_the_limits_and_are_bounded_where_the_arm_is_straight(hand
     for q in (chain.low, chain.high, np.clip(np.zeros(len(chain.low)), chain.low, chain.high)):
         pose = chain.pose(q)
         for way in (*np.eye(3), *-np.eye(3)):
-            error = Goal(pose[:3, 3] + 300.0 * way, pose[:3, :3]).error(chain.pose(q))
-            made = step(chain, q, error, np.zeros(len(q)), 1e-2)
-            assert (q + made >= chain.low - 1e-12).all()
-            assert (q + made <= chain.high + 1e-12).all()
-            assert np.abs(made).max() < 31.0  # |error| over twice the root of the damping
+            goal = Goal(pose[:3, 3] + 300.0 * way, pose[:3, :3])
+            result = step(chain, q, goal, np.zeros(len(q)), 1e-2)
+            assert (q + result >= chain.low - 1e-12).all()
+            assert (q + result <= chain.high + 1e-12).all()
+            assert np.abs(result).max() < 31.0  # |error| over twice the root of the damping
 
 
 def test_goals_out_of_reach_are_refused_and_tell_what_is_nearest(hand):
     before = hand.arm.board.table.modes[:]
-    with pytest.raises(Unreachable, match=r"nearest that it gets is \d+\.\d mm"):
+    with pytest.raises(UnreachableGoal, match=r"nearest that it gets is \d+\.\d mm"):
         hand.controller.go_to([2000.0, 0.0, 0.0])
     assert hand.arm.board.table.modes == before
     assert hand.controller.state is CartesianState.IDLE
-    nearest = hand.controller.ask([2000.0, 0.0, 0.0])
+    nearest = hand.controller.nearest([2000.0, 0.0, 0.0])
     assert nearest.distance > 1000.0
 
 
@@ -166,7 +167,7 @@ HALF_TURNED = np.diag([1.0, 1.0, -1.0, 1.0])
 
 
 @pytest.mark.parametrize(
-    ("goal", "said"),
+    ("goal", "message"),
     [
         ([np.nan, 0, 0], "NaN"),
         ([0, 0], "shape"),
@@ -175,16 +176,16 @@ HALF_TURNED = np.diag([1.0, 1.0, -1.0, 1.0])
         (HALF_TURNED, "rotation"),
     ],
 )
-def test_goals_that_make_no_sense_are_refused(goal, said):
+def test_goals_that_make_no_sense_are_refused(goal, message):
     hand = Hand("nao")
-    with pytest.raises(CommandRefused, match=said):
+    with pytest.raises(CommandRefused, match=message):
         hand.controller.go_to(goal)
     for seconds in (0.0, -1.0, math.nan):
         with pytest.raises(CommandRefused):
             hand.controller.go_to(hand.true_pose(), seconds)
 
 
-def test_who_takes_the_joints_away_interrupts_the_motion(hand):
+def test_cartesian_controller_is_interrupted_by_mode_change(hand):
     goal = hand.some_pose(np.random.default_rng(8))
     hand.controller.go_to(goal, 3.0)
     hand.arm.world.advance(0.5)
@@ -192,7 +193,7 @@ def test_who_takes_the_joints_away_interrupts_the_motion(hand):
     hand.arm.world.advance(0.1)
     assert hand.controller.state is CartesianState.INTERRUPTED
     hand.controller.go_to(goal, 1.0)
-    hand.arm.board.fault(np.array([0]), Fault.EXTERNAL, "test")
+    hand.arm.board.fault(np.array([0]), FaultCode.EXTERNAL, "test")
     hand.arm.world.advance(0.1)
     assert hand.controller.state is CartesianState.INTERRUPTED
     with pytest.raises(ModeRefused):
@@ -226,10 +227,10 @@ def test_rotation_vectors_have_axis_and_angle(axis, angle):
 
 def test_chains_that_cannot_be_are_refused():
     model = Arm("nao").world.model
-    for joints, tip, said in (
+    for joints, tip, message in (
         (("LElbowRoll",), "tail", "no body or site `tail`"),
         (("Tail",), "l_hand", "no joint `Tail`"),
         (("LHand",), "LBicep", "does not move"),
     ):
-        with pytest.raises(SceneError, match=said):
-            chain_of(model, joints, tip)
+        with pytest.raises(SceneError, match=message):
+            extract_chain(model, joints, tip)

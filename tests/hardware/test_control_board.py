@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from simulated_arm import Arm
 
 from robocomp_dsl.hardware.control.board import Board
-from robocomp_dsl.hardware.control.calibration import Calibrator, Kind, Procedure
+from robocomp_dsl.hardware.control.calibration import CalibrationMethod, Calibrator, Procedure
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import (
     BadValue,
@@ -18,19 +17,20 @@ from robocomp_dsl.hardware.control.errors import (
     UnknownJoint,
     WrongMode,
 )
-from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
 from robocomp_dsl.hardware.control.parking import Parking, ParkState
 from robocomp_dsl.hardware.control.pid import Gains
-from robocomp_dsl.hardware.control.settings import Settings
+from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
-from robocomp_dsl.hardware.errors import SceneError
-from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.boards import board_names, robot_board, whole_robot
-from robocomp_dsl.hardware.robots.build import add_robot, new_world
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.hardware.devices.errors import SceneError
+from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
+from robocomp_dsl.simulation.robots.boards import board_names, robot_board, whole_robot
+from robocomp_dsl.simulation.robots.build import add_robot, new_world
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.world.world import World
+from tests.support.simulated_arm import Arm
 
 
 def test_velocities_are_reached_by_the_acceleration_and_held(arm):
@@ -167,7 +167,7 @@ def test_other_refusals():
     with pytest.raises(NotEquipped):
         command.set_interaction(None, Interaction.COMPLIANT)
     command.set_mode(None, Mode.POSITION)
-    Settings(board).set_reference_speed([1], 0.0)
+    ControlSettings(board).set_reference_speed([1], 0.0)
     with pytest.raises(NoSpeed, match="`j1`"):
         command.position_move(None, 0.5)
     command.set_mode(None, Mode.TORQUE)
@@ -185,7 +185,7 @@ def test_an_encoder_without_a_number_is_a_fault_of_its_joint_alone():
     board.step(np.full(3, 0.1), np.zeros(3), 0.001)
     torque = board.step(np.array([0.1, np.nan, 0.2]), np.zeros(3), 0.001)
     assert board.table.modes == [Mode.POSITION, Mode.HW_FAULT, Mode.POSITION]
-    assert board.faults.last[1].code is Fault.ENCODER
+    assert board.faults.last[1].code is FaultCode.ENCODER
     assert np.isfinite(torque).all()
     assert torque[1] == 0.0
     assert board.position == pytest.approx([0.1, 0.1, 0.2])
@@ -198,10 +198,10 @@ def test_heat_and_lateness_are_faults():
     board.motors.set_temperature(np.array([100.0, 25.0, 25.0]))
     board.pid.set_error_limits(np.arange(3), np.full(3, 0.2))
     board.step(np.array([0.0, 0.3, 0.3]), np.zeros(3), 0.001)
-    assert [one.code for one in board.faults.last] == [
-        Fault.OVERTEMPERATURE,
-        Fault.TRACKING,
-        Fault.NONE,
+    assert [item.code for item in board.faults.last] == [
+        FaultCode.OVERTEMPERATURE,
+        FaultCode.TRACKING,
+        FaultCode.NONE,
     ]
 
 
@@ -214,7 +214,7 @@ def test_coupled_joints_change_together():
     with pytest.raises(ModeRefused, match="coupled"):
         command.set_mode([0, 1], [Mode.VELOCITY, Mode.TORQUE])
     assert board.table.modes[0] is Mode.POSITION
-    board.fault(np.array([2]), Fault.EXTERNAL, "pulled the plug")
+    board.fault(np.array([2]), FaultCode.EXTERNAL, "pulled the plug")
     assert board.table.modes == [Mode.HW_FAULT] * 3 + [Mode.IDLE] * 4
 
 
@@ -262,7 +262,9 @@ def test_calibration_finds_the_zero_and_goes_home():
     with pytest.raises(ModeRefused, match="not calibrated"):
         arm.command.set_mode(None, Mode.POSITION)
     home = arm.inside
-    hard = Procedure(Kind.HARD_STOP, duty=-8.0, stop=arm.board.limits.low[4], home=home[4], speed=1)
+    hard = Procedure(
+        CalibrationMethod.HARD_STOP, duty=-8.0, stop=arm.board.limits.low[4], home=home[4], speed=1
+    )
     plain = [Procedure(zero=ZERO[i], home=home[i], speed=1.0) for i in range(6)]
     calibrator = Calibrator(arm.board, (*plain[:4], hard, plain[5]))
     calibrator.calibrate()
@@ -283,12 +285,12 @@ def test_calibration_finds_the_zero_and_goes_home():
 
 def test_a_calibration_that_takes_too_long_is_a_fault():
     arm = Arm("nao", ZERO)
-    slow = Procedure(Kind.HARD_STOP, duty=0.5, stop=1.0, timeout=0.5)
+    slow = Procedure(CalibrationMethod.HARD_STOP, duty=0.5, stop=1.0, timeout=0.5)
     calibrator = Calibrator(arm.board, (slow,) * 6)
     calibrator.calibrate([0])
     arm.world.advance(1.0)
     assert arm.board.table.modes[0] is Mode.HW_FAULT
-    assert arm.board.faults.last[0].code is Fault.CALIBRATION
+    assert arm.board.faults.last[0].code is FaultCode.CALIBRATION
     with pytest.raises(ModeRefused):
         calibrator.calibrate([0])
     arm.command.set_mode([0], Mode.FORCE_IDLE)
@@ -302,7 +304,7 @@ def test_a_calibration_that_takes_too_long_is_a_fault():
 
 def test_impossible_calibrations_are_refused():
     board, _ = plain_board()
-    for wrong in ({"kind": Kind.HARD_STOP}, {"speed": 0.0}, {"timeout": 0.0}):
+    for wrong in ({"kind": CalibrationMethod.HARD_STOP}, {"speed": 0.0}, {"timeout": 0.0}):
         with pytest.raises(BadValue):
             Procedure(**wrong)
     with pytest.raises(BadValue):
@@ -329,7 +331,7 @@ def test_parking_may_be_stopped_and_may_fail(arm):
     parking.park()
     arm.world.advance(0.5)
     assert ParkState.FAILED in parking.states
-    arm.board.fault(np.array([0]), Fault.EXTERNAL, "test")
+    arm.board.fault(np.array([0]), FaultCode.EXTERNAL, "test")
     with pytest.raises(ModeRefused):
         parking.park()
 
@@ -351,7 +353,7 @@ def test_settings_are_checked_and_move_nothing(arm):
     low, high = arm.settings.position_limits()
     arm.settings.set_position_limits([1], low[1] + 0.1, high[1] - 0.1)
     assert arm.settings.position_limits([1])[0] == pytest.approx(low[1] + 0.1)
-    assert arm.settings.last_fault(first).code is Fault.NONE
+    assert arm.settings.last_fault(first).code is FaultCode.NONE
     arm.settings.set_speed_limits(None, 1.0)
     for wrong in (
         lambda: arm.settings.set_position_limits([1], low[1] - 1.0, high[1]),
@@ -366,7 +368,7 @@ def test_settings_are_checked_and_move_nothing(arm):
 
 def test_settings_are_read_back_and_regulators_switched():
     board, command = plain_board()
-    settings = Settings(board)
+    settings = ControlSettings(board)
     command.set_mode(None, Mode.POSITION)
     settings.set_reference_speed(["j1"], 0.7)
     settings.set_acceleration([2], 3.0)

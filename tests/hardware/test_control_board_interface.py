@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from robocomp_dsl.check import check_idsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
@@ -17,12 +17,14 @@ INTERFACE = Path(__file__).parents[2] / "interfaces" / "ControlBoard.idsl"
 def _module():
     report = Report()
     modules = check_idsl(INTERFACE, Workspace(environ={}), report)
-    assert not report.failed
+    assert not report.has_errors
     return modules[0]
 
 
 def test_every_operation_has_a_servant():
-    board = next(one for one in _module().interfaces if one.name == "ControlBoard")
+    board = next(
+        interface for interface in _module().interfaces if interface.name == "ControlBoard"
+    )
     assert len(board.operations) > 35
     for operation in board.operations:
         answers = getattr(ControlBoardServant, operation.name, None)
@@ -31,9 +33,13 @@ def test_every_operation_has_a_servant():
 
 def test_modes_are_in_the_order_of_the_interface():
     """The servant turns one into the other by its place."""
-    enums = {one.name: one for one in _module().declarations if isinstance(one, Enum)}
+    enums = {
+        declaration.name: declaration
+        for declaration in _module().declarations
+        if isinstance(declaration, Enum)
+    }
     own = {"HardwareFault": "HW_FAULT", "CalibrationDone": "CALIB_DONE"}
     for name, modes in (("ControlMode", Mode), ("InteractionMode", Interaction)):
-        for said, mode in zip(enums[name].enumerators, modes, strict=True):
-            words = "".join(f"_{c}" if c.isupper() else c for c in said.name)
-            assert own.get(said.name, words.lstrip("_").upper()) == mode.name
+        for enumerator, mode in zip(enums[name].enumerators, modes, strict=True):
+            words = "".join(f"_{c}" if c.isupper() else c for c in enumerator.name)
+            assert own.get(enumerator.name, words.lstrip("_").upper()) == mode.name

@@ -1,4 +1,4 @@
-"""Trajectories, ramps, regulators, limits, motors: each part of a control board by itself."""
+"""Trajectories, ramps, controllers, limits, motors: each part of a control board by itself."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.hardware.control.acceleration import SMOOTHING, Acceleration
+from robocomp_dsl.hardware.control.acceleration import SMOOTHING, AccelerationFilter
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
-from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.limits import JointLimits
 from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
 from robocomp_dsl.hardware.control.motors import Motors
 from robocomp_dsl.hardware.control.pid import Gains, PidBank
@@ -120,7 +120,7 @@ def test_velocities_ramp_and_time_out():
 @pytest.mark.parametrize("asked_each", [1, 7, 1000])
 def test_accelerations_are_those_of_a_filter_whoever_asks(asked_each):
     random, velocity, expected = np.random.default_rng(0), np.zeros(3), np.zeros(3)
-    acceleration = Acceleration(velocity)
+    acceleration = AccelerationFilter(velocity)
     for k in range(200):
         dt = DT if k < 120 else 2 * DT
         faster = velocity + random.normal(size=3) * 0.01
@@ -141,9 +141,9 @@ def test_regulators_have_proportion_integral_damping_and_bounds():
         bank.step(np.array([1.0]), np.zeros(1), 0.1)
     assert bank.integral == pytest.approx([0.3])
     assert bank.step(np.array([100.0]), np.zeros(1), 0.1) == pytest.approx([10])
-    bank.choose(bank.gains, np.zeros(1, bool))
+    bank.configure(bank.gains, np.zeros(1, bool))
     assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([0])
-    bank.choose(bank.gains, np.ones(1, bool))
+    bank.configure(bank.gains, np.ones(1, bool))
     assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([2.2])
 
 
@@ -172,7 +172,7 @@ def test_springs_pull_back_and_keep_to_their_bounds():
 
 
 def test_torques_keep_to_the_limits_and_lead_back():
-    limits = Limits(board(5))
+    limits = JointLimits(board(5))
     q = np.array([0.0, 1.01, 1.01, -1.01, 0.0])
     dq = np.array([0.0, 0.0, 0.0, 0.0, 3.0])
     torque = limits.guard(q, dq, np.array([9.0, 4.0, -4.0, -1.0, 1.0]))
@@ -183,10 +183,10 @@ def test_torques_keep_to_the_limits_and_lead_back():
 
 
 def test_limits_may_be_narrowed_only():
-    limits = Limits(board())
+    limits = JointLimits(board())
     limits.set_position(ONE, np.array([-0.5]), np.array([0.5]))
-    kept, clipped = limits.clip(np.array([0, 1]), np.array([0.7, 0.7]))
-    assert kept == pytest.approx([0.5, 0.7])
+    saved, clipped = limits.clip(np.array([0, 1]), np.array([0.7, 0.7]))
+    assert saved == pytest.approx([0.5, 0.7])
     assert clipped.tolist() == [True, False]
     for low, high in ((-2, 0), (0.5, 0.2), (0, 1.5)):
         with pytest.raises(BadValue):

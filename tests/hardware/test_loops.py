@@ -1,4 +1,4 @@
-"""Regulators of velocity, torque and current: their gains tell in what the simulated motor does."""
+"""Controllers of velocity, torque and current: their gains change the simulated motion."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from simulated_arm import Arm
 
 from robocomp_dsl.hardware.control.errors import BadValue
 from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.pid import Gains
+from tests.support.simulated_arm import Arm
 
 ELBOW = 3
 ONE = [ELBOW]
@@ -133,7 +133,7 @@ def test_a_regulator_is_bounded_forgets_and_is_switched_off(loop: Loop) -> None:
     arm.world.advance(0.002)
     assert arm.settings.pid_output(ONE, loop) == pytest.approx([0.01])
     others = set(Loop) - {loop}
-    assert all(not arm.settings.pid_output(ONE, one).any() for one in others)
+    assert all(not arm.settings.pid_output(ONE, item).any() for item in others)
     arm.settings.enable_pid(ONE, False, loop)
     assert arm.settings.pid_enabled(None, loop).tolist() == [
         i != ELBOW for i in range(len(arm.inside))

@@ -4,7 +4,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.mesh_file import MeshError, read_mesh
+from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_mesh
 
 OBJ = """\
 # a corner
@@ -80,10 +80,10 @@ def test_points_and_faces(
 
 
 @pytest.mark.parametrize(
-    ("name", "content", "said"),
+    ("name", "content", "message"),
     [
         ("a.ive", b"", "`.ive` files cannot be read; convert it to .obj or .stl"),
-        ("mesh", b"", "no file with a suffix that tells its format"),
+        ("mesh", b"", "its suffix names no supported format"),
         ("gone.obj", None, "No such file"),
         ("a.obj", b"v 1 2\n", "the file is damaged"),
         ("a.obj", b"v 0 0 0\nf 1 2 3\n", "the file is damaged (a face names a point that is not"),
@@ -95,11 +95,11 @@ def test_points_and_faces(
     ],
 )
 def test_what_is_no_mesh_is_told(
-    tmp_path: Path, name: str, content: bytes | None, said: str
+    tmp_path: Path, name: str, content: bytes | None, message: str
 ) -> None:
     path = tmp_path / name
     if content is not None:
         path.write_bytes(content)
     with pytest.raises(MeshError) as error:
         read_mesh(path)
-    assert said in str(error.value)
+    assert message in str(error.value)

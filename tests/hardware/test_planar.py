@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from robocomp_dsl.hardware.planar import Pose, arc, wrapped
+from robocomp_dsl.hardware.kinematics.planar import Pose, arc, wrap_angle
 
 QUARTER = math.pi / 2
 
@@ -50,5 +50,5 @@ def test_wheels_make_arcs(left: float, right: float, step: Pose) -> None:
 
 
 def test_angles_are_wrapped_to_one_turn() -> None:
-    assert wrapped(3 * math.pi) == -math.pi
-    assert wrapped(-0.1) == pytest.approx(-0.1)
+    assert wrap_angle(3 * math.pi) == -math.pi
+    assert wrap_angle(-0.1) == pytest.approx(-0.1)

@@ -3,11 +3,11 @@ import math
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.errors import CommandRefused, FrameError
-from robocomp_dsl.hardware.jacobian import jacobian
-from robocomp_dsl.hardware.rotations import angles, inverse, rotation
-from robocomp_dsl.hardware.scene import Frame, Motion
-from robocomp_dsl.hardware.transforms import TransformTree
+from robocomp_dsl.hardware.description.scene import Frame, Motion
+from robocomp_dsl.hardware.devices.errors import CommandRefused, FrameError
+from robocomp_dsl.hardware.kinematics.jacobian import jacobian
+from robocomp_dsl.hardware.kinematics.rotations import angles, inverse, rotation
+from robocomp_dsl.hardware.kinematics.transforms import TransformTree
 
 QUARTER = math.pi / 2
 
@@ -100,7 +100,7 @@ def test_frames_come_go_and_move() -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "said"),
+    ("wrong", "message"),
     [
         (lambda t: t.add(Frame("hand", "base")), "there is a frame `hand` already"),
         (lambda t: t.add(Frame("x", "nowhere")), "there is no frame `nowhere`"),
@@ -115,11 +115,11 @@ def test_frames_come_go_and_move() -> None:
         (lambda t: jacobian(t, ["base"], "hand"), "`base` is no joint"),
     ],
 )
-def test_what_cannot_be_is_refused_and_changes_nothing(wrong: object, said: str) -> None:
+def test_what_cannot_be_is_refused_and_changes_nothing(wrong: object, message: str) -> None:
     tree = arm()
     with pytest.raises((FrameError, CommandRefused)) as refusal:
         wrong(tree)  # type: ignore[operator]
-    assert said in str(refusal.value)
+    assert message in str(refusal.value)
     assert tree.transform((0, 0, 0), "hand", "root") == pytest.approx((1230, 500, 2000))
 
 

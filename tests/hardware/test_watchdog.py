@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from simulated_arm import Arm
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.variables import RemoteVariables
+from tests.support.simulated_arm import Arm
 
 ELBOW = 3
 PUSHES = {
@@ -31,7 +31,7 @@ def ready(name: str, seconds: float, mode: Mode) -> Arm:
 
 @pytest.mark.parametrize("mode", PUSHES)
 @pytest.mark.parametrize("name", ["nao", "icub"])
-def test_a_joint_that_nobody_pushes_any_more_holds_its_place(name: str, mode: Mode) -> None:
+def test_joint_holds_position_after_reference_timeout(name: str, mode: Mode) -> None:
     arm = ready(name, 0.2, mode)
     for _ in range(8):
         PUSHES[mode](arm.command)
@@ -43,11 +43,11 @@ def test_a_joint_that_nobody_pushes_any_more_holds_its_place(name: str, mode: Mo
     assert state.modes[ELBOW] is Mode.POSITION
     assert state.interactions[ELBOW] is Interaction.COMPLIANT
     assert np.flatnonzero(state.faults).tolist() == [ELBOW]
-    assert state.faults[ELBOW] == Fault.SILENCE
+    assert state.faults[ELBOW] == FaultCode.REFERENCE_TIMEOUT
     report = arm.settings.last_fault(ELBOW)
     assert (report.code, report.message) == (
-        Fault.SILENCE,
-        "no reference came for 0.2 s: it holds its place",
+        FaultCode.REFERENCE_TIMEOUT,
+        "no reference came for 0.2 s: it holds its position",
     )
     arm.world.advance(2.0)
     assert arm.board.position[ELBOW] == pytest.approx(held, abs=0.2)
@@ -62,7 +62,7 @@ def test_who_takes_hold_again_finds_the_joint_as_it_was() -> None:
     state = arm.board.state()
     assert state.interactions[ELBOW] is Interaction.STIFF
     assert not state.faults.any()
-    assert arm.settings.last_fault(ELBOW).code is Fault.SILENCE
+    assert arm.settings.last_fault(ELBOW).code is FaultCode.REFERENCE_TIMEOUT
     arm.go([ELBOW], arm.inside[[ELBOW]])
     assert arm.board.position[ELBOW] == pytest.approx(arm.inside[ELBOW], abs=0.02)
 
@@ -102,6 +102,6 @@ def test_patience_changes_at_once_and_0_is_for_ever() -> None:
 
 
 @pytest.mark.parametrize("wrong", [-0.1, np.nan, np.inf])
-def test_a_time_of_silence_is_a_time(wrong: float) -> None:
-    with pytest.raises(BadValue, match="a time of silence"):
+def test_watchdog_refuses_invalid_timeouts(wrong: float) -> None:
+    with pytest.raises(BadValue, match="a time-out is"):
         Arm("nao").settings.set_reference_timeout(wrong)

@@ -91,14 +91,12 @@ def _visible(language: str, text: str) -> list[tuple[object, str]]:
 
 
 @pytest.mark.parametrize(("language", "text", "expected"), CASES)
-def test_words_are_keywords_where_the_grammar_has_a_place_for_them(
-    language: str, text: str, expected: str
-) -> None:
+def test_lexer_marks_keywords_as_the_grammar_does(language: str, text: str, expected: str) -> None:
     assert kinds(language, text) == expected
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
-def test_every_file_has_colours_and_comes_back_whole(file: Path) -> None:
+def test_lexer_round_trip_of_every_file(file: Path) -> None:
     text = file.read_text(encoding="utf-8", errors="replace")
     lexer = ALL[file.suffix[1:]](stripnl=False, ensurenl=False)
     found = list(lexer.get_tokens(text))
@@ -109,7 +107,7 @@ def test_every_file_has_colours_and_comes_back_whole(file: Path) -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_lexers_are_found_by_name_and_by_file(language: str) -> None:
+def test_lexers_are_registered_by_name_and_file(language: str) -> None:
     from pygments.lexers import get_lexer_by_name, get_lexer_for_filename  # noqa: PLC0415
 
     assert isinstance(get_lexer_by_name(language), ALL[language])
@@ -117,6 +115,6 @@ def test_lexers_are_found_by_name_and_by_file(language: str) -> None:
 
 
 @given(st.sampled_from(LANGUAGES), st.text(alphabet='ab01 \n{};:[]()<>="/*#\\.,->on', max_size=60))
-def test_any_text_comes_back_whole(language: str, text: str) -> None:
+def test_lexer_round_trip_of_any_text(language: str, text: str) -> None:
     found = ALL[language](stripnl=False, ensurenl=False).get_tokens(text)
     assert "".join(part for _, part in found) == text

@@ -9,7 +9,7 @@ from __future__ import annotations
 import random
 from collections.abc import Mapping
 
-from robocomp_dsl.check.innermodel_tags import (
+from robocomp_dsl.check.innermodel.tags import (
     ANGLE,
     ANGLE_LIMIT,
     EXTENT,
@@ -141,16 +141,16 @@ class _Maker:
         return f'<include path="{folder}{name}"/>\n'
 
     def attributes(self, name: str) -> list[str]:
-        made = []
+        result = []
         known = TAGS[name].attributes
         for attribute, kind in known.items():
             likely = 0.9 if attribute in {"id", "file"} else 0.35
             if self.dice.random() < likely:
-                made.append(f' {attribute}="{self.value(attribute, kind)}"')
+                result.append(f' {attribute}="{self.value(attribute, kind)}"')
         if self.odd and self.dice.random() < 0.1:
-            made.append(' x="3"')
-        self.dice.shuffle(made)
-        return made
+            result.append(' x="3"')
+        self.dice.shuffle(result)
+        return result
 
     def value(self, attribute: str, kind: Kind) -> str:
         if attribute == "id":

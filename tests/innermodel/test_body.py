@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model import body
-from robocomp_dsl.model.body import Body
+from robocomp_dsl.model import innermodel
+from robocomp_dsl.model.innermodel import InnerModel
 
 
-def checked(folder: Path, text: str) -> tuple[Body, Report]:
+def checked(folder: Path, text: str) -> tuple[InnerModel, Report]:
     path = folder / "world.xml"
     path.write_text(f"<innerModel>{text}</innerModel>")
     report = Report()
@@ -21,7 +21,7 @@ def checked(folder: Path, text: str) -> tuple[Body, Report]:
     return found, report
 
 
-def only(folder: Path, text: str) -> body.Node:
+def only(folder: Path, text: str) -> innermodel.Node:
     found, report = checked(folder, text)
     assert [d.message for d in report] == []
     (node,) = found.root.children
@@ -31,39 +31,51 @@ def only(folder: Path, text: str) -> body.Node:
 @pytest.mark.parametrize(
     ("text", "kind", "values"),
     [
-        ('<transform id="a"/>', body.Transform, {"tx": 0, "rz": 0, "engine": "static", "mass": 0}),
-        ('<TRANSFORM id="a" tx="-1.5e2"/>', body.Transform, {"tx": -150, "tag": "transform"}),
-        ('<rotation id="a" ry=" 1.5 "/>', body.Transform, {"ry": 1.5, "tag": "rotation"}),
+        (
+            '<transform id="a"/>',
+            innermodel.Transform,
+            {"tx": 0, "rz": 0, "engine": "static", "mass": 0},
+        ),
+        ('<TRANSFORM id="a" tx="-1.5e2"/>', innermodel.Transform, {"tx": -150, "tag": "transform"}),
+        ('<rotation id="a" ry=" 1.5 "/>', innermodel.Transform, {"ry": 1.5, "tag": "rotation"}),
         (
             '<joint id="a"/>',
-            body.Joint,
+            innermodel.Joint,
             {"axis": "z", "min": -math.inf, "max": math.inf, "home": 0},
         ),
-        ('<joint id="a" axis="X" port="10067"/>', body.Joint, {"axis": "x", "port": 10067}),
+        ('<joint id="a" axis="X" port="10067"/>', innermodel.Joint, {"axis": "x", "port": 10067}),
         (
             '<prismaticjoint id="a" position="5"/>',
-            body.PrismaticJoint,
+            innermodel.PrismaticJoint,
             {"position": 5, "offset": 0},
         ),
         (
             '<plane id="a"/>',
-            body.Plane,
+            innermodel.Plane,
             {"size": (2500, 2500, 25), "repeat": 1000, "collide": False},
         ),
-        ('<plane id="a" size="200"/>', body.Plane, {"size": (200, 200, 2)}),
-        ('<plane id="a" size="200,100"/>', body.Plane, {"size": (200, 100, 1)}),
-        ('<plane id="a" size="200, 100 ,5" collide="1"/>', body.Plane, {"size": (200, 100, 5)}),
-        ('<mesh id="a" file="x.obj" scale="2,3"/>', body.Mesh, {"scale": (2, 3, 2)}),
-        ('<mesh id="a" file="x.obj"/>', body.Mesh, {"scale": (1, 1, 1), "render": "normal"}),
-        ('<differentialrobot id="a" noise="0.1"/>', body.Base, {"noise": 0.1, "port": 0}),
-        ('<laser id="a" measures="360" angle="3.14"/>', body.Laser, {"measures": 360, "min": 0}),
-        ('<rgbd id="a" width="640" focal="480"/>', body.Camera, {"width": 640, "focal": 480}),
-        ('<axes id="a" length="30"/>', body.Axes, {"length": 30, "width": 15, "lengthx": -1}),
-        ('<display id="a" port="5"/>', body.Plane, {"port": 5, "tag": "display"}),
+        ('<plane id="a" size="200"/>', innermodel.Plane, {"size": (200, 200, 2)}),
+        ('<plane id="a" size="200,100"/>', innermodel.Plane, {"size": (200, 100, 1)}),
+        (
+            '<plane id="a" size="200, 100 ,5" collide="1"/>',
+            innermodel.Plane,
+            {"size": (200, 100, 5)},
+        ),
+        ('<mesh id="a" file="x.obj" scale="2,3"/>', innermodel.Mesh, {"scale": (2, 3, 2)}),
+        ('<mesh id="a" file="x.obj"/>', innermodel.Mesh, {"scale": (1, 1, 1), "render": "normal"}),
+        ('<differentialrobot id="a" noise="0.1"/>', innermodel.Base, {"noise": 0.1, "port": 0}),
+        (
+            '<laser id="a" measures="360" angle="3.14"/>',
+            innermodel.Laser,
+            {"measures": 360, "min": 0},
+        ),
+        ('<rgbd id="a" width="640" focal="480"/>', innermodel.Camera, {"width": 640, "focal": 480}),
+        ('<axes id="a" length="30"/>', innermodel.Axes, {"length": 30, "width": 15, "lengthx": -1}),
+        ('<display id="a" port="5"/>', innermodel.Plane, {"port": 5, "tag": "display"}),
     ],
 )
 def test_values_and_defaults(
-    tmp_path: Path, text: str, kind: type[body.Node], values: dict[str, object]
+    tmp_path: Path, text: str, kind: type[innermodel.Node], values: dict[str, object]
 ) -> None:
     node = only(tmp_path, text)
     assert type(node) is kind
@@ -77,7 +89,7 @@ def test_values_and_defaults(
         ('<innermodel id="a"/>', ["RC801 `innermodel` "]),
         ('<transform id="a" TX="1"/>', ["RC802 `TX` did you mean `tx`?"]),
         ('<translation id="a" x="1"/>', ["RC802 `x` did you mean `tx`?"]),
-        ('<camera id="a" port="1"/>', ["RC802 `port` it is not used"]),
+        ('<camera id="a" port="1"/>', ["RC802 `port` ignored"]),
         ('<transform id="a" tx="0,5"/>', ['RC803 `"0,5"` ']),
         ('<transform id="a" tx=""/>', ['RC803 `""` ']),
         ('<transform id="a" tx="nan"/>', ['RC803 `"nan"` ']),
@@ -92,8 +104,8 @@ def test_values_and_defaults(
         ),
         ('<plane id="a" size="1,2,3,4"/>', ['RC803 `"1,2,3,4"` ']),
         ('<plane id="a" collide="true"/>', ['RC803 `"true"` ']),
-        ('<imu id="a"/><imu id="a"/>', ['RC804 `"a"` choose another one']),
-        ('<imu id="root"/>', ['RC804 `"root"` choose another one']),
+        ('<imu id="a"/><imu id="a"/>', ['RC804 `"a"` choose another id']),
+        ('<imu id="root"/>', ['RC804 `"root"` choose another id']),
         ("<imu/>", ["RC805 `imu` nothing can refer to it"]),
         ('<include path="gone.xml"/>', ['RC806 `"gone.xml"` ']),
         ("<include/>", ["RC806 `include` "]),
@@ -141,11 +153,11 @@ def test_what_is_wrong_is_left_out_and_the_rest_stands(tmp_path: Path) -> None:
         '<transform id="a" tx="x" ty="7"><foo><imu id="lost"/></foo><imu id="a"/><imu/></transform>'
         '<plane id="p"/>',
     )
-    assert report.failed
+    assert report.has_errors
     names = [(n.id, p.id if p else "") for n, p in found.nodes()]
     assert names == [("root", ""), ("a", "root"), ("a#2", "a"), ("imu#1", "a"), ("p", "root")]
     (first, _) = found.root.children
-    assert isinstance(first, body.Transform)
+    assert isinstance(first, innermodel.Transform)
     assert (first.tx, first.ty) == (0, 7)
 
 
@@ -177,7 +189,7 @@ def test_files_include_files(tmp_path: Path) -> None:
 def test_a_cycle_of_includes_is_told_and_cut(tmp_path: Path) -> None:
     (tmp_path / "b.xml").write_text('<innermodel><include path="world.xml"/></innermodel>')
     found, report = checked(tmp_path, '<imu id="a"/><include path="b.xml"/>')
-    assert [d.message for d in report] == ["the file includes itself by way of `b.xml`"]
+    assert [d.message for d in report] == ["the file includes itself through `b.xml`"]
     assert len(list(found.nodes())) == 2
 
 

@@ -12,9 +12,10 @@ from hypothesis import strategies as st
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.resources import GRAMMARS
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import parse_innermodel, tabulate
-from robocomp_dsl.syntax.ast_innermodel import Element, File
-from robocomp_dsl.syntax.xml_tokens import tokens
+from robocomp_dsl.syntax.ast.innermodel import Element, File
+from robocomp_dsl.syntax.grammar import build_tables
+from robocomp_dsl.syntax.parse import parse_innermodel
+from robocomp_dsl.syntax.xml.xml_tokens import tokens
 
 
 def parsed(text: str) -> tuple[File, Report]:
@@ -26,9 +27,9 @@ def shape(element: Element | None) -> str:
     """`tag(attributes)[children]`."""
     if element is None:
         return "-"
-    given = ",".join(f"{a.name.text}={a.value.value}" for a in element.attributes)
+    values = ",".join(f"{a.name.text}={a.value.value}" for a in element.attributes)
     inside = " ".join(map(shape, element.children))
-    return f"{element.tag.text}({given})" + (f"[{inside}]" if inside else "")
+    return f"{element.tag.text}({values})" + (f"[{inside}]" if inside else "")
 
 
 @pytest.mark.parametrize(
@@ -85,9 +86,12 @@ def test_what_is_right(text: str, found: str) -> None:
 def test_what_is_wrong(text: str, tree: str, findings: list[str]) -> None:
     found, report = parsed(text)
     assert shape(found.root) == tree
-    said = [f"{d.code.id} {d.span.begin[0]}:{d.span.begin[1]} {d.span.text}" for d in report]
-    assert sorted(said) == sorted(findings)
-    assert found.complete == (not report.failed)
+    message = [
+        f"{d.code.id} {d.span.start_position[0]}:{d.span.start_position[1]} {d.span.text}"
+        for d in report
+    ]
+    assert sorted(message) == sorted(findings)
+    assert found.complete == (not report.has_errors)
 
 
 def test_a_fix_leads_to_a_right_file() -> None:
@@ -108,7 +112,7 @@ def test_a_file_of_nothing_but_errors_ends() -> None:
 
 def test_nesting_has_no_limit_here() -> None:
     tree, report = parsed("<a>" * 20_000 + "</a>" * 20_000)
-    assert not report.failed
+    assert not report.has_errors
     assert tree.root is not None
 
 
@@ -123,24 +127,24 @@ PIECES = [
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
 def test_anything_is_read(text: str) -> None:
     tree, report = parsed(text)
-    assert tree.complete == (not report.failed)
+    assert tree.complete == (not report.has_errors)
     for finding in report:
         assert 0 <= finding.span.start <= finding.span.end <= len(text)
 
 
 @cache
 def lark() -> Any:
-    return tabulate.lark(tabulate.XML)
+    return build_tables.lark_parser(build_tables.XML)
 
 
 @settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
 def test_tokens_are_those_of_lark(text: str) -> None:
     read = lark().parse_interactive(text).exhaust_lexer()
-    wanted = [(t.type, t.start_pos, t.end_pos) for t in read]
-    assert [(t.kind, t.start, t.end) for t in tokens(text)] == wanted
+    expected = [(t.type, t.start_pos, t.end_pos) for t in read]
+    assert [(t.kind, t.start, t.end) for t in tokens(text)] == expected
 
 
 def test_the_kept_terminals_are_fresh() -> None:
-    kept = json.loads((GRAMMARS / "tables" / "innermodel.json").read_text())
-    assert kept == tabulate.tabulate_xml()
+    saved = json.loads((GRAMMARS / "tables" / "innermodel.json").read_text())
+    assert saved == build_tables.build_xml_tables()

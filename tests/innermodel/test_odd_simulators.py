@@ -4,17 +4,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
-from odd_worlds import odd_world
-from test_odd_worlds import place
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli.simulator import command
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.rcgen.simulation.simulator import command
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.hardware.errors import Diverged
-from robocomp_dsl.hardware.mujoco.simulation import Simulation
-from robocomp_dsl.hardware.scene import Scene
+from robocomp_dsl.generate.scene.scene import lower_body
+from robocomp_dsl.hardware.description.scene import Scene
+from robocomp_dsl.hardware.devices.errors import Diverged
+from robocomp_dsl.simulation.world.simulation import Simulation
+from tests.innermodel.odd_worlds import odd_world
+from tests.innermodel.test_odd_worlds import place
 
 
 def listed(path: Path) -> str:
@@ -28,7 +28,7 @@ def run(path: Path) -> None:
     """Some steps; a world of absurd numbers may diverge, but it says so."""
     body = check_innermodel(path, Workspace(()), Report())
     assert body is not None
-    simulation = Simulation(Scene.of_data(lower(body)))
+    simulation = Simulation(Scene.of_data(lower_body(body)))
     try:
         simulation.world.advance(0.01)
     except Diverged:

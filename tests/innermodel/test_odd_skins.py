@@ -3,10 +3,10 @@
 import random
 from pathlib import Path
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.scene import lower
+from robocomp_dsl.generate.scene.scene import lower_body
 
 NUMBERS = ("0", "1", "-1", "5", "5", "70", "0.001", "1e300", "-1e9", "30", "1e-300")
 COUNTS = ("0", "1", "-1", "8", "640", "2147483647")
@@ -21,7 +21,7 @@ ATTRIBUTES = (
 TAXEL = ("x", "y", "z", "nx", "ny", "nz", "theta")
 
 
-def given(
+def random_attributes(
     dice: random.Random, names: tuple[str, ...], values: tuple[str, ...], likely: float
 ) -> str:
     return "".join(f' {n}="{dice.choice(values)}"' for n in names if dice.random() < likely)
@@ -30,8 +30,10 @@ def given(
 def skin(seed: int) -> str:
     dice = random.Random(seed)
     count = dice.choice((0, 0, 1, 3))
-    taxels = "".join(f"<taxel{given(dice, TAXEL, NUMBERS, 0.4)}/>" for _ in range(count))
-    attributes = "".join(given(dice, *one) for one in ATTRIBUTES)
+    taxels = "".join(
+        f"<taxel{random_attributes(dice, TAXEL, NUMBERS, 0.4)}/>" for _ in range(count)
+    )
+    attributes = "".join(random_attributes(dice, *attribute) for attribute in ATTRIBUTES)
     rate = dice.choice(NUMBERS)
     return f'<skin id="s" rate="{rate}"><patch{attributes}>{taxels}</patch></skin>'
 
@@ -39,13 +41,13 @@ def skin(seed: int) -> str:
 def test_odd_skins_are_told_and_lowered(tmp_path: Path) -> None:
     for name, text in FILES.items():
         (tmp_path / name).write_text(text)
-    world, told = tmp_path / "world.xml", set[str]()
+    world, received = tmp_path / "world.xml", set[str]()
     for seed in range(300):
         world.write_text(f"<innerModel>{skin(seed)}</innerModel>")
         report = Report()
         body = check_innermodel(world, Workspace(()), report)
         assert body is not None
-        (made,) = lower(body)["skins"]
-        assert len(made["patches"]) == 1
-        told |= {one.code.id for one in report}
-    assert {"RC805", "RC808", "RC821", "RC825"} <= told
+        (result,) = lower_body(body)["skins"]
+        assert len(result["patches"]) == 1
+        received |= {item.code.id for item in report}
+    assert {"RC805", "RC808", "RC821", "RC825"} <= received

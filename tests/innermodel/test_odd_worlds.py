@@ -5,20 +5,20 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
-from odd_worlds import odd_world
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.hardware.mujoco import axes
-from robocomp_dsl.hardware.mujoco.mirror import mirror
-from robocomp_dsl.hardware.mujoco.model_file import compiled
-from robocomp_dsl.hardware.mujoco.scene_limits import fitting
-from robocomp_dsl.hardware.mujoco.scene_spec import body_name, build_spec
-from robocomp_dsl.hardware.mujoco.simulation import Simulation
-from robocomp_dsl.hardware.scene import Scene
-from robocomp_dsl.hardware.transforms import TransformTree
+from robocomp_dsl.generate.scene.scene import lower_body
+from robocomp_dsl.hardware.description.scene import Scene
+from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from robocomp_dsl.simulation.models.model_file import compiled
+from robocomp_dsl.simulation.models.model_to_transforms import model_transforms
+from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.simulation.scene.scene_spec import body_name, build_spec
+from robocomp_dsl.simulation.world.limits import clamp_scene
+from robocomp_dsl.simulation.world.simulation import Simulation
+from tests.innermodel.odd_worlds import odd_world
 
 CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 2) for y in (0, 4) for z in (0, 6))
 MESHES = {
@@ -41,30 +41,30 @@ def load(path: Path) -> tuple[Scene, object, Report]:
     report = Report()
     body = check_innermodel(path, Workspace(()), report)
     assert body is not None
-    scene, told = fitting(Scene.of_data(lower(body)))
+    scene, received = clamp_scene(Scene.of_data(lower_body(body)))
     spec, notes = build_spec(scene)
-    assert all(isinstance(note, str) and "`" in note for note in told + notes)
+    assert all(isinstance(note, str) and "`" in note for note in received + notes)
     return scene, compiled(spec, []), report
 
 
 def agree(scene: Scene, model) -> None:  # type: ignore[no-untyped-def]
-    """The scene's own tree, the model's mirror, and MuJoCo: three ways to the same places."""
+    """The scene's tree, the model's transforms and MuJoCo agree on every pose."""
     data = mujoco.MjData(model)
-    own, found = TransformTree(scene.frames), mirror(model)
+    own, found = TransformTree(scene.frames), model_transforms(model)
     mujoco.mj_kinematics(model, data)
     found.follow(data.qpos)
     far = max(1.0, float(np.abs(data.xpos).max()))
     for i, name in enumerate(found.bodies):
-        wanted = axes.matrix(data.xpos[i], data.xmat[i])
-        made = found.tree.matrix(name, "root")
-        assert np.abs(made[:3, :3] - wanted[:3, :3]).max() < 1e-9
-        assert np.abs(made[:3, 3] - wanted[:3, 3]).max() * axes.MM < 1e-9 * far
+        expected = axes.matrix(data.xpos[i], data.xmat[i])
+        result = found.tree.matrix(name, "root")
+        assert np.abs(result[:3, :3] - expected[:3, :3]).max() < 1e-9
+        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * far
     for frame in scene.frames[1:]:
         body = model.body(body_name(frame.id)).id
-        wanted = axes.matrix(data.xpos[body], data.xmat[body])
-        made = own.matrix(frame.id, "root")
-        assert np.abs(made[:3, :3] - wanted[:3, :3]).max() < 1e-9
-        assert np.abs(made[:3, 3] - wanted[:3, 3]).max() * axes.MM < 1e-9 * far
+        expected = axes.matrix(data.xpos[body], data.xmat[body])
+        result = own.matrix(frame.id, "root")
+        assert np.abs(result[:3, :3] - expected[:3, :3]).max() < 1e-9
+        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * far
 
 
 @pytest.mark.parametrize("tens", range(20))
@@ -82,7 +82,7 @@ def test_the_worlds_are_odd_in_every_way(tmp_path: Path) -> None:
     for seed in range(60):
         folder = tmp_path / str(seed)
         folder.mkdir()
-        seen |= {one.code.id for one in load(place(folder, odd_world(seed)))[2]}
+        seen |= {item.code.id for item in load(place(folder, odd_world(seed)))[2]}
     assert {"RC802", "RC803", "RC804", "RC805", "RC806", "RC807", "RC808"} <= seen
 
 
@@ -90,7 +90,7 @@ def test_the_deepest_world(tmp_path: Path) -> None:
     text = "<innerModel>" + "".join(f'<transform id="t{i}" tx="10" ry="0.1">' for i in range(199))
     path = place(tmp_path, {"world.xml": text + "</transform>" * 199 + "</innerModel>"})
     scene, model, report = load(path)
-    assert not report.failed
+    assert not report.has_errors
     assert len(scene.frames) == 200
     agree(scene, model)
 
@@ -100,7 +100,7 @@ def test_a_file_that_is_included_twice_gives_every_node_a_name_of_its_own(tmp_pa
     part = '<innerModel><transform id="t"><plane id="p"/></transform></innerModel>'
     scene, model, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
     assert [frame.id for frame in scene.frames] == ["root", "t", "t#2"]
-    assert [one.code.id for one in report] == ["RC804", "RC804"]
+    assert [item.code.id for item in report] == ["RC804", "RC804"]
     agree(scene, model)
 
 
@@ -116,7 +116,7 @@ def test_a_file_that_includes_itself_is_told_where_and_loaded(tmp_path: Path) ->
     scene, _, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
     assert len(scene.boxes) == 1
     (found,) = report
-    assert "includes itself by way of `p.xml`" in found.message
+    assert "includes itself through `p.xml`" in found.message
     assert found.span.source.path.name == "p.xml"
 
 
@@ -129,7 +129,7 @@ def test_thousands_of_nodes(tmp_path: Path) -> None:
     scene, model, report = load(
         place(tmp_path, {"world.xml": f"<innerModel>{inside}</innerModel>"})
     )
-    assert not report.failed
+    assert not report.has_errors
     agree(scene, model)
 
 

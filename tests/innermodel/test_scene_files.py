@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.simulator import simulator
+from robocomp_dsl.generate.simulator.simulator import simulator
 
 ELSEWHERE = "/home/robocomp/robocomp/files/osgModels"
 
@@ -15,12 +15,12 @@ ELSEWHERE = "/home/robocomp/robocomp/files/osgModels"
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """Of a world in a copy of RoboComp's files."""
-    made = tmp_path / "rc" / "files" / "innermodel"
+    result = tmp_path / "rc" / "files" / "innermodel"
     for name in ("files/osgModels/table.obj", "files/innermodel/near.obj", "alone.obj"):
         file = tmp_path / "rc" / name
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text("v 0 0 0\n")
-    return made
+    return result
 
 
 @pytest.mark.parametrize(

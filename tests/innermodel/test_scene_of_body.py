@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.scene import lower
-from robocomp_dsl.hardware.mujoco import axes
-from robocomp_dsl.hardware.mujoco.scene_spec import build_spec
-from robocomp_dsl.hardware.scene import Box, Device, Frame, Mesh, Motion, Scene
-from robocomp_dsl.hardware.transforms import TransformTree
+from robocomp_dsl.generate.scene.scene import lower_body
+from robocomp_dsl.hardware.description.scene import Box, Device, Frame, Mesh, Motion, Scene
+from robocomp_dsl.hardware.kinematics.transforms import TransformTree
+from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.simulation.scene.scene_spec import build_spec
 
 WORLD = """\
 <innerModel>
@@ -53,7 +53,7 @@ def scene(tmp_path: Path) -> Scene:
     found = check_innermodel(path, Workspace(environ={}), report)
     assert [d.message for d in report] == []
     assert found is not None
-    return Scene.of_data(json.loads(json.dumps(lower(found))))
+    return Scene.of_data(json.loads(json.dumps(lower_body(found))))
 
 
 def test_frames(scene: Scene) -> None:
@@ -85,7 +85,7 @@ def test_shapes(scene: Scene, tmp_path: Path) -> None:
 
 
 def test_devices(scene: Scene) -> None:
-    found = {one.id: one for one in scene.devices}
+    found = {device.id: device for device in scene.devices}
     assert list(found) == ["robot", "laser", "pan", "lift", "eye"]
     assert found["laser"] == Device(
         "laser",
@@ -139,10 +139,10 @@ def test_whatever_is_written_there_is_a_world(cuts: list[tuple[int, int, str]]) 
         text = text[:at] + piece + text[at + length :]
     workspace = Workspace(environ={})
     path = Path("world.xml")
-    workspace.files.open_buffer(path, text)
+    workspace.sources.set_overlay(path, text)
     found = check_innermodel(path, workspace, Report())
     assert found is not None
-    scene = Scene.of_data(json.loads(json.dumps(lower(found))))
+    scene = Scene.of_data(json.loads(json.dumps(lower_body(found))))
     spec, _ = build_spec(scene)
     with warnings.catch_warnings(action="ignore"):  # of inertias, where masses are absurd
         assert spec.compile().nbody == len(scene.frames)

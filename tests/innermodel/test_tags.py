@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.innermodel_tags import TAGS
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.innermodel.tags import TAGS
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model import body
-from robocomp_dsl.model.body import Body
+from robocomp_dsl.model import innermodel
+from robocomp_dsl.model.innermodel import InnerModel
 
 INF = math.inf
 MOVED = 'tx="1" ty="2" tz="3"'
@@ -77,7 +77,7 @@ HISTORY: list[tuple[str, str, dict[str, object]]] = [
 ]
 
 
-def read(folder: Path, text: str) -> tuple[Body, Report]:
+def read(folder: Path, text: str) -> tuple[InnerModel, Report]:
     for positions in ("a", "b", "left_forearm.txt"):
         (folder / positions).write_text("0.005 0 0.005 0 0 1\n")
     path = folder / "world.xml"
@@ -88,7 +88,7 @@ def read(folder: Path, text: str) -> tuple[Body, Report]:
     return found, report
 
 
-def said(report: Report) -> list[str]:
+def messages(report: Report) -> list[str]:
     return [f"{d.code.id} {d.span.text}" for d in report]
 
 
@@ -98,11 +98,11 @@ def test_a_historical_tag(
 ) -> None:
     for written in (tag, tag.upper()):
         found, report = read(tmp_path, f'<{written} id="a" {attributes}/>')
-        assert said(report) == []
+        assert messages(report) == []
         assert len(found.root.children) == 1
     file = ' file="a.osg"' if tag == "mesh" else ""
     found, report = read(tmp_path, f'<{tag} id="a"{file}/>')
-    assert said(report) == []
+    assert messages(report) == []
     (node,) = found.root.children
     assert {name: getattr(node, name) for name in defaults} == defaults
 
@@ -111,7 +111,7 @@ def test_the_table_is_whole() -> None:
     new = {"motor", "skin", "patch", "taxel", "gps", "ultrasound", "battery"}
     assert {tag for tag, _, _ in HISTORY} == set(TAGS) - new
     for tag, attributes, _ in HISTORY:
-        named = {one.split("=")[0] for one in attributes.split()} | {"id"}
+        named = {item.split("=")[0] for item in attributes.split()} | {"id"}
         assert named == set(TAGS[tag].attributes), tag
 
 
@@ -121,7 +121,7 @@ HOLDERS = "transform rotation translation joint touchsensor prismaticjoint diffe
 @pytest.mark.parametrize("tag", [*HOLDERS.split(), "omnirobot"])
 def test_frames_hold_nodes(tmp_path: Path, tag: str) -> None:
     found, report = read(tmp_path, f'<{tag} id="a"><imu id="b"/></{tag}>')
-    assert said(report) == []
+    assert messages(report) == []
     assert len(list(found.nodes())) == 3
 
 
@@ -140,14 +140,14 @@ def test_frames_hold_nodes(tmp_path: Path, tag: str) -> None:
 )
 def test_units(tmp_path: Path, text: str, name: str, value: float) -> None:
     found, report = read(tmp_path, text)
-    assert said(report) == []
+    assert messages(report) == []
     assert getattr(found.root.children[0], name) == pytest.approx(value)
 
 
 @pytest.mark.parametrize("text", ["5 deg", "5 km", "m", "1 m m", "90 rad", "inf m"])
 def test_a_wrong_unit_is_told(tmp_path: Path, text: str) -> None:
     _, report = read(tmp_path, f'<transform id="a" tx="{text}"/>')
-    assert said(report) == [f'RC803 "{text}"']
+    assert messages(report) == [f'RC803 "{text}"']
 
 
 SKIN = """
@@ -170,16 +170,16 @@ TAXEL = "0 0 0.01 0 0 1\n"
 def test_skin(tmp_path: Path) -> None:
     (tmp_path / "left_forearm.txt").write_text(TAXEL)
     found, report = read(tmp_path, SKIN)
-    assert said(report) == []
+    assert messages(report) == []
     nodes = {node.id: node for node, _ in found.nodes()}
     assert (nodes["s"].rate, nodes["s"].port) == (100, 7)  # type: ignore[attr-defined]
     ringed, lone = nodes["ringed"], nodes["lone"]
-    assert isinstance(ringed, body.Patch)
+    assert isinstance(ringed, innermodel.Patch)
     assert ringed.rings == (33, 60, 87)
     assert (ringed.r1, ringed.count, ringed.saturation) == (26, 8, 240)
-    assert isinstance(lone, body.Patch)
+    assert isinstance(lone, innermodel.Patch)
     first, top = lone.children
-    assert isinstance(first, body.Taxel)
+    assert isinstance(first, innermodel.Taxel)
     assert first.theta == pytest.approx(math.pi / 2)
     assert top.id == "top"
     assert len(nodes) == 10
@@ -188,8 +188,8 @@ def test_skin(tmp_path: Path) -> None:
 def test_a_frame_has_one_skin(tmp_path: Path) -> None:
     second = '</skin><skin id="t"><patch id="p"><taxel nx="1"/></patch></skin>'
     _, report = read(tmp_path, SKIN.replace("</skin>", second))
-    found = [one.message for one in report if "already" in one.message]
-    assert found == ["this frame has the skin `s` already: give it the patches here"]
+    found = [item.message for item in report if "already" in item.message]
+    assert found == ["this frame already has the skin `s`: move the patches to it"]
 
 
 CONE = 'x0="0" x1="9" r0="5" r1="5"'
@@ -220,10 +220,10 @@ CONE = 'x0="0" x1="9" r0="5" r1="5"'
 def test_what_a_skin_may_not_say(tmp_path: Path, inside: str, findings: list[str]) -> None:
     (tmp_path / "a").write_text(TAXEL)
     _, report = read(tmp_path, f'<transform id="a"><skin id="s">{inside}</skin></transform>')
-    assert said(report) == findings
+    assert messages(report) == findings
 
 
 def test_patches_stand_in_skins(tmp_path: Path) -> None:
     found, report = read(tmp_path, '<patch id="p" file="a"/><taxel x="1"/><imu id="i"/>')
-    assert said(report) == ["RC807 patch", "RC807 taxel"]
+    assert messages(report) == ["RC807 patch", "RC807 taxel"]
     assert [node.id for node in found.root.children] == ["i"]

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from robocomp_dsl.check import check_innermodel
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli.check import command
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.rcgen.check import command
 from robocomp_dsl.diagnostics import Report, Severity
 
 TREE = '<innerModel><transform id="a"><imu id="b"/></transform></innerModel>'
@@ -17,7 +17,7 @@ def nodes(path: Path) -> tuple[list[str], list[str]]:
     report = Report()
     found = check_innermodel(path, Workspace(environ={}), report)
     return [n.id for n, _ in found.nodes()] if found else [], [
-        f"{d.code.id} {d.span.begin[0]}:{d.span.begin[1]}" for d in report
+        f"{d.code.id} {d.span.start_position[0]}:{d.span.start_position[1]}" for d in report
     ]
 
 
@@ -64,9 +64,9 @@ def test_it_is_read_without_a_word(tmp_path: Path, data: str | bytes) -> None:
 def test_what_is_told(tmp_path: Path, data: str | bytes, findings: list[str]) -> None:
     path = tmp_path / "w.xml"
     path.write_bytes(data.encode() if isinstance(data, str) else data)
-    found, told = nodes(path)
-    assert told == findings
-    assert found == ([] if "RC001 1:1" in told else ["root", "a", "b"])
+    found, received = nodes(path)
+    assert received == findings
+    assert found == ([] if "RC001 1:1" in received else ["root", "a", "b"])
 
 
 def test_all_but_the_mistake_stands(tmp_path: Path) -> None:
@@ -76,9 +76,9 @@ def test_all_but_the_mistake_stands(tmp_path: Path) -> None:
     path.write_text(
         f'<innerModel><transform id="t">{right}{wrong}{right.replace(chr(34) + "p", chr(34) + "q")}'
     )
-    found, told = nodes(path)
+    found, received = nodes(path)
     assert len(found) == 1 + 1 + 50 + 2 + 50
-    assert {one.split()[0] for one in told} >= {"RC180", "RC181", "RC182", "RC184"}
+    assert {item.split()[0] for item in received} >= {"RC180", "RC181", "RC182", "RC184"}
 
 
 def test_a_fixed_file_says_its_encoding(tmp_path: Path) -> None:
@@ -100,27 +100,27 @@ def test_text_is_a_warning_only(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("../../.git/annex/objects/QF/zv/SHA256E-s970--77.xml/SHA256E-s970--77.xml", "git-annex"),
         ("version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 1\n", "Git LFS"),
     ],
 )
-def test_a_file_that_was_not_fetched(tmp_path: Path, text: str, said: str) -> None:
+def test_a_file_that_was_not_fetched(tmp_path: Path, text: str, message: str) -> None:
     path = tmp_path / "w.xml"
     path.write_text(text)
     report = Report()
     check_innermodel(path, Workspace(environ={}), report)
     (finding,) = report
     assert finding.code.id == "RC001"
-    assert f"only a pointer of {said}" in finding.message
+    assert f"{message}" in finding.message
 
 
 @pytest.mark.parametrize(
     ("text", "help"),
     [
         ("<rcmanager/>", "a deployment for rcmanager"),
-        ('<AGMModel id="a"/>', "a model of the world for AGM"),
+        ('<AGMModel id="a"/>', "a world model for AGM"),
         ("<scxml/>", "a state machine"),
         ("<transform/>", ""),
     ],

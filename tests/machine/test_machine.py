@@ -57,12 +57,12 @@ class HandClock:
 class Worker:
     """Writes down what is called."""
 
-    said: list[str] = field(default_factory=list)
+    calls: list[str] = field(default_factory=list)
     machine: Machine | None = None
 
     def __getattr__(self, name: str) -> object:
         if name.startswith(("state_", "on_enter_", "on_exit_")):
-            return lambda: self.said.append(name)
+            return lambda: self.calls.append(name)
         raise AttributeError(name)
 
 
@@ -76,78 +76,78 @@ def worker() -> Worker:
     return Worker()
 
 
-def made(spec: MachineSpec, worker: object, clock: HandClock) -> Machine:
+def build_machine(spec: MachineSpec, worker: object, clock: HandClock) -> Machine:
     machine = Machine(spec, worker, clock, lambda: None)
     machine.start()
     return machine
 
 
 def test_the_way(worker: Worker, clock: HandClock) -> None:
-    machine = made(GAME, worker, clock)
+    machine = build_machine(GAME, worker, clock)
     assert machine.states == ("waiting",)
-    assert machine.go("start") is True
+    assert machine.send("start") is True
     assert machine.states == ("playing", "music", "loud", "moves")
-    assert machine.go("start") is False, "nobody waits for it here"
-    assert machine.go("hush") is True
+    assert machine.send("start") is False, "nobody waits for it here"
+    assert machine.send("hush") is True
     assert machine.states == ("playing", "music", "soft", "moves")
     assert machine.is_in("music")
     assert not machine.is_in("loud")
-    assert machine.go("pause") is True
+    assert machine.send("pause") is True
     assert machine.states == ("paused",)
-    entered = [s for s in worker.said if s.startswith("on_enter")]
+    entered = [s for s in worker.calls if s.startswith("on_enter")]
     assert entered[:2] == ["on_enter_waiting", "on_enter_playing"]
-    assert worker.said.index("on_exit_waiting") < worker.said.index("on_enter_playing")
-    assert worker.said[-1] == "on_enter_paused"
+    assert worker.calls.index("on_exit_waiting") < worker.calls.index("on_enter_playing")
+    assert worker.calls[-1] == "on_enter_paused"
 
 
 def test_the_methods_of_the_active_states(worker: Worker, clock: HandClock) -> None:
-    machine = made(GAME, worker, clock)
-    machine.go("start")
-    worker.said.clear()
-    machine.beat()
-    assert worker.said == ["state_playing", "state_music", "state_loud", "state_moves"]
+    machine = build_machine(GAME, worker, clock)
+    machine.send("start")
+    worker.calls.clear()
+    machine.tick()
+    assert worker.calls == ["state_playing", "state_music", "state_loud", "state_moves"]
 
 
 def test_a_state_that_is_left_meanwhile_is_not_called(clock: HandClock) -> None:
-    said = []
+    called = []
 
     class Leaving:
         def state_playing(self) -> None:
-            said.append("playing")
-            machine.go("pause")
+            called.append("playing")
+            machine.send("pause")
 
         def state_moves(self) -> None:
-            said.append("moves")
+            called.append("moves")
 
         def state_paused(self) -> None:
-            said.append("paused")
+            called.append("paused")
 
-    machine = made(GAME, Leaving(), clock)
-    machine.go("start")
-    machine.beat()
-    assert said == ["playing"]
+    machine = build_machine(GAME, Leaving(), clock)
+    machine.send("start")
+    machine.tick()
+    assert called == ["playing"]
 
 
 def test_by_time(worker: Worker, clock: HandClock) -> None:
-    machine = made(GAME, worker, clock)
-    assert machine.due() is None
-    machine.go("start")
-    assert machine.due() == 60.0
+    machine = build_machine(GAME, worker, clock)
+    assert machine.next_due() is None
+    machine.send("start")
+    assert machine.next_due() == 60.0
     clock.moment = 59.9
     machine.fire_due()
     assert machine.is_in("playing")
     clock.moment = 60.0
     machine.fire_due()
     assert machine.states == ("paused",)
-    assert machine.due() == 70.0
-    machine.go("start")
-    assert machine.due() == 120.0, "a state that is entered again waits from the beginning"
+    assert machine.next_due() == 70.0
+    machine.send("start")
+    assert machine.next_due() == 120.0, "a state that is entered again waits from the beginning"
     clock.moment = 130.0
     machine.fire_due()
     clock.moment = 140.0
     machine.fire_due()
     assert machine.ended
-    assert machine.due() is None
+    assert machine.next_due() is None
 
 
 def test_events_in_methods_come_behind_them(clock: HandClock) -> None:
@@ -155,10 +155,10 @@ def test_events_in_methods_come_behind_them(clock: HandClock) -> None:
 
     class Eager:
         def on_enter_waiting(self) -> None:
-            machine.go("start")
+            machine.send("start")
 
         def on_enter_playing(self) -> None:
-            machine.go("pause")
+            machine.send("pause")
             seen.append(machine.states)
 
     machine = Machine(GAME, Eager(), clock, lambda: None)
@@ -173,32 +173,32 @@ def test_failures_reach_the_caller(clock: HandClock) -> None:
         def on_enter_playing(self) -> None:
             raise ZeroDivisionError
 
-    machine = made(GAME, Failing(), clock)
-    assert machine.due() is None
+    machine = build_machine(GAME, Failing(), clock)
+    assert machine.next_due() is None
     with pytest.raises(ZeroDivisionError):
-        machine.go("start")
+        machine.send("start")
     assert machine.states == ("waiting",)
-    assert machine.due() is None
+    assert machine.next_due() is None
 
 
 def test_unknown_names(worker: Worker, clock: HandClock) -> None:
     machine = Machine(GAME, worker, clock, lambda: None)
-    with pytest.raises(UnknownEvent, match="begins behind `initialize`"):
-        machine.go("start")
+    with pytest.raises(UnknownEvent, match="starts after `initialize`"):
+        machine.send("start")
     machine.start()
-    with pytest.raises(UnknownEvent, match="no event `strat`; did you mean `start`"):
-        machine.go("strat")
-    with pytest.raises(UnknownEvent, match="no state `pausd`; did you mean `paused`"):
+    with pytest.raises(UnknownEvent, match="unknown event `strat`; did you mean `start`"):
+        machine.send("strat")
+    with pytest.raises(UnknownEvent, match="unknown state `pausd`; did you mean `paused`"):
         machine.is_in("pausd")
 
 
 def test_somebody_is_told(worker: Worker, clock: HandClock) -> None:
-    told: list[int] = []
-    machine = Machine(GAME, worker, clock, lambda: told.append(1))
+    changes: list[int] = []
+    machine = Machine(GAME, worker, clock, lambda: changes.append(1))
     machine.start()
-    assert not told
-    machine.go("start")
-    assert told
+    assert not changes
+    machine.send("start")
+    assert changes
 
 
 def test_many_threads_lose_nothing(clock: HandClock) -> None:
@@ -219,19 +219,19 @@ def test_many_threads_lose_nothing(clock: HandClock) -> None:
         "counter", (StateSpec("a", initial=True),), (TransitionSpec("a", "a", "again"),)
     )
     worker = Counting()
-    machine = made(spec, worker, clock)
+    machine = build_machine(spec, worker, clock)
     begin = threading.Barrier(threads)
 
     def fire() -> None:
         begin.wait(60.0)
         for _ in range(each):
-            machine.go("again")
+            machine.send("again")
 
     running = [threading.Thread(target=fire) for _ in range(threads)]
-    for one in running:
-        one.start()
-    for one in running:
-        one.join()
+    for thread in running:
+        thread.start()
+    for thread in running:
+        thread.join()
     assert worker.entered == 1 + threads * each
     assert max(most) == 1
     assert machine.states == ("a",)
@@ -245,11 +245,11 @@ def test_nobody_waits_for_a_thread_that_is_at_it(clock: HandClock) -> None:
             entered.set()
             assert leave.wait(60.0)
 
-    machine = made(GAME, Slow(), clock)
-    other = threading.Thread(target=machine.go, args=("start",))
+    machine = build_machine(GAME, Slow(), clock)
+    other = threading.Thread(target=machine.send, args=("start",))
     other.start()
     assert entered.wait(60.0)
-    assert machine.go("pause") is False, "it is left to the other thread"
+    assert machine.send("pause") is False, "it is left to the other thread"
     assert not machine.is_in("paused")
     leave.set()
     other.join()
@@ -262,7 +262,7 @@ def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
 
     class Failing:
         def on_enter_playing(self) -> None:
-            machine.go("pause")
+            machine.send("pause")
             entered.set()
             assert leave.wait(60.0)
             raise ZeroDivisionError
@@ -270,18 +270,18 @@ def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
         def on_enter_paused(self) -> None:
             raise AssertionError
 
-    machine = made(GAME, Failing(), clock)
+    machine = build_machine(GAME, Failing(), clock)
 
     def start() -> None:
         try:
-            machine.go("start")
+            machine.send("start")
         except ZeroDivisionError as failure:
             failures.append(failure)
 
     other = threading.Thread(target=start)
     other.start()
     assert entered.wait(60.0)
-    assert machine.go("start") is False
+    assert machine.send("start") is False
     leave.set()
     other.join()
     assert len(failures) == 1, "the second one was logged"
@@ -297,8 +297,8 @@ def test_a_timer_whose_transition_failed_is_due_again(clock: HandClock) -> None:
                 self.failed = True
                 raise ZeroDivisionError
 
-    machine = made(GAME, Once(), clock)
-    machine.go("start")
+    machine = build_machine(GAME, Once(), clock)
+    machine.send("start")
     clock.moment = 61.0
     with pytest.raises(ZeroDivisionError):
         machine.fire_due()

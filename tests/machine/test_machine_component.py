@@ -9,18 +9,18 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pytest
-from test_machine import GAME
 
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy
-from robocomp_dsl.runtime.execution import Execution
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.statistics import Statistics
+from tests.machine.test_machine import GAME
 
 DEADLINE = 60.0
 
@@ -45,11 +45,11 @@ class Player(Component):
         self.happened.append("enter waiting")
 
     def state_waiting(self) -> None:
-        self.machine.go("start")
+        self.machine.send("start")
 
     def state_moves(self) -> None:
         if self.stop_playing.is_set():
-            self.machine.go("pause")
+            self.machine.send("pause")
 
     def finalize(self) -> None:
         self.happened.append("finalize")
@@ -76,11 +76,11 @@ def wait_for(condition: Callable[[], object]) -> None:
 
 @pytest.fixture
 def runner() -> Iterator[Runner]:
-    made = Runner(Player, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
-    made.start()
-    yield made
-    made.stop()
-    made.wait()
+    component = Runner(Player, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    component.start()
+    yield component
+    component.stop()
+    component.wait()
 
 
 def test_the_machine_lives_with_the_component(runner: Runner) -> None:
@@ -88,7 +88,7 @@ def test_the_machine_lives_with_the_component(runner: Runner) -> None:
     assert isinstance(player, Player)
     wait_for(lambda: runner.worker.machine.is_in("playing"))
     assert player.happened[:3] == ["initialize", "enter waiting", "compute"]
-    host = Host("looker", runner.settings.domain, Execution(), Statistics())
+    host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
     middleware = open_middleware("inproc", host)
     about = ComponentProxy(
         middleware.proxy(Endpoint(COMPONENT, "looker", "Component", ("player",)))
@@ -100,10 +100,10 @@ def test_the_machine_lives_with_the_component(runner: Runner) -> None:
 
 
 def test_the_end_of_the_machine_is_that_of_the_component() -> None:
-    made = Runner(Waiter, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
-    made.start()
-    assert made.wait()
-    assert made.worker.machine.ended
+    runner = Runner(Waiter, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    runner.start()
+    assert runner.wait()
+    assert runner.worker.machine.ended
 
 
 class Stumbler(Component):
@@ -141,17 +141,17 @@ class Stumbler(Component):
 
     def state_b(self) -> None:
         self._fail("state_b")
-        self.machine.go("on")
+        self.machine.send("on")
 
     def restore(self) -> None:
         self.restored += 1
 
 
 def test_failures_are_emergencies_and_it_goes_on() -> None:
-    made = Runner(Stumbler, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
-    made.start()
-    assert made.wait()
-    worker = made.worker
+    runner = Runner(Stumbler, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    runner.start()
+    assert runner.wait()
+    worker = runner.worker
     assert isinstance(worker, Stumbler)
     assert worker.machine.ended
     assert worker.failed == ["state_a", "on_enter_b", "state_b"]
@@ -165,12 +165,12 @@ class Reacting(Stumbler):
 
 
 def test_failures_without_a_period() -> None:
-    made = Runner(Reacting, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
-    made.start()
-    worker = made.worker
+    runner = Runner(Reacting, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
+    runner.start()
+    worker = runner.worker
     assert isinstance(worker, Reacting)
     wait_for(lambda: worker.restored and worker.machine.is_in("b"))
     assert worker.failed == ["on_enter_b"]
-    worker.machine.go("on")
-    assert made.wait()
+    worker.machine.send("on")
+    assert runner.wait()
     assert worker.machine.ended

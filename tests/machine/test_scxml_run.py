@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import pytest
-from test_machine import HandClock, Worker
 
 from robocomp_dsl.runtime.machine import Machine, MachineSpec, StateSpec
+from tests.machine.test_machine import HandClock, Worker
 
 OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript"'
 
@@ -171,7 +171,7 @@ def test_documents(name: str) -> None:
             clock.moment += float(event)
             machine.fire_due()
         elif event:
-            machine.go(event)
+            machine.send(event)
         assert machine.states == tuple(leads.split()), f"behind {event or 'the start'}"
 
 

@@ -8,7 +8,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from network import DEADLINE, Network
+from tests.middleware.network import DEADLINE, Network
 
 MIDDLEWARES = ("inproc", "zenoh")
 
@@ -16,7 +16,9 @@ MIDDLEWARES = ("inproc", "zenoh")
 def grace_is(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """So long do calls wait for a server that has not been there yet."""
     for module in ("inproc", "zenoh.client"):
-        monkeypatch.setattr(f"robocomp_dsl.runtime.middleware.{module}.GRACE_S", seconds)
+        monkeypatch.setattr(
+            f"robocomp_dsl.runtime.middleware.{module}.DISCOVERY_TIMEOUT_S", seconds
+        )
 
 
 @pytest.fixture(autouse=True)
@@ -33,6 +35,6 @@ def hasty(grace: None, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(params=MIDDLEWARES)
 def network(request: pytest.FixtureRequest) -> Iterator[Network]:
-    made = Network(request.param)
-    yield made
-    made.close()
+    opened = Network(request.param)
+    yield opened
+    opened.close()

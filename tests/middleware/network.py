@@ -8,13 +8,12 @@ import uuid
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
-
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.interface import Interface
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Middleware, Qos
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, MiddlewareContext, Qos
+from robocomp_dsl.runtime.middleware.registry import open_middleware
+from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
 
@@ -33,9 +32,9 @@ class Node:
 
     def __init__(self, network: Network, name: str, threads: int = 1) -> None:
         self.name = name
-        self.execution = Execution(threads)
+        self.execution = CallbackGroup(threads)
         self.statistics = Statistics()
-        host = Host(name, network.domain, self.execution, self.statistics)
+        host = MiddlewareContext(name, network.domain, self.execution, self.statistics)
         self.middleware: Middleware = open_middleware(network.kind, host)
 
     def serve(
@@ -57,7 +56,7 @@ class Node:
         self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
     ) -> None:
         at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
-        self.middleware.subscribe(at, {"said": handler}, self.execution)
+        self.middleware.subscribe(at, {"spoke": handler}, self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:
         return self.statistics.of(port, operation)
@@ -72,10 +71,10 @@ class Network:
         self.nodes: list[Node] = []
 
     def node(self, name: str, threads: int = 1) -> Node:
-        made = Node(self, name, threads)
-        self.nodes.append(made)
-        return made
+        node = Node(self, name, threads)
+        self.nodes.append(node)
+        return node
 
     def close(self) -> None:
-        for one in self.nodes:
-            one.middleware.close()
+        for node in self.nodes:
+            node.middleware.close()

@@ -2,71 +2,73 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from robocomp_dsl.runtime import types as rt
 
 
 class Broken(rt.DeclaredError):
-    __slots__ = ("code", "what")
-    _fields_ = (("code", rt.INT), ("what", rt.STRING))
-
-    def __init__(self, code: int = 0, what: str = "") -> None:
-        self.code = code
-        self.what = what
+    code: rt.Int = 0
+    what: rt.String = ""
 
 
-FLOATS = rt.Array(rt.FLOAT)
 PROBE = rt.Interface(
     "Test::Probe",
-    (
-        rt.Operation("add", rt.Pattern.QUERY, (("a", rt.INT), ("b", rt.INT)), (("", rt.INT),)),
-        rt.Operation(
-            "divide",
-            rt.Pattern.QUERY,
-            (("a", rt.INT), ("b", rt.INT)),
-            (("", rt.INT), ("rest", rt.INT)),
-            (Broken,),
-        ),
-        rt.Operation("nothing", rt.Pattern.QUERY),
-        rt.Operation("echo", rt.Pattern.QUERY, (("v", FLOATS),), (("", FLOATS),), idempotent=True),
-        rt.Operation("fail", rt.Pattern.QUERY),
-        rt.Operation("nested", rt.Pattern.QUERY, (("depth", rt.INT),), (("", rt.INT),)),
-        rt.Operation("block", rt.Pattern.QUERY),
-        rt.Operation("note", rt.Pattern.COMMAND, (("text", rt.STRING),)),
+    rt.Operation("add", inputs={"a": rt.Int, "b": rt.Int}, returns=rt.Int),
+    rt.Operation(
+        "divide",
+        inputs={"a": rt.Int, "b": rt.Int},
+        returns=rt.Int,
+        outputs={"rest": rt.Int},
+        throws=(Broken,),
     ),
+    rt.Operation("nothing"),
+    rt.Operation("echo", inputs={"v": rt.Float32Array}, returns=rt.Float32Array, idempotent=True),
+    rt.Operation("fail"),
+    rt.Operation("nested", inputs={"depth": rt.Int}, returns=rt.Int),
+    rt.Operation("block"),
+    rt.Operation("note", rt.Pattern.COMMAND, inputs={"text": rt.String}),
 )
 NEWS = rt.Interface(
-    "Test::News", (rt.Operation("said", rt.Pattern.PUBLISH, (("who", rt.STRING), ("n", rt.INT))),)
+    "Test::News",
+    rt.Operation("spoke", rt.Pattern.PUBLISH, inputs={"who": rt.String, "n": rt.Int}),
 )
 OTHER_NEWS = rt.Interface(
-    "Test::News", (rt.Operation("said", rt.Pattern.PUBLISH, (("who", rt.STRING),)),)
+    "Test::News", rt.Operation("spoke", rt.Pattern.PUBLISH, inputs={"who": rt.String})
 )
-OTHER_PROBE = rt.Interface("Test::Probe", PROBE.operations[:1])
+OTHER_PROBE = rt.Interface("Test::Probe", *PROBE.operations[:1])
 
 
 class ProbeProxy(rt.Proxy):
-    __slots__ = tuple(operation.name for operation in PROBE.operations)
+    __slots__ = ()
     INTERFACE = PROBE
-    add: Callable[..., int]
-    divide: Callable[..., tuple[int, int]]
-    nothing: Callable[..., None]
-    echo: Callable[..., Any]
-    fail: Callable[..., None]
-    nested: Callable[..., int]
-    block: Callable[..., None]
-    note: Callable[..., None]
 
-    def _bind(self, bind: Callable[[rt.Operation], Callable[..., Any]]) -> None:
-        for operation in PROBE.operations:
-            setattr(self, operation.name, bind(operation))
+    def add(self, a: int, b: int) -> int:
+        return self._call("add", a, b)
+
+    def divide(self, a: int, b: int) -> tuple[int, int]:
+        return self._call("divide", a, b)
+
+    def nothing(self) -> None:
+        self._call("nothing")
+
+    def echo(self, v: rt.Float32Array) -> rt.Float32Array:
+        return self._call("echo", v)
+
+    def fail(self) -> None:
+        self._call("fail")
+
+    def nested(self, depth: int) -> int:
+        return self._call("nested", depth)
+
+    def block(self) -> None:
+        self._call("block")
+
+    def note(self, text: str) -> None:
+        self._call("note", text)
 
 
 class NewsProxy(rt.Proxy):
-    __slots__ = ("said",)
+    __slots__ = ()
     INTERFACE = NEWS
-    said: Callable[..., None]
 
-    def _bind(self, bind: Callable[[rt.Operation], Callable[..., Any]]) -> None:
-        self.said = bind(NEWS.operations[0])
+    def spoke(self, who: str, n: int) -> None:
+        self._call("spoke", who, n)

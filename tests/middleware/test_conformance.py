@@ -7,9 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from network import DEADLINE, Network, wait_for
-from probe_types import NEWS, OTHER_PROBE, Broken
 
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     InterfaceMismatch,
@@ -17,8 +16,9 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
     Timeout,
 )
-from robocomp_dsl.runtime.execution import Execution
 from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
+from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.probe_types import NEWS, OTHER_PROBE, Broken
 
 
 def divide(a: int, b: int) -> tuple[int, int]:
@@ -85,7 +85,9 @@ def test_any_other_exception_is_a_remote_error_and_the_server_lives_on(network: 
 def test_a_query_to_nobody(network: Network) -> None:
     probe = network.node("client").probe()
     for _ in range(2):
-        with pytest.raises(NoServer, match=r"nobody serves Test::Probe, which client requires"):
+        with pytest.raises(
+            NoServer, match="no component serves Test::Probe, which client requires"
+        ):
             probe.add(1, 2)
 
 
@@ -162,13 +164,13 @@ def test_publications_reach_all_in_the_order_of_each_publisher(network: Network)
         network.node(name).hear(lambda who, n, into=into: into.append((who, n)))
     publishers = [network.node(f"p{i}") for i in range(2)]
     proxies = [p.news() for p in publishers]
-    for one in proxies:
-        assert one.wait_for_server(DEADLINE)
+    for proxy in proxies:
+        assert proxy.wait_for_server(DEADLINE)
     if network.kind == "zenoh":
         wait_for(lambda: all(len(_subscribers(p)) == 2 for p in publishers))
     for n in range(100):
-        for p, one in enumerate(proxies):
-            one.said(f"p{p}", n)
+        for p, proxy in enumerate(proxies):
+            proxy.spoke(f"p{p}", n)
     wait_for(lambda: all(len(into) == 200 for into in heard.values()))
     for into in heard.values():
         for name in ("p0", "p1"):
@@ -176,11 +178,11 @@ def test_publications_reach_all_in_the_order_of_each_publisher(network: Network)
 
 
 def _subscribers(node: object) -> list[object]:
-    return node.middleware._directory.find("subscriber", NEWS.name)  # type: ignore[attr-defined]
+    return node.middleware._registry.find("subscriber", NEWS.name)  # type: ignore[attr-defined]
 
 
 def test_a_publication_nobody_hears_is_no_failure(network: Network) -> None:
-    network.node("publisher").news().said("me", 1)
+    network.node("publisher").news().spoke("me", 1)
 
 
 def test_a_subscriber_wired_to_one_publisher(network: Network) -> None:
@@ -188,8 +190,8 @@ def test_a_subscriber_wired_to_one_publisher(network: Network) -> None:
     network.node("s").hear(lambda who, _n: heard.append(who), "right")
     wrong, right = network.node("wrong").news(), network.node("right").news()
     assert right.wait_for_server(DEADLINE)
-    wrong.said("wrong", 0)
-    right.said("right", 0)
+    wrong.spoke("wrong", 0)
+    right.spoke("right", 0)
     wait_for(lambda: heard)
     assert heard == ["right"]
 
@@ -206,21 +208,21 @@ def test_a_failing_subscriber_hears_the_next(network: Network) -> None:
     node.hear(hear)
     news = network.node("p").news()
     assert news.wait_for_server(DEADLINE)
-    news.said("p", 0)
-    news.said("p", 1)
+    news.spoke("p", 0)
+    news.spoke("p", 1)
     wait_for(lambda: heard == [1])
-    assert node.count("said", "News").failures == 1
+    assert node.count("spoke", "News").failures == 1
 
 
 def test_a_topic_knows_whether_it_is_heard(network: Network) -> None:
     news = network.node("p").news()
-    assert not news.is_heard()
+    assert not news.has_subscribers()
     network.node("deaf").serve(HANDLERS)
     hearer = network.node("s")
     hearer.hear(lambda *_: None)
-    wait_for(news.is_heard)
+    wait_for(news.has_subscribers)
     hearer.middleware.close()
-    wait_for(lambda: not news.is_heard())
+    wait_for(lambda: not news.has_subscribers())
 
 
 def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> None:
@@ -235,23 +237,23 @@ def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> No
     node.hear(hear, qos=Qos(reliable=False, depth=2))
     news = network.node("p").news()
     assert news.wait_for_server(DEADLINE)
-    news.said("p", 0)
+    news.spoke("p", 0)
     wait_for(lambda: node.execution.busy)
     for n in range(1, 50):
-        news.said("p", n)
+        news.spoke("p", n)
     if network.kind == "zenoh":
         # A second subscriber on the same session tells that all have arrived; what was
         # still on its way when it subscribed may reach it before the last.
         probe: list[int] = []
         node.middleware.subscribe(
             Endpoint(NEWS, "s", "Second"),
-            {"said": lambda _w, n: probe.append(n)},
-            Execution(),
+            {"spoke": lambda _w, n: probe.append(n)},
+            CallbackGroup(),
         )
-        news.said("p", 50)
+        news.spoke("p", 50)
         wait_for(lambda: probe and probe[-1] == 50)
     else:
-        news.said("p", 50)
+        news.spoke("p", 50)
     free.set()
     wait_for(lambda: heard and heard[-1] == 50)
     # One may have been on its way between the queue and the handler.
@@ -260,20 +262,20 @@ def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> No
     assert len(heard) <= 4
     # What was lost is known at the latest when the publisher tells its number again.
     for n in range(51, 71):
-        news.said("p", n)
+        news.spoke("p", n)
         wait_for(lambda n=n: heard[-1] == n)
-    assert 45 <= node.count("said", "News").drops <= 50
+    assert 45 <= node.count("spoke", "News").drops <= 50
 
 
 def test_publications_behind_their_deadline_are_counted(network: Network) -> None:
     heard: list[int] = []
     node = network.node("s")
     node.hear(lambda _who, n: heard.append(n), qos=Qos(deadline=1e-6))
-    strict = node.count("said", "News")
+    strict = node.count("spoke", "News")
     news = network.node("p").news()
     assert news.wait_for_server(DEADLINE)
     for n in range(3):
-        news.said("p", n)
+        news.spoke("p", n)
         wait_for(lambda n=n: heard and heard[-1] == n)
     assert strict.missed == 2
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from network import DEADLINE, Network, wait_for
-from probe_types import ProbeProxy
+from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.probe_types import ProbeProxy
 
 
 def blocked(free: threading.Event) -> None:
@@ -45,7 +45,7 @@ def test_two_components_that_query_each_other(network: Network) -> None:
     outside = network.node("outside")
     into_a, into_b = outside.probe("a"), network.node("outside2").probe("b")
     with ThreadPoolExecutor(2) as pool:
-        jobs = [pool.submit(one.nested, 8) for one in (into_a, into_b)]
+        jobs = [pool.submit(proxy.nested, 8) for proxy in (into_a, into_b)]
         assert [job.result(DEADLINE) for job in jobs] == [8, 8]
 
 

@@ -6,18 +6,18 @@ import uuid
 from collections.abc import Callable, Iterator
 
 import pytest
-from network import DEADLINE, wait_for
-from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 from robocomp_dsl.runtime import CalledPort, Component, ComponentSpec, ServedPort
-from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.statistics import Statistics
+from tests.middleware.network import DEADLINE, wait_for
+from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 
 class Base(Component):
@@ -37,7 +37,7 @@ class Base(Component):
         return v
 
     def compute(self) -> None:
-        self.news.said(self.name, 0)
+        self.news.spoke(self.name, 0)
 
 
 class Arm(Component):
@@ -45,7 +45,7 @@ class Arm(Component):
         name="arm",
         period=0,
         requires=(CalledPort("Probe", ProbeProxy, "probe"),),
-        subscribes=(ServedPort("News", NEWS, {"said": "heard"}),),
+        subscribes=(ServedPort("News", NEWS, {"spoke": "heard"}),),
     )
     probe: ProbeProxy
 
@@ -74,16 +74,16 @@ def start(middleware: str, domain: str) -> Iterator[Start]:
     running: list[Runner] = []
 
     def begin(kind: type[Component], **settings: object) -> Component:
-        said = RunSettings(domain=domain, middleware=middleware, **settings)  # type: ignore[arg-type]
-        running.append(Runner(kind, Parameters.load(), said))
+        run_settings = RunSettings(domain=domain, middleware=middleware, **settings)  # type: ignore[arg-type]
+        running.append(Runner(kind, Parameters.load(), run_settings))
         running[-1].start()
         return running[-1].worker
 
     yield begin
-    for one in running:
-        one.stop()
-    for one in running:
-        one.wait()
+    for runner in running:
+        runner.stop()
+    for runner in running:
+        runner.wait()
 
 
 def test_two_copies_of_a_set(start: Start) -> None:
@@ -107,7 +107,7 @@ def test_a_wire_is_under_the_prefix(start: Start) -> None:
         base = start(Base, prefix="left", name=name)
         assert isinstance(base, Base)
         base.offset = offset
-    arm = start(Arm, prefix="left", wires={"Probe": ("second",), "News": ("/left/first",)})
+    arm = start(Arm, prefix="left", connections={"Probe": ("second",), "News": ("/left/first",)})
     assert isinstance(arm, Arm)
     assert arm.probe.add(0, 0) == 2
     wait_for(lambda: arm.publishers)
@@ -128,18 +128,20 @@ def test_ports_by_other_names(start: Start) -> None:
 
 def test_introspection_tells_whole_names(start: Start, middleware: str, domain: str) -> None:
     start(Base, prefix="left", remaps={"Probe": "front"})
-    start(Arm, prefix="left", wires={"Probe": ("base",)}, remaps={"Probe": "front"})
-    looker = open_middleware(middleware, Host("looker", domain, Execution(), Statistics()))
+    start(Arm, prefix="left", connections={"Probe": ("base",)}, remaps={"Probe": "front"})
+    looker = open_middleware(
+        middleware, MiddlewareContext("looker", domain, CallbackGroup(), Statistics())
+    )
     try:
-        told = {}
+        infos = {}
         for name in ("left/base", "left/arm"):
             about = ComponentProxy(
                 looker.proxy(Endpoint(COMPONENT, "looker", "Component", (name,)))
             )
             assert about.wait_for_server(DEADLINE)
-            told[name] = about.getInfo()
+            infos[name] = about.getInfo()
     finally:
         looker.close()
-    assert [one.name for one in told.values()] == ["left/base", "left/arm"]
-    ports = {p.name: list(p.peers) for one in told.values() for p in one.ports}
+    assert [info.name for info in infos.values()] == ["left/base", "left/arm"]
+    ports = {p.name: list(p.peers) for info in infos.values() for p in info.ports}
     assert ports == {"front": [], "News": [], "Probe": ["left/base.front"]}

@@ -5,11 +5,11 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from network import DEADLINE, Network, Node, wait_for
-from probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
+from tests.middleware.network import DEADLINE, Network, Node, wait_for
+from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 
 def serve(network: Network, *names: str) -> None:
@@ -66,7 +66,7 @@ def test_else_one_around_it_and_then_one_inside(
 @pytest.mark.usefixtures("hasty")
 def test_one_on_another_branch_is_not_found(network: Network) -> None:
     serve(network, "right/base", "leftish/base")
-    with pytest.raises(NoServer, match=r"nobody serves Test::Probe, which left/arm requires"):
+    with pytest.raises(NoServer, match=r"no component serves Test::Probe, which left/arm requires"):
         asked_when_all_are_known(network, "left/arm", 2)
 
 
@@ -95,11 +95,11 @@ def test_two_beside_are_ambiguous_and_the_way_out_works(network: Network) -> Non
 
 
 def _known(probe: ProbeProxy, network: Network) -> list[object]:
-    link = probe._link  # type: ignore[attr-defined]
+    link = probe._channel  # type: ignore[attr-defined]
     found: list[object] = (
         link._candidates()
         if network.kind == "inproc"
-        else link._directory.find("server", PROBE.name)
+        else link._registry.find("server", PROBE.name)
     )
     return found
 
@@ -121,7 +121,7 @@ def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
 
     def again() -> bool:
         for name, proxy in proxies.items():
-            proxy.said(name, 0)
+            proxy.spoke(name, 0)
         return until()  # type: ignore[operator,no-any-return]
 
     wait_for(again)

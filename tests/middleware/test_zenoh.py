@@ -14,24 +14,24 @@ from pathlib import Path
 
 import pytest
 import zenoh
-from network import DEADLINE, Network, wait_for
-from probe_types import OTHER_NEWS, PROBE
 
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
 from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.directory import Directory
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
-from robocomp_dsl.runtime.middleware.zenoh.watch import Watch
+from robocomp_dsl.runtime.middleware.zenoh.liveliness_monitor import LivelinessMonitor
+from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
+from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.probe_types import OTHER_NEWS, PROBE
 
-HERE = Path(__file__).parent
+ROOT = Path(__file__).parents[2]
 SERVER = """
 import sys, threading
 sys.path.insert(0, sys.argv[2])
-from network import Network
+from tests.middleware.network import Network
 n = Network("zenoh"); n.domain = sys.argv[1]
 node = n.node("server")
-node.middleware.announce("compute")
+node.middleware.publish_state("compute")
 node.serve({"add": lambda a, b: a + b, "block": threading.Event().wait})
 print("ready", flush=True)
 sys.stdin.read()
@@ -41,15 +41,15 @@ n.close()
 
 @pytest.fixture
 def network() -> Iterator[Network]:
-    made = Network("zenoh")
-    yield made
-    made.close()
+    opened = Network("zenoh")
+    yield opened
+    opened.close()
 
 
 @pytest.fixture
 def server(network: Network) -> Iterator[subprocess.Popen[str]]:
     with subprocess.Popen(
-        [sys.executable, "-c", SERVER, network.domain, str(HERE)],
+        [sys.executable, "-c", SERVER, network.domain, str(ROOT)],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
@@ -109,8 +109,8 @@ def test_a_malformed_reply_is_told_to_the_caller(network: Network) -> None:
         at = Endpoint(PROBE, "liar", "Probe")
         key = f"{keys.port_key(network.domain, 'q', at)}/add"
         queryable = raw.session.declare_queryable(key, lambda q: q.reply(key, b"\0\1\0\0\1"))
-        said = keys.Present("server", PROBE.name, "liar", "Probe", PROBE.hash.hex())
-        token = raw.session.liveliness().declare_token(said.key(network.domain))
+        port = keys.PortToken("server", PROBE.name, "liar", "Probe", PROBE.hash.hex())
+        token = raw.session.liveliness().declare_token(port.key(network.domain))
         with pytest.raises(MalformedMessage):
             network.node("client").probe().add(1, 2)
         del token, queryable
@@ -151,16 +151,16 @@ def test_a_killed_server_is_no_server_at_once(
 def test_a_call_of_a_server_that_went_after_it_was_chosen_ends_at_once(network: Network) -> None:
     network.node("server").serve({"block": threading.Event().wait})
     client = network.node("client")
-    directory: Directory = client.middleware._directory  # type: ignore[attr-defined]
+    directory: PortRegistry = client.middleware._registry  # type: ignore[attr-defined]
     assert client.probe().wait_for_server(DEADLINE)
     (there,) = directory.find("server", PROBE.name)
-    assert not directory.end_of(there).is_cancelled
-    assert directory.end_of(replace(there, component="gone")).is_cancelled
+    assert not directory.cancellation_token(there).is_cancelled
+    assert directory.cancellation_token(replace(there, component="gone")).is_cancelled
 
 
 def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Popen[str]) -> None:
     seen: list[tuple[str, int, str]] = []
-    watch = Watch(network.domain)
+    watch = LivelinessMonitor(network.domain)
     try:
         watch.start(lambda *what: seen.append(what))
         wait_for(lambda: seen)
@@ -174,10 +174,10 @@ def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Pope
 
 def test_who_comes_to_another_state_after_the_end_is_not_told_of_it(network: Network) -> None:
     node = network.node("late")
-    node.middleware.announce("compute")
+    node.middleware.publish_state("compute")
     node.middleware.close()
-    node.middleware.announce("finalize")
-    node.middleware.announce("")
+    node.middleware.publish_state("finalize")
+    node.middleware.publish_state("")
 
 
 def test_sockets_of_killed_processes_are_swept(
@@ -205,20 +205,20 @@ def test_all_who_start_at_once_find_each_other(network: Network) -> None:
     guard = threading.Lock()
 
     def start() -> None:
-        one = open_session(network.domain)
+        session = open_session(network.domain)
         with guard:
-            opened.append(one)
+            opened.append(session)
 
     threads = [threading.Thread(target=start) for _ in range(6)]
-    for one in threads:
-        one.start()
-    for one in threads:
-        one.join(DEADLINE)
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(DEADLINE)
     try:
         wait_for(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
     finally:
-        for one in opened:
-            one.close()
+        for opened_session in opened:
+            opened_session.close()
 
 
 def test_both_sides_of_a_topic_are_told_that_their_interfaces_differ(
@@ -227,8 +227,8 @@ def test_both_sides_of_a_topic_are_told_that_their_interfaces_differ(
     subscriber, publisher = network.node("listener"), network.node("speaker")
     subscriber.hear(lambda *_: None)
     publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
-    wait_for(lambda: "listener and speaker do not hear each other" in caplog.text)
-    wait_for(lambda: "speaker and listener do not hear each other" in caplog.text)
+    wait_for(lambda: "listener and speaker cannot communicate" in caplog.text)
+    wait_for(lambda: "speaker and listener cannot communicate" in caplog.text)
     assert "different versions of Test::News" in caplog.text
 
 

@@ -1,4 +1,4 @@
-"""What the tests of moving over share."""
+"""Fixtures of the migration tests."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.cli import program
-from robocomp_dsl.cli.rcgen import program as rcgen_program
+from robocomp_dsl.cli.rcgen.main import program as rcgen_program
 
 OLD = Path(__file__).parent / "old"
-"""Components as RoboComp has them."""
+"""Components in RoboComp's format."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """What a command did."""
+    """The result of a command."""
 
     code: int
     out: str

@@ -1,4 +1,4 @@
-"""Migrated components as processes that say what they do."""
+"""Run migrated components as processes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DEADLINE_S = 240.0
 
 
 class Process:
-    """One component; its lines are collected while it runs."""
+    """A component process; its output lines are collected."""
 
     def __init__(self, folder: Path, *options: str) -> None:
         self.lines: list[str] = []
@@ -40,18 +40,18 @@ class Process:
             self._changed.notify_all()
 
     def wait_for(self, words: str) -> str:
-        """The first line with `words`; fails when there is none in time."""
+        """The first output line with `words`; fails after `DEADLINE_S`."""
         with self._changed:
             self._changed.wait_for(lambda: self._found(words) is not None, DEADLINE_S)
-            found = self._found(words)
-        assert found is not None, "\n".join(self.lines[-40:])
-        return found
+            line = self._found(words)
+        assert line is not None, "\n".join(self.lines[-40:])
+        return line
 
     def _found(self, words: str) -> str | None:
         return next((line for line in self.lines if words in line), None)
 
     def stop(self) -> int:
-        """End it; its exit code."""
+        """Terminate the process; its exit code."""
         self._process.terminate()
         try:
             code = self._process.wait(DEADLINE_S)
@@ -64,9 +64,9 @@ class Process:
 
 @contextmanager
 def running(folder: Path, *options: str) -> Iterator[Process]:
-    """A component that runs inside the block."""
-    one = Process(folder, *options)
+    """A component that runs during the block."""
+    process = Process(folder, *options)
     try:
-        yield one
+        yield process
     finally:
-        one.stop()
+        process.stop()

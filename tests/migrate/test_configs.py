@@ -1,4 +1,4 @@
-"""Old configurations become parameters whose generated class loads the same values."""
+"""Parameters are inferred from old configurations; their class loads the same values."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.check import check_cdsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_cdsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate import plan
+from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.migrate.config import Config, read_config
-from robocomp_dsl.migrate.ice import divide
-from robocomp_dsl.migrate.infer import Leaf, Parameters, infer
-from robocomp_dsl.migrate.texts import leaves, pdsl_text, yaml_text
+from robocomp_dsl.migrate.ice import split_ice_settings
+from robocomp_dsl.migrate.infer import InferredParameters, ScalarParameter, infer
+from robocomp_dsl.migrate.parameter_files import pdsl_text, walk_parameters, yaml_text
 from robocomp_dsl.runtime.parameters import Parameters as Loaded
 from robocomp_dsl.source import Source
 
@@ -127,25 +127,25 @@ Warn.Connections = "0"
 @pytest.mark.parametrize("name", CASES)
 def test_generated_class_loads_the_values_of_every_file(name: str, tmp_path: Path) -> None:
     texts, expected = CASES[name]
-    configs, found, report = inferred(texts)
-    assert not report.failed, list(report)
-    made = generated_class(found, tmp_path)
-    for config, values, wanted in zip(configs, found.values, expected, strict=True):
+    configs, parameters, report = inferred(texts)
+    assert not report.has_errors, list(report)
+    params_class = generated_class(parameters, tmp_path)
+    for config, values, loaded in zip(configs, parameters.values, expected, strict=True):
         file = tmp_path / f"{config.path.name}.yaml"
-        file.write_text(yaml_text("moved", found.tree, values, config.path.name))
-        assert flat(made.load(file)) == wanted
+        file.write_text(yaml_text("moved", parameters.tree, values, config.path.name))
+        assert flat(params_class.load(file)) == loaded
 
 
-def inferred(texts: Mapping[str, str]) -> tuple[list[Config], Parameters, Report]:
+def inferred(texts: Mapping[str, str]) -> tuple[list[Config], InferredParameters, Report]:
     report = Report()
     read = (read_config(Source(Path(name), text), report) for name, text in texts.items())
-    configs = [one for one in read if one is not None]
-    return configs, infer([(c, divide(c, report)[1]) for c in configs], report), report
+    configs = [config for config in read if config is not None]
+    return configs, infer([(c, split_ice_settings(c, report)[1]) for c in configs], report), report
 
 
-def generated_class(found: Parameters, folder: Path) -> type[Loaded]:
+def generated_class(parameters: InferredParameters, folder: Path) -> type[Loaded]:
     """The parameters class of a component that has the inferred PDSL file."""
-    (folder / "moved.pdsl").write_text(pdsl_text("moved", found.tree, "config"), "utf-8")
+    (folder / "moved.pdsl").write_text(pdsl_text("moved", parameters.tree, "config"), "utf-8")
     description = folder / "moved.cdsl"
     description.write_text(
         'Component moved { Communications { }; language Python; parameters "moved.pdsl"; };'
@@ -154,15 +154,15 @@ def generated_class(found: Parameters, folder: Path) -> type[Loaded]:
     component = check_cdsl(description, Workspace(), report)
     assert not list(report)
     assert component is not None
-    code = next(one.text for one in plan(component) if one.path == "generated/params.py")
+    code = next(file.text for file in plan(component) if file.path == "moved_generated/params.py")
     module = folder / "params.py"
     module.write_text(code, "utf-8")
-    made: type[Loaded] = runpy.run_path(str(module))["MovedParams"]
-    return made
+    params_class: type[Loaded] = runpy.run_path(str(module))["MovedParams"]
+    return params_class
 
 
 def flat(loaded: Loaded) -> dict[str, object]:
-    """The values by the path of each; lists of groups as lists of what is in them."""
+    """The values by path; lists of groups become lists of their values."""
     return dict(_flat(loaded, ""))
 
 
@@ -170,33 +170,35 @@ def _flat(group: Any, path: str) -> Any:
     for entry in type(group).SCHEMA:
         value = getattr(group, entry.attribute)
         if isinstance(value, list):
-            yield path + entry.name, [one.value for one in value]
+            yield path + entry.name, [item.value for item in value]
         elif hasattr(type(value), "SCHEMA"):
             yield from _flat(value, f"{path}{entry.name}.")
         else:
             yield path + entry.name, value
 
 
-def test_findings_say_file_and_line() -> None:
+def test_infer_findings_have_file_and_line() -> None:
     _, _, report = inferred(
         {"config": "a = 1\na = 2\nnonsense\nb.c = 1\nb = 2\n", "other": "a = 5\nb.c=2"}
     )
-    said = [(d.code.id, d.span.source.path.name, d.span.begin[0]) for d in report.sorted()]
-    assert said == [("RC932", "config", 1), ("RC931", "config", 3), ("RC933", "config", 5)]
+    findings = [
+        (d.code.id, d.span.source.path.name, d.span.start_position[0]) for d in report.sorted()
+    ]
+    assert findings == [("RC932", "config", 1), ("RC931", "config", 3), ("RC933", "config", 5)]
 
 
 @pytest.mark.parametrize(
     ("text", "line"),
     [("a = \n", 1), ("a = 1\n\na = 2\n", 3), ("x = 1\n[[", 2), ("a" * 10, 1)],
 )
-def test_broken_toml_is_told_with_its_line(text: str, line: int) -> None:
+def test_read_config_reports_broken_toml_with_line(text: str, line: int) -> None:
     report = Report()
     assert read_config(Source(Path("config.toml"), text), report) is None
-    (told,) = report
-    assert (told.code.id, told.span.begin[0]) == ("RC921", line)
+    (finding,) = report
+    assert (finding.code.id, finding.span.start_position[0]) == ("RC921", line)
 
 
-def test_addresses_of_text_and_toml() -> None:
+def test_split_ice_settings_of_text_and_toml() -> None:
     report = Report()
     text = """CommonBehavior.Endpoints=tcp -p 10000
 Laser.Endpoints=tcp -h robot -p 10003 -t 5
@@ -207,12 +209,12 @@ CameraProxy = /dev/video0
     source = Source(Path("config"), text)
     config = read_config(source, report)
     assert config is not None
-    found, rest = divide(config, report)
-    ends = [(a.name, a.host, a.port) for a in found.endpoints]
+    settings, rest = split_ice_settings(config, report)
+    ends = [(a.name, a.host, a.port) for a in settings.endpoints]
     assert ends == [("CommonBehavior", "", 10000), ("Laser", "robot", 10003)]
-    calls = [(a.name, a.identity, a.host, a.port) for a in found.proxies]
+    calls = [(a.name, a.identity, a.host, a.port) for a in settings.proxies]
     assert calls == [("JointMotor0", "jointmotor", "10.0.30.11", 20000)]
-    assert [one.key for one in rest] == ["CameraProxy"]
+    assert [entry.key for entry in rest] == ["CameraProxy"]
 
 
 PIECES = (
@@ -227,7 +229,7 @@ KEYS = (
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_any_text_configuration_loads_what_it_says(seed: int, tmp_path: Path) -> None:
+def test_generated_class_loads_any_text_configuration(seed: int, tmp_path: Path) -> None:
     chance = random.Random(seed)
 
     def some() -> str:
@@ -238,29 +240,29 @@ def test_any_text_configuration_loads_what_it_says(seed: int, tmp_path: Path) ->
             rows.append(f"{key} = {''.join(chance.choices(PIECES, k=chance.randint(1, 2)))}")
         return chance.choice(("\n", "\r\n")).join(rows)
 
-    configs, found, _ = inferred({"config": some(), "config_b": some()})
-    made = generated_class(found, tmp_path)
-    for config, values in zip(configs, found.values, strict=True):
+    configs, parameters, _ = inferred({"config": some(), "config_b": some()})
+    params_class = generated_class(parameters, tmp_path)
+    for config, values in zip(configs, parameters.values, strict=True):
         file = tmp_path / "c.yaml"
-        file.write_text(yaml_text("moved", found.tree, values, config.path.name), "utf-8")
-        loaded = flat(made.load(file))
+        file.write_text(yaml_text("moved", parameters.tree, values, config.path.name), "utf-8")
+        loaded = flat(params_class.load(file))
         for path, value in values.items():
             assert loaded[".".join(path)] == value
-        given = {one.path: one.value for one in config.entries}
-        for path, node in leaves(found.tree):
-            if isinstance(node, Leaf) and node.old in given and path in values:
+        entries = {entry.path: entry.value for entry in config.entries}
+        for path, node in walk_parameters(parameters.tree):
+            if isinstance(node, ScalarParameter) and node.old_path in entries and path in values:
                 kind = type(values[path])
-                text = given[node.old]
+                text = entries[node.old_path]
                 assert values[path] == ((text.lower() == "true") if kind is bool else kind(text))
 
 
-def test_what_a_file_lacks_is_one_finding() -> None:
+def test_infer_reports_missing_keys_once_per_file() -> None:
     keys = "\n".join(f"k{i} = {i}" for i in range(7))
     _, _, report = inferred({"config": f"{keys}\nx = 1\n", "a": "x = 2\n", "b": f"{keys}\n"})
-    said = [d.message for d in report.sorted() if d.code.id == "RC936"]
-    assert said == [
-        "`a` does not give `k0`, `k1`, `k2`, `k3`, `k4` and 2 more; they have their defaults there",
-        "`b` does not give `x`; it has its default there",
+    messages = [d.message for d in report.sorted() if d.code.id == "RC936"]
+    assert messages == [
+        "`a` lacks `k0`, `k1`, `k2`, `k3`, `k4` and 2 more; their defaults apply",
+        "`b` lacks `x`; its default applies",
     ]
 
 
@@ -272,14 +274,14 @@ c = 'True'
 """
 
 
-def test_truth_as_python_writes_it() -> None:
+def test_read_config_accepts_python_booleans_in_toml() -> None:
     report = Report()
     config = read_config(Source(Path("config.toml"), PYTHONIC), report)
     assert config is not None
-    values = {one.key: one.value for one in config.entries}
+    values = {entry.key: entry.value for entry in config.entries}
     assert values == {"noSafe": True, "text": "x = True", "a.b": False, "a.c": "True"}
-    said = [(d.code.id, d.span.begin, d.span.text) for d in report.sorted()]
-    assert said == [("RC939", (1, 8), "True"), ("RC939", (4, 5), "False")]
+    findings = [(d.code.id, d.span.start_position, d.span.text) for d in report.sorted()]
+    assert findings == [("RC939", (1, 8), "True"), ("RC939", (4, 5), "False")]
 
 
 COMMENTED = """[a]
@@ -300,10 +302,10 @@ list = [1, 2]  # some
 """
 
 
-def test_comments_of_toml() -> None:
+def test_read_config_reads_toml_comments() -> None:
     config = read_config(Source(Path("config.toml"), COMMENTED), Report())
     assert config is not None
-    assert {one.key: one.doc for one in config.entries} == {
+    assert {entry.key: entry.doc for entry in config.entries} == {
         "a.early": "Early exit",
         "a.far": "in m",
         "a.steps": "warm-up\nof some frames",

@@ -1,4 +1,4 @@
-"""Files of rcmanager and of its successor become deployments that check clean."""
+"""Files of rcmanager and of its successor are migrated to valid deployments."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.check import check_ddsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_ddsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.migrate.manager import read_manager
 from robocomp_dsl.source import Source
@@ -27,7 +27,7 @@ def up(command: str) -> str:
 
 
 CASES: dict[str, tuple[str, list[tuple[str, str, int, tuple[str, ...]]], list[tuple[str, int]]]] = {
-    "a circle": (
+    "a cycle": (
         node("a", needs("b")) + node("b", needs("a")) + node("c", needs("c"), needs("a")),
         [("b", "", 0, ()), ("a", "", 0, ("b",)), ("c", "", 0, ("a",))],
         [("RC973", 3), ("RC973", 4)],
@@ -37,13 +37,13 @@ CASES: dict[str, tuple[str, list[tuple[str, str, int, tuple[str, ...]]], list[tu
         [("my_arm", "", 0, ()), ("my_arm_", "", 0, ()), ("_1st", "", 0, ())],
         [("RC972", 5), ("RC972", 6)],
     ),
-    "a dependence on nobody": (
+    "an unknown dependency": (
         node("a", needs("nobody"), needs("is"))
         + node("is", endpoint="IceStorm/TopicManager:default -p 9999"),
         [("a", "", 0, ())],
         [("RC973", 2)],
     ),
-    "one port twice": (
+    "duplicate ports": (
         node("a", endpoint="laser:tcp -h localhost -p 10003")
         + node("b", endpoint="laser:tcp -p 10003")
         + node("c", endpoint="laser:tcp -h 10.0.0.7 -p 10003")
@@ -70,24 +70,24 @@ CASES: dict[str, tuple[str, list[tuple[str, str, int, tuple[str, ...]]], list[tu
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_deployments_check_clean(rcgen, tmp_path: Path, name: str) -> None:
-    body, expected, told = CASES[name]
+def test_migrate_manager_checks_clean(rcgen, tmp_path: Path, name: str) -> None:
+    body, expected, expected_findings = CASES[name]
     file = tmp_path / "old.xml"
     file.write_text(f"<rcmanager>\n{body}</rcmanager>\n")
     done = rcgen("migrate", file, "--format", "concise")
     assert "internal" not in done.err
     report = Report()
-    found = check_ddsl(tmp_path / "old-migrated/old.ddsl", Workspace(), report)
-    assert not report.failed, list(report)
-    assert found is not None
+    deployment = check_ddsl(tmp_path / "old-migrated/old.ddsl", Workspace(), report)
+    assert not report.has_errors, list(report)
+    assert deployment is not None
     rows = []
-    for one in found.instances:
-        address = "" if one.host.is_here else one.host.address
-        rows.append((one.name, address, one.port, one.after))
+    for instance in deployment.instances:
+        address = "" if instance.host.is_local else instance.host.address
+        rows.append((instance.name, address, instance.port, instance.after))
     assert sorted(rows) == sorted(expected)
-    for code, line in told:
+    for code, line in expected_findings:
         assert any(f"old.xml:{line}:" in row and code in row for row in done.err.splitlines())
-    assert done.code == (1 if "RC972" in dict(told) else 0)
+    assert done.code == (1 if "RC972" in dict(expected_findings) else 0)
 
 
 SUB = """[[components]]
@@ -103,14 +103,17 @@ cmd = "src/joy.py etc/config"
 """
 
 
-def test_the_newer_form_in_toml(rcgen, tmp_path: Path) -> None:
+def test_migrate_sub_toml(rcgen, tmp_path: Path) -> None:
     file = tmp_path / "sub.toml"
     file.write_text(SUB)
     assert rcgen("migrate", file).code == 0
-    found = check_ddsl(tmp_path / "sub-migrated/sub.ddsl", Workspace(), Report())
-    assert found is not None
-    assert [(one.name, one.port) for one in found.instances] == [("bridge", 10006), ("joy", 0)]
-    served = [port.interface.name for port in found.instances[0].component.ports]
+    deployment = check_ddsl(tmp_path / "sub-migrated/sub.ddsl", Workspace(), Report())
+    assert deployment is not None
+    assert [(instance.name, instance.port) for instance in deployment.instances] == [
+        ("bridge", 10006),
+        ("joy", 0),
+    ]
+    served = [port.interface.name for port in deployment.instances[0].component.ports]
     assert served == ["Laser"]
 
 
@@ -129,7 +132,7 @@ def test_the_newer_form_in_toml(rcgen, tmp_path: Path) -> None:
         ("x.xml", "<rcmanager><node alias='a'><rcmanager>"),
     ],
 )
-def test_broken_files_are_told(rcgen, tmp_path: Path, name: str, text: str) -> None:
+def test_migrate_reports_broken_manager_file(rcgen, tmp_path: Path, name: str, text: str) -> None:
     (tmp_path / name).write_text(text)
     done = rcgen("migrate", tmp_path / name)
     assert done.code == 1
@@ -137,12 +140,12 @@ def test_broken_files_are_told(rcgen, tmp_path: Path, name: str, text: str) -> N
     assert "internal" not in done.err
 
 
-def test_every_node_says_where_it_stood() -> None:
+def test_read_manager_nodes_have_position() -> None:
     text = "<rcmanager>\n" + node("a", endpoint="laser:tcp -h h -p 5") + "</rcmanager>"
     nodes = read_manager(Source(Path("m.xml"), text), Report())
     assert nodes is not None
-    (one,) = nodes
-    assert (one.name, one.host, one.span.begin[0]) == ("a", "h", 2)
+    (first,) = nodes
+    assert (first.name, first.host, first.span.start_position[0]) == ("a", "h", 2)
 
 
 CHAIN = """[[components]]
@@ -157,7 +160,7 @@ cmd = "bin/filter etc/config_back"
 """
 
 
-def test_two_of_a_kind_are_not_wired_in_a_circle(rcgen, tmp_path: Path) -> None:
+def test_migrate_does_not_connect_same_components_in_cycle(rcgen, tmp_path: Path) -> None:
     (tmp_path / "sub.toml").write_text(CHAIN)
     etc = tmp_path / "filter" / "etc"
     etc.mkdir(parents=True)
@@ -165,7 +168,7 @@ def test_two_of_a_kind_are_not_wired_in_a_circle(rcgen, tmp_path: Path) -> None:
         'import "Laser.idsl";\nComponent filter\n{\n'
         "    Communications { implements Laser; requires Laser; };\n    language Python;\n};\n"
     )
-    # Both call what is not there; then one calls the other.
+    # Both call an unknown server; then one calls the other.
     for called, wires in ((10008, {"front": "laser", "back": "laser"}), (11991, {"back": "laser"})):
         for name, port in (("front", 11990), ("back", 11991)):
             to = 10008 if name == "back" else called
@@ -174,7 +177,9 @@ def test_two_of_a_kind_are_not_wired_in_a_circle(rcgen, tmp_path: Path) -> None:
             )
         out = tmp_path / f"out{called}"
         rcgen("migrate", tmp_path / "sub.toml", tmp_path / "filter", "-o", out)
-        found = check_ddsl(out / "sub.ddsl", Workspace(), Report())
-        assert found is not None
-        made = {one.source.name: one.target.name for one in found.connections}
-        assert made == {"front": "back", **wires}
+        deployment = check_ddsl(out / "sub.ddsl", Workspace(), Report())
+        assert deployment is not None
+        connected = {
+            connection.source.name: connection.target.name for connection in deployment.connections
+        }
+        assert connected == {"front": "back", **wires}

@@ -1,4 +1,4 @@
-"""`rcgen migrate` from end to end: folders as RoboComp has them become components that run."""
+"""End-to-end tests of `rcgen migrate`: RoboComp's folders become running components."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from processes import running
 
-from robocomp_dsl.check import check_ddsl
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.passes import check_ddsl
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.write import write
-from robocomp_dsl.migrate import move_over
-from robocomp_dsl.migrate.finish import generated, judged
+from robocomp_dsl.migrate.finish import check_migrated_deployment, generate_components
+from robocomp_dsl.migrate.migration import plan_migration
+from tests.migrate.processes import running
+from tests.support.generated_package import package_in
 
 Rcgen = Callable[..., object]
 
@@ -33,7 +34,7 @@ def digest(folder: Path) -> dict[str, str]:
     }
 
 
-def test_a_python_component_moves_over_and_checks_clean(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_python_component_checks_clean(rcgen, old: Path, tmp_path: Path) -> None:
     before = digest(old)
     out = tmp_path / "new"
     done = rcgen("migrate", old / "follow", "-o", out)
@@ -47,12 +48,16 @@ def test_a_python_component_moves_over_and_checks_clean(rcgen, old: Path, tmp_pa
     assert (out / "steering.py").read_bytes() == (old / "follow/src/steering.py").read_bytes()
     assert (out / "etc/room.xml").is_file()
     report = (out / "MIGRATION.md").read_text()
-    for said in ("`follow/etc/config:16`", "`follow/src/genericworker.py`", "`laser` stands for"):
-        assert said in report
+    for words in (
+        "`follow/etc/config:16`",
+        "`follow/src/genericworker.py`",
+        "`laser` is a stand-in",
+    ):
+        assert words in report
     assert str(tmp_path) not in report
 
 
-def test_methods_are_the_same_bytes(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_keeps_methods_byte_by_byte(rcgen, old: Path, tmp_path: Path) -> None:
     rcgen("migrate", old / "follow", "-o", tmp_path / "new")
     was = (old / "follow/src/specificworker.py").read_bytes()
     now = (tmp_path / "new/specificworker.py").read_bytes()
@@ -62,22 +67,22 @@ def test_methods_are_the_same_bytes(rcgen, old: Path, tmp_path: Path) -> None:
     assert added.strip() == "Mood_setSpeed = setSpeed"
 
 
-def test_it_computes_at_once(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrated_component_computes(rcgen, old: Path, tmp_path: Path) -> None:
     rcgen("migrate", old / "follow", "-o", tmp_path / "new")
     with running(tmp_path / "new", "--middleware", "inproc") as follow:
         follow.wait_for("no robot: NoServer")
         assert follow.stop() == 0
 
 
-def test_three_components_of_a_manager_work_together(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrated_deployment_components_communicate(rcgen, old: Path, tmp_path: Path) -> None:
     folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
     out = tmp_path / "robot"
     done = rcgen("migrate", old / "robot.xml", *folders, "-o", out)
     assert done.code == 0, done.err
     report = Report()
-    found = check_ddsl(out / "robot.ddsl", Workspace(), report)
-    assert not report.failed
-    assert found is not None
+    deployment = check_ddsl(out / "robot.ddsl", Workspace(), report)
+    assert not report.has_errors
+    assert deployment is not None
     domain = f"migrated-{uuid.uuid4().hex[:12]}"
     wires = ("--connect", "Laser=laser", "--connect", "DifferentialRobot=base")
     slow = ("--config", "etc/config_slow.yaml")
@@ -90,15 +95,21 @@ def test_three_components_of_a_manager_work_together(rcgen, old: Path, tmp_path:
         base.wait_for("SPEED 50.0 0.6")
 
 
-def test_a_manager_becomes_a_deployment(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_manager_writes_deployment(rcgen, old: Path, tmp_path: Path) -> None:
     folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
     out = tmp_path / "robot"
     assert rcgen("migrate", old / "robot.xml", *folders, "-o", out).code == 0
-    found = check_ddsl(out / "robot.ddsl", Workspace(), Report())
-    assert found is not None
+    deployment = check_ddsl(out / "robot.ddsl", Workspace(), Report())
+    assert deployment is not None
     rows = [
-        (one.name, one.component.name, one.host.address, one.port, one.after)
-        for one in found.instances
+        (
+            instance.name,
+            instance.component.name,
+            instance.host.address,
+            instance.port,
+            instance.after,
+        )
+        for instance in deployment.instances
     ]
     assert rows == [
         ("laser", "laser_sim", "127.0.0.1", 10003, ()),
@@ -106,10 +117,11 @@ def test_a_manager_becomes_a_deployment(rcgen, old: Path, tmp_path: Path) -> Non
         ("follow_me", "follow", "127.0.0.1", 11010, ("laser", "base")),
         ("rgbd", "rgbd", "10.0.30.33", 10096, ()),
     ]
-    assert found.instances[2].config == out / "follow/etc/config_slow.yaml"
-    assert found.instances[3].host.user == "robolab"
+    assert deployment.instances[2].config == out / "follow/etc/config_slow.yaml"
+    assert deployment.instances[3].host.user == "robolab"
     wires = {
-        (w.source.name, w.source_port.name, w.target.name, w.implied) for w in found.connections
+        (w.source.name, w.source_port.name, w.target.name, w.implied)
+        for w in deployment.connections
     }
     assert wires == {
         ("follow_me", "Laser", "laser", False),
@@ -117,7 +129,7 @@ def test_a_manager_becomes_a_deployment(rcgen, old: Path, tmp_path: Path) -> Non
     }
 
 
-def test_a_manager_alone_gives_stand_ins(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_manager_without_folders_writes_stand_ins(rcgen, old: Path, tmp_path: Path) -> None:
     out = tmp_path / "robot"
     done = rcgen("migrate", old / "robot.xml", "-o", out)
     assert done.code == 0, done.err
@@ -128,7 +140,7 @@ def test_a_manager_alone_gives_stand_ins(rcgen, old: Path, tmp_path: Path) -> No
     assert (out / "peers/laser/main.py").is_file()
 
 
-def test_the_new_folder_is_never_an_old_one(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_refuses_output_in_old_folder(rcgen, old: Path, tmp_path: Path) -> None:
     mine = tmp_path / "follow"
     shutil.copytree(old / "follow", mine)
     before = digest(mine)
@@ -161,7 +173,7 @@ def test_the_new_folder_is_never_an_old_one(rcgen, old: Path, tmp_path: Path) ->
         ("second.cdsl", b"Component second { };", "RC961", 1),
     ],
 )  # fmt: skip
-def test_what_is_broken_is_told_and_the_rest_goes_on(
+def test_migrate_reports_broken_file_and_continues(
     rcgen, old: Path, tmp_path: Path, name: str, data: bytes, code: str, line: int
 ) -> None:
     folder = tmp_path / "follow"
@@ -169,9 +181,11 @@ def test_what_is_broken_is_told_and_the_rest_goes_on(
     (folder / name).write_bytes(data)
     done = rcgen("migrate", folder, "--format", "concise")
     assert done.code == 1, done.err
-    told = [row for row in done.err.splitlines() if code in row]
-    assert any(f"{name.rpartition('/')[2]}:{line}" in row for row in told) or code == "RC923", told
-    assert told
+    reported = [row for row in done.err.splitlines() if code in row]
+    assert any(f"{name.rpartition('/')[2]}:{line}" in row for row in reported) or code == "RC923", (
+        reported
+    )
+    assert reported
     assert "Traceback" not in done.err
     if name != "follow.cdsl" or code != "RC921":
         out = tmp_path / "follow-migrated"
@@ -180,7 +194,7 @@ def test_what_is_broken_is_told_and_the_rest_goes_on(
         assert (out / "follow.cdsl").is_file()
 
 
-def test_cpp_keeps_its_descriptions(rcgen, tmp_path: Path) -> None:
+def test_migrate_cpp_component_keeps_descriptions(rcgen, tmp_path: Path) -> None:
     folder = tmp_path / "eyes"
     (folder / "etc").mkdir(parents=True)
     (folder / "src").mkdir()
@@ -195,7 +209,7 @@ def test_cpp_keeps_its_descriptions(rcgen, tmp_path: Path) -> None:
     assert done.code == 1
     out = tmp_path / "eyes-migrated"
     report = (out / "MIGRATION.md").read_text()
-    assert "`eyes/src/specificworker.cpp` code in C++ is not carried over" in report
+    assert "`eyes/src/specificworker.cpp` C++ code is not migrated" in report
     assert "`eyes/src/genericworker.cpp`" in report.partition("For information")[2]
     assert "language Python;" in (out / "eyes.cdsl").read_text()
     assert rcgen("check", out).code == 0
@@ -204,7 +218,7 @@ def test_cpp_keeps_its_descriptions(rcgen, tmp_path: Path) -> None:
         eyes.wait_for("running")
 
 
-def test_toml_goes_to_the_worker_as_tables(rcgen, tmp_path: Path) -> None:
+def test_migrated_worker_receives_toml_tables(rcgen, tmp_path: Path) -> None:
     folder = tmp_path / "eyes"
     (folder / "etc").mkdir(parents=True)
     (folder / "src").mkdir()
@@ -229,11 +243,11 @@ def test_toml_goes_to_the_worker_as_tables(rcgen, tmp_path: Path) -> None:
     out = tmp_path / "eyes-migrated"
     assert "period 20;" in (out / "eyes.cdsl").read_text()
     with running(out, "--middleware", "inproc") as eyes:
-        said = eyes.wait_for("DATA")
-    assert said == "DATA 20 {'Extrinsic': [0.0, 1.5], 'Display': True, 'Name': 'a'}"
+        line = eyes.wait_for("DATA")
+    assert line == "DATA 20 {'Extrinsic': [0.0, 1.5], 'Display': True, 'Name': 'a'}"
 
 
-def test_ours_do_not_move_again(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_refuses_migrated_component(rcgen, old: Path, tmp_path: Path) -> None:
     assert rcgen("migrate", old / "follow", "-o", tmp_path / "new").code == 0
     done = rcgen("migrate", tmp_path / "new", "-o", tmp_path / "newer", "--format", "concise")
     assert done.code == 1
@@ -242,9 +256,7 @@ def test_ours_do_not_move_again(rcgen, old: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("seed", range(8))
-def test_damaged_folders_give_findings_and_sound_files(
-    old: Path, tmp_path: Path, seed: int
-) -> None:
+def test_migrate_damaged_folder_writes_valid_files(old: Path, tmp_path: Path, seed: int) -> None:
     chance = random.Random(seed)
     folder, out = tmp_path / "old", tmp_path / "new"
     shutil.copytree(old, folder)
@@ -252,29 +264,29 @@ def test_damaged_folders_give_findings_and_sound_files(
     for path in chance.sample(files, 4):
         data = bytearray(path.read_bytes())
         for _ in range(chance.randint(1, 5)):
-            at = chance.randrange(len(data) + 1)
-            data[at : at + chance.choice((0, 1, 12))] = chance.choice(DAMAGE)
+            position = chance.randrange(len(data) + 1)
+            data[position : position + chance.choice((0, 1, 12))] = chance.choice(DAMAGE)
         path.write_bytes(data)
     report = Report()
     inputs = [folder / name for name in ("robot.xml", "follow", "laser_sim", "base_sim")]
-    plan = move_over(inputs, out, [], report)
+    plan = plan_migration(inputs, out, [], report)
     write(out, plan.files)
-    for place, made in generated(plan, out, [], report):
-        write(out / place, made)
+    for place, generated in generate_components(plan, out, [], report):
+        write(out / place, generated)
         ast.parse((out / place / "specificworker.py").read_bytes())
-        ast.parse((out / place / "generated/params.py").read_bytes())
-    judged(plan, out, [], report)
-    assert all(one.span.source.path.name for one in report)
-    if plan.deployment and not report.failed:
-        found = Report()
-        check_ddsl(out / plan.deployment, Workspace(), found)
-        assert not found.failed
+        ast.parse((package_in(out / place) / "params.py").read_bytes())
+    check_migrated_deployment(plan, out, [], report)
+    assert all(finding.span.source.path.name for finding in report)
+    if plan.deployment and not report.has_errors:
+        check_report = Report()
+        check_ddsl(out / plan.deployment, Workspace(), check_report)
+        assert not check_report.has_errors
 
 
 DAMAGE = (b"", b'"', b"}", b"{", b";", b"\n", b"/*", b"\xff", b"\0", b"<", b"&", b"'", b"=", b"#x")
 
 
-def test_a_worker_that_takes_tables_gets_them_from_a_text_file(rcgen, tmp_path: Path) -> None:
+def test_migrated_worker_receives_tables_from_text_file(rcgen, tmp_path: Path) -> None:
     folder = tmp_path / "eyes"
     (folder / "etc").mkdir(parents=True)
     (folder / "src").mkdir()
@@ -299,7 +311,7 @@ def test_a_worker_that_takes_tables_gets_them_from_a_text_file(rcgen, tmp_path: 
         assert eyes.wait_for("TABLES") == "TABLES {'Gain': 3.0}"
 
 
-def test_any_link_is_told_and_not_followed(rcgen, old: Path, tmp_path: Path) -> None:
+def test_migrate_reports_links_and_does_not_follow_them(rcgen, old: Path, tmp_path: Path) -> None:
     folder = tmp_path / "follow"
     shutil.copytree(old / "follow", folder)
     secret = tmp_path / "secret"
@@ -312,7 +324,7 @@ def test_any_link_is_told_and_not_followed(rcgen, old: Path, tmp_path: Path) -> 
     assert not list((tmp_path / "follow-migrated").rglob("config_linked*"))
 
 
-def test_configurations_beside_the_manager_belong_to_the_components(
+def test_migrate_finds_configurations_next_to_manager_file(
     rcgen, old: Path, tmp_path: Path
 ) -> None:
     etc = tmp_path / "robot/etc"
@@ -325,9 +337,9 @@ def test_configurations_beside_the_manager_belong_to_the_components(
     out = tmp_path / "new"
     folders = [old / name for name in ("follow", "laser_sim", "base_sim")]
     assert rcgen("migrate", etc / "robot.xml", *folders, "-o", out).code == 0
-    found = check_ddsl(out / "robot.ddsl", Workspace(), Report())
-    assert found is not None
-    assert found.instances[2].config == out / "follow/etc/follow.yaml"
+    deployment = check_ddsl(out / "robot.ddsl", Workspace(), Report())
+    assert deployment is not None
+    assert deployment.instances[2].config == out / "follow/etc/follow.yaml"
     assert "Advance: 70" in (out / "follow/etc/follow.yaml").read_text()
 
 
@@ -341,13 +353,17 @@ def test_configurations_beside_the_manager_belong_to_the_components(
         ("class A:\n    def x(:\n", False),
     ],
 )
-def test_python_2_is_told(rcgen, old: Path, tmp_path: Path, text: str, is_old: bool) -> None:
+def test_migrate_reports_python_2(
+    rcgen, old: Path, tmp_path: Path, text: str, is_old: bool
+) -> None:
     folder = tmp_path / "follow"
     shutil.copytree(old / "follow", folder)
     (folder / "src" / "specificworker.py").write_text(text)
     done = rcgen("migrate", folder)
     assert done.code == 1
-    assert ("help: it is Python 2: `2to3 -w -n specificworker.py` brings" in done.err) == is_old
+    assert (
+        "help: this is Python 2: convert a copy with `2to3 -w -n specificworker.py`" in done.err
+    ) == is_old
     assert "error[RC952]" in done.err
 
 
@@ -395,7 +411,7 @@ class SpecificWorker(GenericWorker):
 """
 
 
-def test_an_old_state_machine_runs_as_it_did(rcgen, tmp_path: Path) -> None:
+def test_migrated_state_machine_runs(rcgen, tmp_path: Path) -> None:
     folder = tmp_path / "states"
     (folder / "src").mkdir(parents=True)
     (folder / "states.cdsl").write_text(
@@ -412,5 +428,5 @@ def test_an_old_state_machine_runs_as_it_did(rcgen, tmp_path: Path) -> None:
         cwd=tmp_path / "states-migrated", capture_output=True, text=True, check=False, timeout=60,
     )  # fmt: skip
     assert run.returncode == 0, run.stderr
-    said = ["start", "first 1", "first 2", "first 3", "second", "over"]
-    assert run.stdout.splitlines() == said, run.stderr
+    expected = ["start", "first 1", "first 2", "first 3", "second", "over"]
+    assert run.stdout.splitlines() == expected, run.stderr

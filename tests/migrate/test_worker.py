@@ -1,4 +1,4 @@
-"""What of an old worker is adapted, what stays, and what is told."""
+"""Tests of the adaptation of old workers."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.upkeep import user_module
-from robocomp_dsl.migrate.worker import Names, adapted
+from robocomp_dsl.generate.regeneration import user_module
+from robocomp_dsl.migrate.worker import LegacyNames, adapt_module
 
-NAMES = Names("legacy", frozenset({"RoboCompLaser"}), {"getLaserData": "Laser_getLaserData"})
+NAMES = LegacyNames(
+    "legacy", "old_generated", frozenset({"RoboCompLaser"}), {"getLaserData": "Laser_getLaserData"}
+)
 
 IMPORTS = [
     ("from genericworker import *", "from legacy import *"),
@@ -22,8 +24,8 @@ IMPORTS = [
     ("import Ice, sys as s", "from legacy import Ice; import sys as s"),
     ("import Ice\nIce.loadSlice('x')", "from legacy import Ice\nIce.loadSlice('x')"),
     ("import RoboCompLaser as l", "from legacy import RoboCompLaser as l"),
-    ("from RoboCompLaser import *", "from generated.interfaces import *"),
-    ("from RoboCompLaser import A as B", "from generated.interfaces import A as B"),
+    ("from RoboCompLaser import *", "from old_generated.interfaces import *"),
+    ("from RoboCompLaser import A as B", "from old_generated.interfaces import A as B"),
     ("from PySide import QtGui, QtCore", "from legacy import QtGui, QtCore"),
     ("from PySide2.QtCore import QTimer, Qt", "from legacy import QTimer"),
     ("try:\n    from PyQt5.QtGui import QColor\nexcept E:\n    pass",
@@ -49,53 +51,57 @@ def rewritten(text: str, folder: Path) -> tuple[str, Report]:
     user = user_module.read(path, Report())
     assert user is not None
     report = Report()
-    return adapted(user, NAMES, report), report
+    return adapt_module(user, NAMES, report), report
 
 
 @pytest.mark.parametrize(("old", "new"), IMPORTS)
-def test_imports_of_robocomp_are_adapted(old: str, new: str, tmp_path: Path) -> None:
-    made, report = rewritten(old, tmp_path)
-    assert made == new
-    assert {one.code.id for one in report} == {"RC954"}
+def test_adapt_module_replaces_robocomp_imports(old: str, new: str, tmp_path: Path) -> None:
+    adapted, report = rewritten(old, tmp_path)
+    assert adapted == new
+    assert {finding.code.id for finding in report} == {"RC954"}
 
 
 @pytest.mark.parametrize("text", STAYING)
-def test_what_needs_qt_or_ice_stays_and_is_told(text: str, tmp_path: Path) -> None:
-    made, report = rewritten(text, tmp_path)
-    assert made == text
-    assert [(one.code.id, one.span.begin[0]) for one in report] == [("RC955", 1)]
+def test_adapt_module_reports_imports_that_need_qt_or_ice(text: str, tmp_path: Path) -> None:
+    adapted, report = rewritten(text, tmp_path)
+    assert adapted == text
+    assert [(finding.code.id, finding.span.start_position[0]) for finding in report] == [
+        ("RC955", 1)
+    ]
 
 
 @pytest.mark.parametrize("text", ["import os", "from . import interfaces", "import numpy as np"])
-def test_other_imports_stay(text: str, tmp_path: Path) -> None:
-    made, report = rewritten(text, tmp_path)
-    assert made == text
+def test_adapt_module_keeps_other_imports(text: str, tmp_path: Path) -> None:
+    adapted, report = rewritten(text, tmp_path)
+    assert adapted == text
     assert not len(report)
 
 
-def test_names_of_the_star_import_that_are_not_there_are_told(tmp_path: Path) -> None:
+def test_adapt_module_reports_unsupported_star_import(tmp_path: Path) -> None:
     _, report = rewritten("from genericworker import *\nt = QtCore.QTimer()\n", tmp_path)
-    assert sorted(one.code.id for one in report) == ["RC954", "RC955"]
+    assert sorted(finding.code.id for finding in report) == ["RC954", "RC955"]
 
 
-def test_old_names_of_methods_get_those_of_today(tmp_path: Path) -> None:
+def test_adapt_module_adds_handler_aliases(tmp_path: Path) -> None:
     text = (
         "class SpecificWorker(G):\r\n\tdef getLaserData(self):\r\n\t\treturn 1 # c\r\n\r\nx = 1\r\n"
     )
-    made, _ = rewritten(text, tmp_path)
+    adapted, _ = rewritten(text, tmp_path)
     added = "\r\n\r\n\tLaser_getLaserData = getLaserData"
-    assert made == text.replace("# c", f"# c{added}")
-    assert made == rewritten(made, tmp_path)[0]
+    assert adapted == text.replace("# c", f"# c{added}")
+    assert adapted == rewritten(adapted, tmp_path)[0]
 
 
-def test_attributes_of_the_component_are_told(tmp_path: Path) -> None:
+def test_adapt_module_reports_component_attributes(tmp_path: Path) -> None:
     text = "class SpecificWorker(G):\n    def f(self):\n        self.params = 1\n        self.x = 2"
-    made, report = rewritten(text, tmp_path)
-    assert made == text
-    assert [(one.code.id, one.span.begin) for one in report] == [("RC956", (3, 9))]
+    adapted, report = rewritten(text, tmp_path)
+    assert adapted == text
+    assert [(finding.code.id, finding.span.start_position) for finding in report] == [
+        ("RC956", (3, 9))
+    ]
 
 
-def test_methods_of_states_are_told(tmp_path: Path) -> None:
+def test_adapt_module_reports_state_methods(tmp_path: Path) -> None:
     path = tmp_path / "specificworker.py"
     path.write_text(
         "class SpecificWorker(G):\n    def sm_search(self): ...\n    def sm_x(self): ...\n"
@@ -103,7 +109,7 @@ def test_methods_of_states_are_told(tmp_path: Path) -> None:
     user = user_module.read(path, Report())
     assert user is not None
     report = Report()
-    adapted(user, replace(NAMES, states=frozenset({"search"})), report)
-    said = [(one.code.id, one.span.text) for one in report]
-    assert said == [("RC959", "sm_search"), ("RC958", "sm_x")]
+    adapt_module(user, replace(NAMES, states=frozenset({"search"})), report)
+    findings = [(finding.code.id, finding.span.text) for finding in report]
+    assert findings == [("RC959", "sm_search"), ("RC958", "sm_x")]
     assert "on_enter_search" in next(iter(report)).message

@@ -1,17 +1,17 @@
-"""A wheel, installed elsewhere, carries grammars, templates and interfaces, and generates."""
+"""A wheel, installed outside the checkout, has everything that the commands need."""
 
 from __future__ import annotations
 
 import subprocess
-import sys
-import sysconfig
-import venv
+import tarfile
 import zipfile
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from robocomp_dsl import __version__
+from tests.packaging.installation import ROOT, Installation, build
+
 COMPONENT = """\
 import "Laser.idsl";
 Component watcher
@@ -20,60 +20,65 @@ Component watcher
     language Python;
 };
 """
+SHARED = ("grammars", "templates", "interfaces", "components")
 
 
-@pytest.fixture(scope="module")
-def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("wheel")
-    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder)]
-    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
-    (built,) = folder.glob("*.whl")
-    return built
+def _names(wheel: Path) -> set[str]:
+    return set(zipfile.ZipFile(wheel).namelist())
 
 
-@pytest.fixture(scope="module")
-def elsewhere(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A fresh venv with the wheel in it; its dependencies are borrowed: no network is needed."""
-    folder = tmp_path_factory.mktemp("venv")
-    venv.create(folder, with_pip=False)
-    (site,) = folder.glob("lib/python*/site-packages")
-    (site / "borrowed.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    pip = [sys.executable, "-m", "pip", "--python", str(folder / "bin/python")]
-    subprocess.run(
-        [*pip, "install", "--no-deps", "--no-index", "-q", str(wheel)],
-        check=True,
-        capture_output=True,
+def test_wheel_holds_every_shared_file(wheel: Path) -> None:
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", *SHARED], cwd=ROOT, check=True, capture_output=True, text=True
     )
-    return folder
+    shared = [name for name in listed.stdout.split("\0") if name]
+    assert {name.partition("/")[0] for name in shared} == set(SHARED)
+    assert {f"robocomp_dsl/share/{name}" for name in shared} <= _names(wheel)
 
 
-def test_the_wheel_holds_what_is_shipped(wheel: Path) -> None:
-    names = set(zipfile.ZipFile(wheel).namelist())
-    for folder in ("grammars", "templates", "interfaces"):
-        shipped = [p for p in (ROOT / folder).rglob("*") if p.is_file()]
-        assert shipped
-        for path in shipped:
-            assert f"robocomp_dsl/share/{path.relative_to(ROOT)}" in names
+def test_wheel_holds_no_build_products(wheel: Path) -> None:
+    assert not [n for n in _names(wheel) if "__pycache__" in n or "/build/" in n]
 
 
-def test_an_installed_rcgen_generates(elsewhere: Path, tmp_path: Path) -> None:
+def test_sdist_builds_the_same_wheel(wheel: Path, tmp_path: Path) -> None:
+    archive = build("sdist", ROOT, tmp_path / "sdist")
+    with tarfile.open(archive) as opened:
+        opened.extractall(tmp_path, filter="data")
+    (source,) = tmp_path.glob("robocomp_dsl-*")
+    assert _names(build("wheel", source, tmp_path / "again")) == _names(wheel)
+
+
+def test_wheel_metadata(wheel: Path) -> None:
+    (metadata,) = (n for n in _names(wheel) if n.endswith(".dist-info/METADATA"))
+    text = zipfile.ZipFile(wheel).read(metadata).decode()
+    assert f"\nVersion: {__version__}\n" in text
+    assert "\nLicense-Expression: Apache-2.0\n" in text
+    for extra in ("simulation", "view", "editor", "all"):
+        assert f"\nProvides-Extra: {extra}\n" in text
+
+
+def test_installed_package_is_that_of_the_wheel(installed: Installation, tmp_path: Path) -> None:
+    run = installed.run(
+        "python3", "-c", "import robocomp_dsl as r; print(r.__file__)", cwd=tmp_path
+    )
+    assert run.stdout.startswith(str(installed.folder))
+
+
+@pytest.mark.parametrize("command", ["rcgen", "rcdeploy"])
+def test_installed_version(installed: Installation, tmp_path: Path, command: str) -> None:
+    assert installed.run(command, "--version", cwd=tmp_path).stdout == (
+        f"{command}, version {__version__}\n"
+    )
+
+
+def test_installed_rcgen_component(installed: Installation, tmp_path: Path) -> None:
     (tmp_path / "watcher.cdsl").write_text(COMPONENT)
-    python = str(elsewhere / "bin/python")
-    where = subprocess.run(
-        [python, "-c", "import robocomp_dsl; print(robocomp_dsl.__file__)"],
-        cwd=tmp_path,
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    assert where.stdout.startswith(str(elsewhere))
-    subprocess.run(
-        [str(elsewhere / "bin/rcgen"), "component", "watcher.cdsl"],
-        cwd=tmp_path,
-        check=True,
-        capture_output=True,
-    )
-    assert "getLaserData" in (tmp_path / "generated/interfaces.py").read_text()
+    run = installed.run("rcgen", "component", "watcher.cdsl", cwd=tmp_path)
+    assert run.returncode == 0, run.stderr
+    (interfaces,) = tmp_path.glob("*/interfaces.py")
+    assert "getLaserData" in interfaces.read_text()
+    help_ = installed.run("python3", "main.py", "--help", cwd=tmp_path)
+    assert "Run the component watcher." in help_.stdout
 
 
 INITIALIZE = b'{"jsonrpc":"2.0","id":1,"method":"initialize","params":{"capabilities":{}}}'
@@ -91,25 +96,19 @@ EXIT = b'{"jsonrpc":"2.0","method":"exit"}'
         (("interface", "Laser.idsl", "--to", "json-schema"), "TLaserData"),
         (("interface", "Laser.idsl", "--to", "ros2", "-o", "ros2"), "ros2: "),
         (("new", "other"), "wrote "),
+        (("examples",), "touch "),
         (("explain", "RC204"), "Wrong:"),
         (("lsp",), '"hoverProvider": true'),
     ],
-    ids=lambda one: one[0] if isinstance(one, tuple) else "",
+    ids=lambda value: value[0] if isinstance(value, tuple) else "",
 )
-def test_every_command_of_an_installed_rcgen(
-    elsewhere: Path, tmp_path: Path, command: tuple[str, ...], shown: str
+def test_installed_rcgen_command(
+    installed: Installation, tmp_path: Path, command: tuple[str, ...], shown: str
 ) -> None:
     (tmp_path / "watcher.cdsl").write_text(COMPONENT.replace("import", "  import"))
     (tmp_path / "Laser.idsl").write_bytes((ROOT / "interfaces/Laser.idsl").read_bytes())
     sent = b"".join(b"Content-Length: %d\r\n\r\n%b" % (len(m), m) for m in (INITIALIZE, EXIT))
-    done = subprocess.run(
-        [str(elsewhere / "bin/rcgen"), *command],
-        cwd=tmp_path,
-        input=sent,
-        capture_output=True,
-        check=False,
-        timeout=60,
-    )
-    assert shown in done.stdout.decode()
-    assert b"internal error" not in done.stderr
-    assert done.returncode in ((0, 1) if command == ("lsp",) else (0,))
+    run = installed.run("rcgen", *command, cwd=tmp_path, stdin=sent)
+    assert shown in run.stdout
+    assert "internal error" not in run.stderr
+    assert run.returncode in ((0, 1) if command == ("lsp",) else (0,))

@@ -20,7 +20,7 @@ class Machine:
         self.work = top / "work"
         self.work.mkdir()
         self.environment = {
-            name: ":".join(str(top / one) for one in folders.split(":"))
+            name: ":".join(str(top / folder) for folder in folders.split(":"))
             for name, folders in FOLDERS.items()
         }
 

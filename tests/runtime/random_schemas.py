@@ -17,20 +17,11 @@ PRIMITIVES = (*FIXED, rt.STRING)
 _serial = itertools.count()
 
 
-def record(fields: list[Any], base: type[Any] = rt.Struct) -> type[Any]:
+def struct_of(fields: list[Any], base: type[Any] = rt.Struct) -> type[Any]:
     """A class like a generated one, with fields f0, f1, ... of these types."""
     names = tuple(f"f{i}" for i in range(len(fields)))
-
-    def init(self: Any, *values: Any) -> None:
-        for name, value in zip(names, values, strict=True):
-            setattr(self, name, value)
-
-    members = {
-        "__slots__": names,
-        "_fields_": tuple(zip(names, fields, strict=True)),
-        "__init__": init,
-    }
-    return type(f"Record{next(_serial)}", (base,), members)
+    members = {"__annotations__": dict(zip(names, fields, strict=True)), "__module__": __name__}
+    return type(f"Struct{next(_serial)}", (base,), members)
 
 
 def array_of(element: type[Any]) -> type[rt.StructArray[Any]]:
@@ -48,8 +39,8 @@ enums = st.lists(st.integers(-(2**31), 2**31 - 1), min_size=1, max_size=4, uniqu
 )
 fixed_leaves = st.sampled_from(FIXED) | enums
 fixed_structs = st.recursive(
-    st.lists(fixed_leaves, min_size=1, max_size=5).map(record),
-    lambda inner: st.lists(fixed_leaves | inner, min_size=1, max_size=4).map(record),
+    st.lists(fixed_leaves, min_size=1, max_size=5).map(struct_of),
+    lambda inner: st.lists(fixed_leaves | inner, min_size=1, max_size=4).map(struct_of),
     max_leaves=4,
 )
 _flat = st.sampled_from(PRIMITIVES) | enums | st.sampled_from(FIXED).map(rt.Array)
@@ -63,7 +54,7 @@ def _sequence(element: Any) -> Any:
 def _composed(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     keys = st.sampled_from((rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.STRING, rt.BOOL)) | enums
     return (
-        st.lists(inner, max_size=5).map(record)
+        st.lists(inner, max_size=5).map(struct_of)
         | inner.map(_sequence)
         | fixed_structs.map(array_of)
         | st.builds(rt.Dictionary, keys | fixed_structs, inner)
@@ -71,7 +62,7 @@ def _composed(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
 
 
 types = st.recursive(_flat, _composed, max_leaves=6)
-structs = st.lists(types, max_size=5).map(record)
+structs = st.lists(types, max_size=5).map(struct_of)
 
 _BOUNDS = {
     rt.BYTE: (0, 2**8 - 1),

@@ -14,17 +14,17 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.clock import Wake
-from robocomp_dsl.runtime.clock_interface import ClockProxy, Tick
-from robocomp_dsl.runtime.clock_settings import ClockSettings, parse_clock
-from robocomp_dsl.runtime.clock_source import ClockSource
-from robocomp_dsl.runtime.lifecycle import State
+from robocomp_dsl.runtime.clock import WakeEvent
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.spec import CalledPort
 from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.simulated_clock import SimulatedClock
-from robocomp_dsl.runtime.spec import CalledPort
+from robocomp_dsl.runtime.time.clock_interface import ClockProxy, Tick
+from robocomp_dsl.runtime.time.clock_settings import ClockSettings, parse_clock
+from robocomp_dsl.runtime.time.clock_source import ClockSource
+from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 
 DEADLINE = 60.0
 NANO = 1_000_000_000
@@ -37,7 +37,10 @@ NANO = 1_000_000_000
         ("sim", ClockSettings("sim")),
         ("sim,from=body", ClockSettings("sim", "body")),
         ("lockstep,from=body,with=b+a", ClockSettings("lockstep", "body", ("a", "b"))),
-        ("lockstep,limit=2.5,lost=stop", ClockSettings("lockstep", limit=2.5, stops=True)),
+        (
+            "lockstep,limit=2.5,lost=stop",
+            ClockSettings("lockstep", limit=2.5, stops_when_lost=True),
+        ),
     ],
 )
 def test_words_of_the_option(text: str, meant: ClockSettings) -> None:
@@ -66,53 +69,53 @@ class Wall:
 
 
 def began(speed: float = 1.0, tick: float = 0.001) -> tuple[ClockSource, list[Tick], Wall]:
-    told: list[Tick] = []
+    ticks: list[Tick] = []
     wall = Wall(tick)
-    source = ClockSource(told.append, speed=speed, wall=wall)
-    assert source.epoch == -1
-    source.wait_until(0.0, Wake())
-    return source, told, wall
+    source = ClockSource(ticks.append, speed=speed, wall=wall)
+    assert source.reset_count == -1
+    source.wait_until(0.0, WakeEvent())
+    return source, ticks, wall
 
 
 @pytest.mark.parametrize(("speed", "least"), [(1, 0.4), (4, 0.1), (0, 0.0)])
 def test_a_source_paces_itself(speed: float, least: float) -> None:
-    told: list[Tick] = []
-    source = ClockSource(told.append, speed=speed)
-    source.wait_until(0.0, Wake())
+    ticks: list[Tick] = []
+    source = ClockSource(ticks.append, speed=speed)
+    source.wait_until(0.0, WakeEvent())
     begun = time.monotonic()
     for number in range(1, 51):
-        source.wait_until(number / 100, Wake())
+        source.wait_until(number / 100, WakeEvent())
         assert source.now() == number / 100
     took = time.monotonic() - begun
     assert took >= least
-    assert [one.time for one in told] == [n * 10_000_000 for n in range(51)]
+    assert [tick.time for tick in ticks] == [n * 10_000_000 for n in range(51)]
     # another load on the machine may hold it up, so there is no upper bound in time
 
 
 def test_a_source_that_was_held_up_tells_a_smaller_factor() -> None:
-    source, told, wall = began(tick=0.0)
+    source, ticks, wall = began(tick=0.0)
     for number in range(1, 200):
         wall.moment += 0.02  # each step of 10 ms takes 20
-        source.wait_until(number / 100, Wake())
-    assert told[-1].realTimeFactor == pytest.approx(0.5, abs=0.03)
+        source.wait_until(number / 100, WakeEvent())
+    assert ticks[-1].realTimeFactor == pytest.approx(0.5, abs=0.03)
 
 
 def test_a_pause_holds_and_a_step_lets_some_time_pass() -> None:
-    source, told, _ = began(speed=0)
+    source, ticks, _ = began(speed=0)
     source.pause()
     reached = threading.Event()
 
     def live() -> None:
-        source.wait_until(0.01, Wake())
+        source.wait_until(0.01, WakeEvent())
         reached.set()
 
     thread = threading.Thread(target=live)
     thread.start()
-    until(lambda: told[-1].paused)
+    until(lambda: ticks[-1].paused)
     assert source.now() == 0.0
     assert not reached.is_set()
     source.step(0.004)
-    assert source.stepped(DEADLINE)
+    assert source.wait_step_done(DEADLINE)
     assert source.now() == 0.004
     assert not reached.is_set()
     source.step(0.006)
@@ -120,59 +123,62 @@ def test_a_pause_holds_and_a_step_lets_some_time_pass() -> None:
     assert source.now() == 0.01
     assert source.paused
     source.step(0.01)
-    assert not source.stepped(0.01), "nobody waits for this time"
+    assert not source.wait_step_done(0.01), "nobody waits for this time"
     source.resume()
-    source.wait_until(0.02, Wake())
+    source.wait_until(0.02, WakeEvent())
     assert source.now() == 0.02
-    assert not told[-1].paused
+    assert not ticks[-1].paused
 
 
 def test_a_reset_ends_the_wait() -> None:
-    source, told, _ = began(speed=0)
-    source.wait_until(5.0, Wake())
+    source, ticks, _ = began(speed=0)
+    source.wait_until(5.0, WakeEvent())
     source.reset()
-    source.wait_until(5.01, Wake())
-    assert (source.now(), source.epoch) == (0.0, 1)
-    source.wait_until(0.01, Wake())
-    assert told[-1].time == 10_000_000
-    assert told[-1].epoch == 1
+    source.wait_until(5.01, WakeEvent())
+    assert (source.now(), source.reset_count) == (0.0, 1)
+    source.wait_until(0.01, WakeEvent())
+    assert ticks[-1].time == 10_000_000
+    assert ticks[-1].epoch == 1
 
 
 def test_time_may_begin_anew_at_another_moment() -> None:
-    source, told, _ = began(speed=0)
+    source, ticks, _ = began(speed=0)
     source.reset(2.5)
-    source.wait_until(0.01, Wake())
-    assert (source.now(), source.epoch) == (2.5, 1)
-    source.wait_until(2.51, Wake())
-    assert [(one.time, one.epoch) for one in told[-2:]] == [(2_500_000_000, 1), (2_510_000_000, 1)]
+    source.wait_until(0.01, WakeEvent())
+    assert (source.now(), source.reset_count) == (2.5, 1)
+    source.wait_until(2.51, WakeEvent())
+    assert [(tick.time, tick.epoch) for tick in ticks[-2:]] == [
+        (2_500_000_000, 1),
+        (2_510_000_000, 1),
+    ]
 
 
 def test_what_is_carried_along_is_there_first() -> None:
-    source, told, _ = began(speed=0)
+    source, ticks, _ = began(speed=0)
     moves: list[tuple[float, int, int]] = []
-    source.carry(lambda seconds, epoch: moves.append((seconds, epoch, told[-1].time)))
-    source.wait_until(0.01, Wake())
+    source.set_pre_tick_hook(lambda seconds, epoch: moves.append((seconds, epoch, ticks[-1].time)))
+    source.wait_until(0.01, WakeEvent())
     source.pause()
-    thread = threading.Thread(target=lambda: source.wait_until(0.02, Wake()))
+    thread = threading.Thread(target=lambda: source.wait_until(0.02, WakeEvent()))
     thread.start()
     for _ in range(2):
         source.step(0.005)
-        assert source.stepped(DEADLINE)
+        assert source.wait_step_done(DEADLINE)
     thread.join(DEADLINE)
     assert moves == [(0.01, 0, 0), (0.015, 0, 10_000_000), (0.02, 0, 15_000_000)]
 
 
 def test_what_is_carried_along_may_begin_time_anew() -> None:
-    source, told, _ = began(speed=0)
-    source.carry(lambda _seconds, _epoch: source.reset())
-    source.wait_until(0.01, Wake())
-    assert (source.now(), source.epoch, told[-1].time) == (0.0, 1, 0)
+    source, ticks, _ = began(speed=0)
+    source.set_pre_tick_hook(lambda _seconds, _epoch: source.reset())
+    source.wait_until(0.01, WakeEvent())
+    assert (source.now(), source.reset_count, ticks[-1].time) == (0.0, 1, 0)
 
 
 @pytest.mark.parametrize("speed", [-1.0, float("nan"), float("inf")])
 def test_speeds_that_are_none(speed: float) -> None:
     source, _, _ = began()
-    with pytest.raises(ValueError, match="is no speed"):
+    with pytest.raises(ValueError, match="invalid speed"):
         source.set_speed(speed)
 
 
@@ -255,7 +261,7 @@ def running(kind: type[Component], domain: str, clock: str) -> Iterator[Runner]:
 def test_components_wait_for_the_first_tick_and_follow() -> None:
     domain = uuid.uuid4().hex
     with running(Counter, domain, "sim") as counter, running(Sleeper, domain, "sim") as sleeper:
-        until(lambda: counter.state is sleeper.state is State.COMPUTE)
+        until(lambda: counter.state is sleeper.state is LifecycleState.COMPUTE)
         assert isinstance(clock := counter.worker.clock, SimulatedClock)
         ticks = hearing(counter), hearing(sleeper)
         assert counter.worker.times == []
@@ -265,7 +271,7 @@ def test_components_wait_for_the_first_tick_and_follow() -> None:
             for tick in ticks:
                 tick(Tick(number * 10_000_000))
             # Its time is to begin with its first tick, not with one that comes before it has woken.
-            until(lambda: sleeper.lifecycle.machine.due() in (1.01, None))
+            until(lambda: sleeper.lifecycle.machine.next_due() in (1.01, None))
             until(lambda n=number: len(counter.worker.times) == n // 2 + 1)
         assert counter.worker.times == [n * 20 / 1000 for n in range(51)]
         until(lambda: sleeper.worker.woken == [1.01])
@@ -283,7 +289,7 @@ def test_components_wait_for_the_first_tick_and_follow() -> None:
 def hearing(runner: Runner) -> Callable[[Tick], None]:
     clock = runner.worker.clock
     assert isinstance(clock, SimulatedClock)
-    return clock.hear
+    return clock.on_tick
 
 
 @pytest.mark.parametrize("kind", [Counter, Sleeper])
@@ -291,20 +297,20 @@ def test_a_source_that_falls_silent_is_an_emergency_until_it_is_heard(
     kind: type[Component],
 ) -> None:
     """By the clock of the machine, as there is no other; time goes on from where it stood."""
-    clock = SimulatedClock(patience=0.05)
+    clock = SimulatedClock(timeout=0.05)
     runner = Runner(kind, Parameters(), RunSettings(domain=uuid.uuid4().hex), clock)
     recovered = []
     runner.worker.restore = lambda: recovered.append(clock.now())
     runner.start()
     try:
-        until(lambda: runner.state is State.COMPUTE)
-        clock.hear(Tick(20_000_000))
-        until(lambda: runner.state is State.EMERGENCY)
-        assert "nobody tells the time" in runner.lifecycle.reason
-        assert clock.silent
+        until(lambda: runner.state is LifecycleState.COMPUTE)
+        clock.on_tick(Tick(20_000_000))
+        until(lambda: runner.state is LifecycleState.EMERGENCY)
+        assert "simulated clock lost" in runner.lifecycle.reason
+        assert clock.is_stale
         moments = count(40_000_000, 1_000_000)
-        until(lambda: clock.hear(Tick(next(moments))) or recovered)
-        until(lambda: clock.hear(Tick(next(moments))) or runner.state is State.COMPUTE)
+        until(lambda: clock.on_tick(Tick(next(moments))) or recovered)
+        until(lambda: clock.on_tick(Tick(next(moments))) or runner.state is LifecycleState.COMPUTE)
         assert 0.02 < recovered[0] <= clock.now()
         times = getattr(runner.worker, "times", [0.02, 0.04])
         assert times == sorted(times)
@@ -315,33 +321,33 @@ def test_a_source_that_falls_silent_is_an_emergency_until_it_is_heard(
 
 
 def test_a_source_that_never_was_is_waited_for() -> None:
-    clock, wake = SimulatedClock(patience=0.01), Wake()
+    clock, wake = SimulatedClock(timeout=0.01), WakeEvent()
     threading.Timer(0.05, wake.set).start()
     clock.wait_until(0.0, wake)
-    assert not clock.silent
+    assert not clock.is_stale
 
 
 def test_a_slow_source_says_that_it_is_there() -> None:
-    told: list[Tick] = []
-    source, wake = ClockSource(told.append, speed=0.001), Wake()
-    source.wait_until(0.0, Wake())
+    ticks: list[Tick] = []
+    source, wake = ClockSource(ticks.append, speed=0.001), WakeEvent()
+    source.wait_until(0.0, WakeEvent())
     waiting = threading.Thread(target=source.wait_until, args=(10.0, wake))
     waiting.start()
-    until(lambda: len(told) >= 3)
+    until(lambda: len(ticks) >= 3)
     wake.set()
     waiting.join(DEADLINE)
-    assert {one.time for one in told} == {0}
+    assert {tick.time for tick in ticks} == {0}
 
 
 def test_a_timer_begins_again_with_the_time() -> None:
     with running(Sleeper, uuid.uuid4().hex, "sim") as sleeper:
-        until(lambda: sleeper.state is State.COMPUTE)
+        until(lambda: sleeper.state is LifecycleState.COMPUTE)
         tick = hearing(sleeper)
         tick(Tick(7 * NANO))  # it came late
-        until(lambda: sleeper.lifecycle.machine.due() == 8.0)
+        until(lambda: sleeper.lifecycle.machine.next_due() == 8.0)
         tick(Tick(7 * NANO + NANO // 2))
         tick(Tick(0, epoch=1))
-        until(lambda: sleeper.lifecycle.machine.due() == 1.0)
+        until(lambda: sleeper.lifecycle.machine.next_due() == 1.0)
         assert sleeper.worker.woken == []
         tick(Tick(NANO, epoch=1))
         until(lambda: sleeper.worker.woken == [1.0])
@@ -350,7 +356,7 @@ def test_a_timer_begins_again_with_the_time() -> None:
 def test_a_source_and_who_follows_it() -> None:
     domain = uuid.uuid4().hex
     with running(Counter, domain, "sim") as counter:
-        until(lambda: counter.state is State.COMPUTE)
+        until(lambda: counter.state is LifecycleState.COMPUTE)
         with running(Source, domain, "sim") as source:
             until(lambda: source.worker.clock.paused)
             assert source.worker.times == [n / 100 for n in range(201)]

@@ -8,18 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from random_schemas import array_of, enumeration, messages, record
 
-from robocomp_dsl.runtime import codec
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.codec import codec
+from robocomp_dsl.runtime.codec.explain import explain
 from robocomp_dsl.runtime.codec.read import read
+from tests.runtime.random_schemas import array_of, enumeration, messages, struct_of
 
-EMPTY = record([])
-POINT = record([rt.FLOAT, rt.FLOAT])
-ODD = record([rt.BYTE, rt.DOUBLE])
-TAIL = record([rt.DOUBLE, rt.BYTE])
-SHIFTED = record([rt.SHORT, rt.INT, rt.SHORT])
-NESTED = record([rt.BYTE, ODD, rt.SHORT])
+EMPTY = struct_of([])
+POINT = struct_of([rt.FLOAT, rt.FLOAT])
+ODD = struct_of([rt.BYTE, rt.DOUBLE])
+TAIL = struct_of([rt.DOUBLE, rt.BYTE])
+SHIFTED = struct_of([rt.SHORT, rt.INT, rt.SHORT])
+NESTED = struct_of([rt.BYTE, ODD, rt.SHORT])
 COLOUR = enumeration([1, -2])
 
 # type, value, bytes behind the header (written by hand from the rules of CDR)
@@ -75,7 +76,7 @@ CASES: list[tuple[str, Any, Any, str]] = [
 )
 def test_bytes(type_: Any, value: Any, expected: str) -> None:
     data = b"\0\1\0\0" + bytes.fromhex(expected)
-    message = record([type_])
+    message = struct_of([type_])
     assert codec.encode(message(value)) == data
     decoded = codec.decode(message, data).f0
     if isinstance(value, bytes):
@@ -99,7 +100,7 @@ def test_what_is_encoded_is_decoded(message: Any) -> None:
 @relaxed
 @given(messages(nan=False))
 def test_the_explanation_finds_nothing_in_what_can_be_encoded(message: Any) -> None:
-    error = codec.encoder.explain((("", type(message)),), "one", message, OSError("unknown"))
+    error = explain((("", type(message)),), "one", message, OSError("unknown"))
     assert str(error) == "cannot be encoded: unknown"
 
 
@@ -137,12 +138,12 @@ def test_requests(inputs: Any, arguments: Any, expected: str) -> None:
 
 
 def test_declared_exceptions_travel_as_themselves() -> None:
-    broken, late = record([rt.STRING], rt.DeclaredError), record([], rt.DeclaredError)
+    broken, late = struct_of([rt.STRING], rt.DeclaredError), struct_of([], rt.DeclaredError)
     operation = rt.Operation("f", rt.Pattern.QUERY, throws=(broken, late))
     for error in (broken("motor 3"), late()):
         assert operation.decode_error(operation.encode_error(error)) == error
     with pytest.raises(rt.EncodeError, match="not declared"):
-        operation.encode_error(record([], rt.DeclaredError)())
+        operation.encode_error(struct_of([], rt.DeclaredError)())
     with pytest.raises(rt.MalformedMessage, match="2 is no index of the exception"):
         operation.decode_error(b"\0\1\0\0\2\0\0\0")
     with pytest.raises(rt.MalformedMessage):
@@ -151,7 +152,7 @@ def test_declared_exceptions_travel_as_themselves() -> None:
 
 @pytest.mark.parametrize("kind", [bytes, bytearray, memoryview])
 def test_decoded_arrays_are_read_only_views(kind: Any) -> None:
-    message = record([rt.Array(rt.INT), array_of(POINT), array_of(ODD)])
+    message = struct_of([rt.Array(rt.INT), array_of(POINT), array_of(ODD)])
     points, odd = [POINT(1.0, 2.0)], [ODD(1, 2.0)]
     decoded = codec.decode(message, kind(codec.encode(message([1, 2], points, odd))))
     assert decoded.f0.base is not None
@@ -167,15 +168,15 @@ def test_decoded_arrays_are_read_only_views(kind: Any) -> None:
 
 def test_padding_that_memory_has_is_not_sent() -> None:
     rows = array_of(TAIL)([TAIL(1.0, 2), TAIL(3.0, 4)])
-    expected = codec.encode(record([array_of(TAIL)])(rows))
+    expected = codec.encode(struct_of([array_of(TAIL)])(rows))
     dirty = np.asarray(rows).copy()
     raw = dirty.view(np.uint8).reshape(2, -1)
     raw[:, 9:] = 0xAA
-    assert codec.encode(record([array_of(TAIL)])(dirty)) == expected
+    assert codec.encode(struct_of([array_of(TAIL)])(dirty)) == expected
 
 
 def test_strided_and_foreign_arrays_are_taken() -> None:
-    message = record([rt.Array(rt.INT), array_of(POINT)])
+    message = struct_of([rt.Array(rt.INT), array_of(POINT)])
     points = array_of(POINT).from_columns(f0=np.arange(6), f1=0)
     given_ = message(np.arange(6, dtype=">i8")[::2], points[::2])
     decoded = codec.decode(message, codec.encode(given_))
@@ -188,12 +189,12 @@ def test_fifteen_sequences_within_each_other_are_the_limit() -> None:
     value: Any = "x"
     for _ in range(15):
         type_, value = rt.Sequence(type_), [value]
-    message = record([type_])
+    message = struct_of([type_])
     assert codec.decode(message, codec.encode(message(value))) == message(value)
     with pytest.raises(TypeError, match="more than 15 sequences"):
-        codec.encode(record([rt.Sequence(type_)])([value]))
+        codec.encode(struct_of([rt.Sequence(type_)])([value]))
 
 
 def test_a_thousand_fields_are_one_number_after_the_other() -> None:
-    message = record([rt.SHORT] * 1000)
+    message = struct_of([rt.SHORT] * 1000)
     assert codec.encode(message(*range(1000)))[4:] == struct.pack("<1000h", *range(1000))

@@ -8,19 +8,19 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from random_schemas import array_of, enumeration, messages, record
 
-from robocomp_dsl.runtime import codec
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.codec import codec
 from robocomp_dsl.runtime.codec.read import read
+from tests.runtime.random_schemas import array_of, enumeration, messages, struct_of
 
 HEADER = b"\0\1\0\0"
 relaxed = settings(max_examples=200)
 
-NESTED = record([rt.BYTE, rt.STRING])
+NESTED = struct_of([rt.BYTE, rt.STRING])
 COLOUR = enumeration([3, 7])
-POINT = record([rt.FLOAT, rt.BOOL])
-EVERYTHING = record(
+POINT = struct_of([rt.FLOAT, rt.BOOL])
+EVERYTHING = struct_of(
     [
         rt.BOOL,
         COLOUR,
@@ -114,7 +114,7 @@ CASES: list[tuple[str, Any, bytes, str, int, str]] = [
     ("huge array", rt.Array(rt.DOUBLE), COUNT + bytes(16), "f0", 4, "4294967295 elements claimed"),
     ("array short by one", rt.Array(rt.INT), b"\2\0\0\0" + bytes(4), "f0", 4, "4 bytes left"),
     ("huge list", rt.Sequence(rt.STRING), COUNT + bytes(9), "f0", 4, "9 bytes left"),
-    ("huge list of empty structs", rt.Sequence(record([])), COUNT, "f0", 4, "0 bytes left"),
+    ("huge list of empty structs", rt.Sequence(struct_of([])), COUNT, "f0", 4, "0 bytes left"),
     ("huge struct array", array_of(POINT), COUNT + bytes(9), "f0", 4, "9 bytes left"),
     ("huge dictionary", rt.Dictionary(rt.INT, rt.INT), COUNT, "f0", 4, "0 bytes left"),
     ("no bool", rt.BOOL, b"\2", "f0", 4, "2 is no bool"),
@@ -123,7 +123,7 @@ CASES: list[tuple[str, Any, bytes, str, int, str]] = [
     ("no bool in a row", array_of(POINT), ONE + bytes(4) + b"\2", "f0[0].f1", 12, "2 is no bool"),
     (
         "no such enumerator in a row",
-        array_of(record([rt.BYTE, COLOUR])),
+        array_of(struct_of([rt.BYTE, COLOUR])),
         b"\2\0\0\0" + LITTLE("00000000 03000000 00000000 08000000"),
         "f0[1].f1",
         20,
@@ -149,7 +149,7 @@ CASES: list[tuple[str, Any, bytes, str, int, str]] = [
 )
 def test_what_is_told(type_: Any, data: bytes, path: str, offset: int, reason: str) -> None:
     with pytest.raises(rt.MalformedMessage) as caught:
-        codec.decode(record([type_]), HEADER + data)
+        codec.decode(struct_of([type_]), HEADER + data)
     assert (caught.value.path, caught.value.offset) == (path, offset)
     assert reason in caught.value.reason
 
@@ -166,16 +166,16 @@ def test_what_is_told(type_: Any, data: bytes, path: str, offset: int, reason: s
 )
 def test_headers(data: bytes, reason: str) -> None:
     with pytest.raises(rt.MalformedMessage, match=reason):
-        codec.decode(record([rt.INT]), data)
+        codec.decode(struct_of([rt.INT]), data)
 
 
 def test_padding_that_the_header_announces_is_skipped() -> None:
-    text = record([rt.STRING])
+    text = struct_of([rt.STRING])
     assert codec.decode(text, b"\0\1\0\2\2\0\0\0a\0\xaa\xbb") == text("a")
 
 
 def test_a_text_of_length_zero_is_empty() -> None:
-    pair = record([rt.STRING, rt.BYTE])
+    pair = struct_of([rt.STRING, rt.BYTE])
     assert codec.decode(pair, HEADER + b"\0\0\0\0\5") == pair("", 5)
 
 
@@ -185,15 +185,15 @@ def test_a_text_of_length_zero_is_empty() -> None:
         rt.STRING,
         rt.Array(rt.DOUBLE),
         rt.Sequence(rt.STRING),
-        rt.Sequence(record([])),
-        array_of(record([rt.FLOAT, rt.FLOAT])),
+        rt.Sequence(struct_of([])),
+        array_of(struct_of([rt.FLOAT, rt.FLOAT])),
         array_of(POINT),
-        array_of(record([rt.BYTE, rt.DOUBLE])),
+        array_of(struct_of([rt.BYTE, rt.DOUBLE])),
     ],
 )
 @pytest.mark.parametrize("count", [2**32 - 1, 2**31, 2**24])
 def test_no_memory_is_taken_for_what_is_only_claimed(type_: Any, count: int) -> None:
-    message, cls = HEADER + count.to_bytes(4, "little") + bytes(64), record([type_])
+    message, cls = HEADER + count.to_bytes(4, "little") + bytes(64), struct_of([type_])
     outcome(cls, message)  # compiles
     tracemalloc.start()
     try:

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 from hypothesis import given, settings
-from random_schemas import messages, record
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from robocomp_dsl.runtime import codec
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.codec import codec
+from tests.runtime.random_schemas import messages, struct_of
 
 ROS_NAMES = {
     rt.BOOL: "bool",
@@ -100,9 +100,9 @@ class Peer:
             isinstance(element, type) and issubclass(element, rt.StructArray)
         )
         if not wrapped:
-            return [self.value(inner, element, one) for one in value]
+            return [self.value(inner, element, item) for item in value]
         wrapper = self.store.types[inner]
-        return [wrapper(self.value(self.field(inner, 0), element, one)) for one in value]
+        return [wrapper(self.value(self.field(inner, 0), element, item)) for item in value]
 
     def field(self, name: str, index: int) -> str:
         """The name of the type of a field of a struct of the peer."""
@@ -136,5 +136,5 @@ def test_each_side_understands_the_other(message: rt.Struct) -> None:
 
 
 def test_the_comparison_can_fail() -> None:
-    ours, theirs = record([rt.INT, rt.DOUBLE]), record([rt.DOUBLE, rt.INT])
+    ours, theirs = struct_of([rt.INT, rt.DOUBLE]), struct_of([rt.DOUBLE, rt.INT])
     assert codec.encode(ours(1, 2.0)) != Peer(theirs).encode(theirs(2.0, 1))

@@ -6,14 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from random_schemas import array_of, enumeration, record
 
-from robocomp_dsl.runtime import codec
 from robocomp_dsl.runtime import types as rt
+from robocomp_dsl.runtime.codec import codec
+from tests.runtime.random_schemas import array_of, enumeration, struct_of
 
 COLOUR = enumeration([1, 2])
-INNER = record([rt.BYTE, COLOUR])
-ROW = record([rt.SHORT, record([rt.FLOAT, rt.BOOL]), COLOUR])
+INNER = struct_of([rt.BYTE, COLOUR])
+ROW = struct_of([rt.SHORT, struct_of([rt.FLOAT, rt.BOOL]), COLOUR])
 BAD_COLUMN = array_of(ROW).from_columns(f2=[1, 9])
 
 # type, value, field, what is said
@@ -32,7 +32,7 @@ CASES: list[tuple[str, Any, Any, str, str]] = [
     ("half a character", rt.STRING, "a\ud800", "f0", "at 1 cannot be sent as UTF-8"),
     ("enum", COLOUR, 3, "f0", "(E0, E1), not 3 (int)"),
     ("field of a struct", INNER, INNER(300, 1), "f0.f0", "300 does not fit"),
-    ("another class", INNER, 5, "f0", "takes a Record"),
+    ("another class", INNER, 5, "f0", "takes a Struct"),
     ("array", rt.Array(rt.BYTE), [1, 300], "f0[1]", "300 does not fit into uint8"),
     ("array of floats", rt.Array(rt.INT), [1.0, 2.5], "f0[1]", "2.5 does not fit into int32"),
     ("NaN in ints", rt.Array(rt.LONG), [1, float("nan")], "f0[1]", "nan does not fit into int64"),
@@ -51,11 +51,11 @@ CASES: list[tuple[str, Any, Any, str, str]] = [
     ("dict", rt.Dictionary(rt.INT, rt.INT), [1], "f0", "takes a dict, not [1] (list)"),
     ("key", rt.Dictionary(rt.INT, rt.INT), {"a": 1}, "f0['a']", "takes an integer (int)"),
     ("value", rt.Dictionary(rt.INT, rt.INT), {4: "x"}, "f0[4]", "takes an integer (int)"),
-    ("row", array_of(ROW), [ROW(1, None, 1)], "f0[0].f1.f0", "takes a Record"),
+    ("row", array_of(ROW), [ROW(1, None, 1)], "f0[0].f1.f0", "takes a Struct"),
     ("number in a row", array_of(INNER), [INNER(1, 1), INNER(300, 1)], "f0[1].f0", "300 does not"),
     ("enum in a row", array_of(INNER), [INNER(1, 5)], "f0[0].f1", "not 5 (int)"),
     ("enum in a column", array_of(ROW), BAD_COLUMN, "f0[1]", "has no such value"),
-    ("no rows", array_of(ROW), 5, "f0", "takes a sequence of Record"),
+    ("no rows", array_of(ROW), 5, "f0", "takes a sequence of Struct"),
     ("other rows", array_of(ROW), np.zeros(1, [("a", "<i4")]), "f0", "takes the fields"),
 ]
 
@@ -67,7 +67,7 @@ CASES: list[tuple[str, Any, Any, str, str]] = [
 )
 def test_refused(type_: Any, value: Any, path: str, reason: str) -> None:
     with pytest.raises(rt.EncodeError) as caught:
-        codec.encode(record([type_])(value))
+        codec.encode(struct_of([type_])(value))
     assert caught.value.path == path
     assert reason in caught.value.reason
     assert isinstance(caught.value, ValueError)
@@ -99,7 +99,7 @@ TAKEN: list[tuple[str, Any, Any, Any]] = [
     ("type_", "value", "expected"), [case[1:] for case in TAKEN], ids=[case[0] for case in TAKEN]
 )
 def test_taken(type_: Any, value: Any, expected: Any) -> None:
-    message = record([type_])
+    message = struct_of([type_])
     arrived = codec.decode(message, codec.encode(message(value))).f0
     assert arrived.tolist() == expected if isinstance(arrived, np.ndarray) else arrived == expected
     assert isinstance(arrived, np.ndarray) or type(arrived) is type(expected)

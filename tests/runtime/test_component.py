@@ -12,27 +12,33 @@ import sys
 import threading
 import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy, LifeState, Refusal
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.lifecycle import State
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host, Qos
-from robocomp_dsl.runtime.parameters import Parameter, Parameters, Refused
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import (
-    RunSettings,
-    WrongSetting,
-    parse_qualities,
-    parse_wires,
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.component_interface import (
+    COMPONENT,
+    ComponentProxy,
+    LifeState,
+    Refusal,
 )
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import (
+    InvalidSetting,
+    RunSettings,
+    parse_connections,
+    parse_qos,
+)
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Qos
+from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.parameters import Parameter, ParameterRejected, Parameters
+from tests.support.background_job import IGNORING_INTERRUPT
 
 DEADLINE = 60.0
 
@@ -78,7 +84,7 @@ class Arm(Component):
 
     def will_set_rate(self, value: float) -> None:
         if self.refusing:
-            raise Refused("not while moving")
+            raise ParameterRejected("not while moving")
 
     def did_set_rate(self, old: float) -> None:
         self.happened.append(f"rate was {old:g}")
@@ -95,16 +101,16 @@ def wait_for(condition: Callable[[], Any]) -> None:
 @pytest.fixture
 def runner() -> Iterator[Runner]:
     domain = f"test-{uuid.uuid4().hex[:8]}"
-    made = Runner(Arm, ArmParams.load(), RunSettings(domain=domain, middleware="inproc"))
-    made.start()
-    yield made
-    made.stop()
-    made.wait()
+    component = Runner(Arm, ArmParams.load(), RunSettings(domain=domain, middleware="inproc"))
+    component.start()
+    yield component
+    component.stop()
+    component.wait()
 
 
 @pytest.fixture
 def about(runner: Runner) -> Iterator[ComponentProxy]:
-    host = Host("looker", runner.settings.domain, Execution(), Statistics())
+    host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
     middleware = open_middleware("inproc", host)
     yield ComponentProxy(middleware.proxy(Endpoint(COMPONENT, "looker", "Component", ("arm",))))
     middleware.close()
@@ -123,7 +129,7 @@ def test_a_life_in_order(runner: Runner) -> None:
     assert arm.happened[0] == "initialize"
     assert arm.happened[-1] == "finalize"
     assert set(arm.happened[1:-1]) == {"compute"}
-    assert runner.state is State.FINALIZE
+    assert runner.state is LifecycleState.FINALIZE
 
 
 def test_a_failing_compute_is_an_emergency_that_ends_by_itself(
@@ -138,10 +144,10 @@ def test_a_failing_compute_is_an_emergency_that_ends_by_itself(
     assert re.search(
         r"RuntimeError: the arm does not move \(.*test_component\.py:\d+\)", info.reason
     )
-    told = [r for r in caplog.records if "the arm does not move" in r.getMessage()]
-    assert len([r for r in told if r.levelno == logging.ERROR]) == 1
+    reports = [r for r in caplog.records if "the arm does not move" in r.getMessage()]
+    assert len([r for r in reports if r.levelno == logging.ERROR]) == 1
     arm.failing = False
-    wait_for(lambda: runner.state is State.COMPUTE)
+    wait_for(lambda: runner.state is LifecycleState.COMPUTE)
     assert about.getInfo().reason == ""
     assert about.getStatistics().failures >= 2
 
@@ -158,7 +164,7 @@ def test_a_declared_emergency_lasts_until_it_is_ended(
     assert "restore" not in arm.happened
     assert runner.lifecycle.reason == "the button"
     arm.end_emergency()
-    wait_for(lambda: runner.state is State.COMPUTE)
+    wait_for(lambda: runner.state is LifecycleState.COMPUTE)
     assert "restore" in arm.happened
 
 
@@ -172,10 +178,13 @@ def test_an_emergency_that_initialize_declares_is_one_from_the_beginning() -> No
     careful.start()
     arm = arm_of(careful)
     wait_for(lambda: arm.happened.count("emergency") >= 3)
-    assert (careful.state, careful.lifecycle.reason) == (State.EMERGENCY, "the brakes are on")
+    assert (careful.state, careful.lifecycle.reason) == (
+        LifecycleState.EMERGENCY,
+        "the brakes are on",
+    )
     assert "compute" not in arm.happened
     arm.end_emergency()
-    wait_for(lambda: careful.state is State.COMPUTE)
+    wait_for(lambda: careful.state is LifecycleState.COMPUTE)
     careful.stop()
     assert careful.wait()
 
@@ -224,7 +233,7 @@ def test_introspection(runner: Runner, about: ComponentProxy) -> None:
     figures = about.getStatistics()
     assert figures.period == 1
     assert figures.cycles > 3
-    assert "getInfo" in {one.operation for one in figures.operations}
+    assert "getInfo" in {operation.operation for operation in figures.operations}
 
 
 def test_parameters_change_live_or_not_at_all(runner: Runner, about: ComponentProxy) -> None:
@@ -232,7 +241,7 @@ def test_parameters_change_live_or_not_at_all(runner: Runner, about: ComponentPr
     about.setParameters({"rate": "20"})
     assert arm.params.rate == 20
     wait_for(lambda: "rate was 50" in arm.happened)
-    for changes, said in (
+    for changes, message in (
         ({"rate": "500"}, "100"),
         ({"rate": "fast"}, "number"),
         ({"rates": "20"}, "rate"),
@@ -240,7 +249,7 @@ def test_parameters_change_live_or_not_at_all(runner: Runner, about: ComponentPr
     ):
         with pytest.raises(Refusal) as caught:
             about.setParameters(changes)
-        assert said in caught.value.reason
+        assert message in caught.value.reason
     arm.refusing = True
     with pytest.raises(Refusal) as caught:
         about.setParameters({"rate": "30"})
@@ -277,21 +286,21 @@ def test_stop_from_outside(runner: Runner, about: ComponentProxy) -> None:
 
 @pytest.mark.parametrize("text", ["laser", "=base", "laser=", "laser=a b", "laser=*"])
 def test_wires_that_cannot_be_read(text: str) -> None:
-    with pytest.raises(WrongSetting):
-        parse_wires([text])
+    with pytest.raises(InvalidSetting):
+        parse_connections([text])
 
 
 @pytest.mark.parametrize(
     "text", ["laser", "laser=fast", "laser=depth=0", "laser=depth=x", "laser=priority=urgent"]
 )
 def test_qualities_that_cannot_be_read(text: str) -> None:
-    with pytest.raises(WrongSetting):
-        parse_qualities([text])
+    with pytest.raises(InvalidSetting):
+        parse_qos([text])
 
 
 def test_qualities() -> None:
-    made = parse_qualities(["laser=best_effort,depth=1", "laser=priority=high,deadline=40"])
-    assert made == {"laser": Qos(False, 1, "high", 0.04)}
+    qualities = parse_qos(["laser=best_effort,depth=1", "laser=priority=high,deadline=40"])
+    assert qualities == {"laser": Qos(False, 1, "high", 0.04)}
 
 
 # The program.
@@ -323,10 +332,10 @@ class Program:
         self.folder = folder
         (folder / "program.py").write_text(PROGRAM)
 
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
+    def start(self, *arguments: str, prefix: Sequence[str] = ()) -> subprocess.Popen[str]:
         domain = f"test-{uuid.uuid4().hex[:8]}"
         return subprocess.Popen(
-            [sys.executable, "program.py", "--domain", domain, *arguments],
+            [*prefix, sys.executable, "program.py", "--domain", domain, *arguments],
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -365,26 +374,35 @@ def test_a_signal_ends_it_in_order(program: Program, middleware: str, number: in
     assert "finalized" in err
 
 
+def test_sigint_ends_a_background_job_in_order(program: Program) -> None:
+    with program.start("--middleware", "inproc", prefix=IGNORING_INTERRUPT) as process:
+        until(process, "started with 50.0")
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 0
+    assert "finalized" in err
+
+
 def test_a_compute_that_never_ends_is_left_behind(program: Program) -> None:
     with program.start("--hang", "--middleware", "inproc") as process:
         until(process, "hanging")
         process.terminate()
         _, err = process.communicate(timeout=DEADLINE)
     assert process.returncode == 1
-    assert "compute does not come to an end" in err
+    assert "compute did not return within 2 s" in err
 
 
 def test_json_lines(program: Program) -> None:
     with program.start("--log-format", "json", "--name", "mine", "--set", "rate=7") as process:
-        said = json.loads(until(process, "started")[-1])
+        record = json.loads(until(process, "started")[-1])
         process.terminate()
         process.communicate(timeout=DEADLINE)
-    assert (said["component"], said["level"], said["message"]) == (
+    assert (record["component"], record["level"], record["message"]) == (
         "mine",
         "INFO",
         "started with 7.0",
     )
-    assert said["pid"] == process.pid
+    assert record["pid"] == process.pid
 
 
 @pytest.mark.parametrize(
@@ -393,11 +411,11 @@ def test_json_lines(program: Program) -> None:
         (["--set", "rate=500"], 1, "rate"),
         (["--set", "rates=5"], 1, "did you mean `rate`"),
         (["--config", "nowhere.yaml"], 1, "nowhere.yaml"),
-        (["--middleware", "corba"], 1, "there is no middleware `corba`; there are inproc"),
+        (["--middleware", "corba"], 1, "unknown middleware `corba`; known: inproc"),
         (["--connect", "laser=base"], 2, "c has no port `laser`"),
         (["--qos", "x"], 2, "write PORT="),
-        (["--name", "a/b"], 2, "`a/b` is no name"),
-        (["--listen-port", "99999"], 2, "no port number"),
+        (["--name", "a/b"], 2, "`a/b` is not a valid name"),
+        (["--listen-port", "99999"], 2, "not a port number"),
         (["--nonsense"], 2, "--nonsense"),
     ],
 )

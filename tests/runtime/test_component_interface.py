@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from robocomp_dsl.cli.rcgen import program
+from robocomp_dsl.cli.rcgen.main import program
 
 ROOT = Path(__file__).parents[2]
 COMPONENT = """\
@@ -33,18 +33,18 @@ Component x { Communications { requires Simulation, InnerModelManager; }; langua
 @pytest.mark.parametrize(
     ("cdsl", "name"),
     [
-        (COMPONENT, "runtime/component_interface"),
-        (CLOCK, "runtime/clock_interface"),
-        (SIMULATION, "hardware/simulation_interface"),
+        (COMPONENT, "runtime/component/component_interface"),
+        (CLOCK, "runtime/time/clock_interface"),
+        (SIMULATION, "simulation/simulation_interface"),
     ],
 )
 def test_the_generated_module_is_fresh(tmp_path: Path, cdsl: str, name: str) -> None:
     (tmp_path / "x.cdsl").write_text(cdsl)
-    made = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
-    assert made.exit_code == 0, made.output
-    fresh = (tmp_path / "generated/interfaces.py").read_text()
+    result = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
+    assert result.exit_code == 0, result.output
+    fresh = (tmp_path / "x_generated/interfaces.py").read_text()
     module = ROOT / f"robocomp_dsl/{name}.py"
     assert module.read_text() == fresh, (
         "an IDSL file in interfaces/ or the generator has changed:"
-        f" put the new generated/interfaces.py into {module.relative_to(ROOT)}"
+        f" put the new interfaces.py into {module.relative_to(ROOT)}"
     )

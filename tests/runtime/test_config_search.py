@@ -10,10 +10,14 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from config_machine import Machine
-
-from robocomp_dsl.runtime.config import Asked, Chosen, choose, surroundings
+from robocomp_dsl.runtime.config import (
+    ConfigRequest,
+    ConfigResult,
+    SearchEnvironment,
+    resolve_config,
+)
 from robocomp_dsl.runtime.parameters import ConfigError
+from tests.runtime.config_machine import Machine
 
 ORDER = [
     "work/{}",
@@ -44,19 +48,22 @@ ORDER = [
 
 @pytest.fixture
 def machine(tmp_path: Path) -> Machine:
-    made = Machine(tmp_path)
-    made.environment["ROBOCOMP_ROBOT_NAME"] = "twin"
-    made.put("share2/path.d/more.conf", "# where another package is\n\n../../dropped  # here\n")
-    return made
+    computer = Machine(tmp_path)
+    computer.environment["ROBOCOMP_ROBOT_NAME"] = "twin"
+    computer.put("share2/path.d/more.conf", "# where another package is\n\n../../dropped  # here\n")
+    return computer
 
 
-def chosen(machine: Machine, context: str = "", file: str = "", *names: str) -> Chosen:
-    return choose(Asked(context, file, names), surroundings(machine.environment, machine.work))
+def chosen(machine: Machine, context: str = "", file: str = "", *names: str) -> ConfigResult:
+    return resolve_config(
+        ConfigRequest(context, file, names),
+        SearchEnvironment.from_environ(machine.environment, machine.work),
+    )
 
 
 def test_every_place_in_its_order(machine: Machine) -> None:
     """All have the file; the winner is taken away, again and again."""
-    files = [machine.put(one.format("arm.yaml")) for one in ORDER]
+    files = [machine.put(place.format("arm.yaml")) for place in ORDER]
     for file in files:
         found = chosen(machine, "lab", "arm.yaml")
         assert found.path is not None
@@ -64,15 +71,15 @@ def test_every_place_in_its_order(machine: Machine) -> None:
         file.unlink()
     with pytest.raises(ConfigError) as caught:
         chosen(machine, "lab", "arm.yaml")
-    told = str(caught.value).splitlines()
-    assert told[:4] == [
-        "error: there is no configuration `arm.yaml`",
-        "  --> --from:1:1",
+    lines = str(caught.value).splitlines()
+    assert lines[:4] == [
+        "error: configuration not found: `arm.yaml`",
+        "  --> --config-name:1:1",
         "   |",
         " 1 | arm.yaml",
     ]
-    listed = [line.split(" (")[0].strip() for line in told if line.endswith(": not there")]
-    assert [str(Path(os.path.normpath(one))) for one in listed] == [str(f) for f in files]
+    listed = [line.split(" (")[0].strip() for line in lines if line.endswith(": not found")]
+    assert [str(Path(os.path.normpath(place))) for place in listed] == [str(f) for f in files]
 
 
 @pytest.mark.parametrize(
@@ -96,8 +103,8 @@ def test_every_place_in_its_order(machine: Machine) -> None:
     ],
 )
 def test_a_context_without_a_file(machine: Machine, there: list[str], winner: str | None) -> None:
-    for one in there:
-        machine.put(one)
+    for path in there:
+        machine.put(path)
     found = chosen(machine, "lab", "", "left-arm", "arm")
     assert found.path == (machine.top / winner if winner else None)
 
@@ -107,7 +114,7 @@ def test_a_folder_of_the_name_is_no_file(machine: Machine) -> None:
     below = machine.put("share1/arm.yaml")
     found = chosen(machine, "", "arm.yaml")
     assert found.path == below
-    assert found.tried[0].obstacle == "a folder"
+    assert found.candidates[0].skip_reason == "a folder"
 
 
 def test_files_in_folders_of_a_context(machine: Machine) -> None:
@@ -121,7 +128,7 @@ def test_files_in_folders_of_a_context(machine: Machine) -> None:
 )
 def test_contexts_that_lead_elsewhere(machine: Machine, context: str) -> None:
     machine.put("share1/x/arm.yaml")
-    with pytest.raises(ConfigError, match="is no context: letters, digits"):
+    with pytest.raises(ConfigError, match="is not a valid context: use letters, digits"):
         chosen(machine, context, "", "arm")
 
 
@@ -130,7 +137,7 @@ def test_files_that_lead_elsewhere(machine: Machine, file: str) -> None:
     machine.put("arm.yaml")
     with pytest.raises(
         ConfigError,
-        match=r"cannot be searched for: it leads out of the folders; `--config` takes any path",
+        match=r"cannot be searched for: it leaves the search paths; `--config` accepts any path",
     ):
         chosen(machine, "", file)
 
@@ -155,7 +162,7 @@ def test_xdg_folders(machine: Machine, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("CONFIG_HOME", "DATA_HOME", "CONFIG_DIRS", "DATA_DIRS"):
         listed = ":".join(str(machine.top / f"{name}{i}") for i in ("", 2)[: 1 + ("S" in name[-1])])
         monkeypatch.setenv(f"XDG_{name}", listed)
-    around = surroundings({}, machine.work)
+    around = SearchEnvironment.from_environ({}, machine.work)
     assert around.config_home == machine.top / "CONFIG_HOME/robocomp"
     assert around.data_home == machine.top / "DATA_HOME/robocomp"
     assert around.config_dirs == tuple(machine.top / f"CONFIG_DIRS{i}/robocomp" for i in ("", 2))
@@ -177,25 +184,25 @@ def test_drop_ins(machine: Machine) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "text", "told"),
+    ("name", "text", "message"),
     [
         ("a.yaml", "pth: [x]\n", "a.yaml:1:1"),
-        ("a.yaml", "path: x\n", "`path` is no list `path`"),
-        ("a.yaml", "path: [{a: 1}]\n", "this is no folder"),
+        ("a.yaml", "path: x\n", "`path` is not a list `path`"),
+        ("a.yaml", "path: [{a: 1}]\n", "not a folder"),
         ("a.yaml", "path: [\n", "a.yaml:2:1"),
         ("a.conf", "\0", "this is a binary file"),
         ("a.conf", "ok\n  ~nobody-at-all/x\n", "a.conf:2:3"),
     ],
 )
 def test_wrong_drop_ins_are_told_and_the_rest_counts(
-    machine: Machine, name: str, text: str, told: str
+    machine: Machine, name: str, text: str, message: str
 ) -> None:
     machine.put(f"user/config/path.d/{name}", text)
     machine.put("dropped/contexts/lab/arm.yaml")
     found = chosen(machine, "lab", "", "arm")
     assert found.path
     assert len(found.warnings) == 1
-    assert told in found.warnings[0]
+    assert message in found.warnings[0]
 
 
 @pytest.mark.parametrize(
@@ -213,4 +220,4 @@ def test_wrong_drop_ins_are_told_and_the_rest_counts(
 )
 def test_where_live_values_are_kept(machine: Machine, there: str, file: str, keeps: str) -> None:
     machine.put(there)
-    assert chosen(machine, "lab", file, "left-arm", "arm").keeps == machine.top / keeps
+    assert chosen(machine, "lab", file, "left-arm", "arm").save_beside == machine.top / keeps

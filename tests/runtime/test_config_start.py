@@ -13,21 +13,20 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from config_machine import Machine
-
-from robocomp_dsl.runtime.settings import (
+from robocomp_dsl.runtime.component.settings import (
+    InvalidSetting,
     RunSettings,
-    WrongSetting,
     parse_peer,
     parse_prefix,
     parse_remaps,
 )
+from tests.runtime.config_machine import Machine
 
 PROGRAM = """
 from robocomp_dsl.runtime import Component, ComponentSpec, ServedPort, main
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
 from robocomp_dsl.runtime import types as rt
-EMPTY = rt.Interface("Empty", ())
+EMPTY = rt.Interface("Empty")
 class P(Parameters):
     SCHEMA = (Parameter("rate", "float", default=50.0, live=True),
               Parameter("keep", "float", default=0.0))
@@ -46,9 +45,9 @@ raise SystemExit(main(C))
 
 @pytest.fixture
 def machine(tmp_path: Path) -> Machine:
-    made = Machine(tmp_path)
-    made.put("work/main.py", PROGRAM)
-    return made
+    computer = Machine(tmp_path)
+    computer.put("work/main.py", PROGRAM)
+    return computer
 
 
 def run(machine: Machine, *arguments: str) -> tuple[int, str, str]:
@@ -71,7 +70,7 @@ def test_without_options_all_is_as_ever(machine: Machine) -> None:
     machine.put("work/etc/config.yaml", "rate: 2\n")
     _, out, err = run(machine, "--verbose-search")
     assert out == "rate 2.0 as arm\n"
-    assert "configuration etc/config.yaml; neither --context nor --from asks" in err
+    assert "configuration etc/config.yaml; no search: neither --context nor --config-name" in err
 
 
 def test_a_context_wins_over_the_default(machine: Machine) -> None:
@@ -84,9 +83,9 @@ def test_a_context_wins_over_the_default(machine: Machine) -> None:
     mine = machine.put("user/data/contexts/lab/arm.yaml", "rate: 8\n")
     code, out, err = run(machine, "--context", "lab", "--verbose-search")
     assert out == "rate 8.0 as arm\n"
-    assert f"looked for {mine} (user, contexts/lab): taken" in err
-    assert f"looked for {file} (installed, contexts/lab): there, too" in err
-    assert ": not there\n" in err
+    assert f"candidate {mine} (user, contexts/lab): used" in err
+    assert f"candidate {file} (installed, contexts/lab): shadowed" in err
+    assert ": not found\n" in err
 
 
 def test_a_context_without_a_file_for_it(machine: Machine) -> None:
@@ -94,24 +93,24 @@ def test_a_context_without_a_file_for_it(machine: Machine) -> None:
     machine.put("work/etc/config.yaml", "rate: 2\n")
     code, out, err = run(machine, "--context", "lab")
     assert (code, out) == (0, "rate 2.0 as arm\n")
-    assert "context lab has no configuration of this component; etc/config.yaml is used" in err
+    assert "context lab has no configuration for this component; using etc/config.yaml" in err
     code, _, err = run(machine, "--context", "labb")
     assert "warning: no folder has the context `labb`; did you mean `lab`?" in err
 
 
 def test_a_file_that_is_nowhere(machine: Machine) -> None:
     machine.put("share1/arm.yaml")
-    code, out, err = run(machine, "--from", "amr.yaml")
+    code, out, err = run(machine, "--config-name", "amr.yaml")
     assert (code, out) == (1, "")
-    assert "error: there is no configuration `amr.yaml`\n  --> --from:1:1" in err
+    assert "error: configuration not found: `amr.yaml`\n  --> --config-name:1:1" in err
     assert "did you mean `arm.yaml`" in err
-    assert f"  {machine.top}/share2/amr.yaml (installed): not there" in err
+    assert f"  {machine.top}/share2/amr.yaml (installed): not found" in err
     assert "Traceback" not in err
 
 
 def test_what_is_wrong_in_a_file_that_was_found_is_told_there(machine: Machine) -> None:
     file = machine.put("share1/arm.yaml", "rat: 1\n")
-    code, _, err = run(machine, "--from", "arm.yaml")
+    code, _, err = run(machine, "--config-name", "arm.yaml")
     assert code == 1
     assert f"--> {file}:1:1" in err
 
@@ -119,9 +118,9 @@ def test_what_is_wrong_in_a_file_that_was_found_is_told_there(machine: Machine) 
 def test_values_of_an_installed_configuration_are_kept_with_the_user(machine: Machine) -> None:
     machine.put("share1/contexts/lab/arm.yaml", "rate: 7\n")
     code, out, _ = run(machine, "--context", "lab", "--set", "keep=9")
-    kept = machine.top / "user/data/contexts/lab/arm.saved.yaml"
-    assert (code, out) == (0, f"rate 7.0 as arm\nkept {kept}\n")
-    assert kept.is_file()
+    saved = machine.top / "user/data/contexts/lab/arm.saved.yaml"
+    assert (code, out) == (0, f"rate 7.0 as arm\nkept {saved}\n")
+    assert saved.is_file()
     assert run(machine, "--context", "lab")[1] == "rate 9.0 as arm\n"
     assert [p.name for p in (machine.top / "share1/contexts/lab").iterdir()] == ["arm.yaml"]
     assert run(machine)[1] == "rate 50.0 as arm\n"
@@ -148,26 +147,26 @@ def test_the_file_of_an_instance(machine: Machine) -> None:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "code", "told"),
+    ("arguments", "code", "message"),
     [
-        (["--context", "../x"], 1, "is no context: letters, digits"),
+        (["--context", "../x"], 1, "is not a valid context: use letters, digits"),
         (["--config", "x.yaml", "--context", "lab"], 2, "--config is an exact path"),
-        (["--config", "x.yaml", "--from", "y.yaml"], 2, "--config is an exact path"),
-        (["--prefix", "a/../b"], 2, "`..` is no prefix"),
-        (["--prefix", "1"], 2, "`1` is no prefix"),
-        (["--name", "left/arm"], 2, "`left/arm` is no name"),
-        (["--remap", "A"], 2, "`A` is no remap; write PORT=NAME"),
-        (["--remap", "A=x.y"], 2, "`A=x.y` is no remap"),
-        (["--remap", "C=x"], 2, "arm has no port `C`; it has A, B"),
-        (["--remap", "A=B"], 2, "`A` and `B` would both be called `B`"),
-        (["--remap", "A=Component"], 2, "`Component` and `A` would both be called"),
-        (["--remap", "A=x", "--remap", "A=y"], 2, "`A` is given two names, x and y"),
+        (["--config", "x.yaml", "--config-name", "y.yaml"], 2, "--config is an exact path"),
+        (["--prefix", "a/../b"], 2, "`..` is not a valid prefix name"),
+        (["--prefix", "1"], 2, "`1` is not a valid prefix name"),
+        (["--name", "left/arm"], 2, "`left/arm` is not a valid name"),
+        (["--remap", "A"], 2, "`A` is not a remap; write PORT=NAME"),
+        (["--remap", "A=x.y"], 2, "`A=x.y` is not a remap"),
+        (["--remap", "C=x"], 2, "arm has no port `C`; its ports: A, B"),
+        (["--remap", "A=B"], 2, "`A` and `B` would both be named `B`"),
+        (["--remap", "A=Component"], 2, "`Component` and `A` would both be named"),
+        (["--remap", "A=x", "--remap", "A=y"], 2, "`A` has two names, x and y"),
     ],
 )
-def test_wrong_options(machine: Machine, arguments: list[str], code: int, told: str) -> None:
+def test_wrong_options(machine: Machine, arguments: list[str], code: int, message: str) -> None:
     ended, out, err = run(machine, *arguments)
     assert (ended, out) == (code, "")
-    assert told in re.sub(r"\s+", " ", err)
+    assert message in re.sub(r"\s+", " ", err)
     assert "Traceback" not in err
 
 
@@ -196,7 +195,9 @@ def test_two_ports_may_change_their_names(machine: Machine) -> None:
 def test_peers_under_a_prefix(
     prefix: str, wires: tuple[str, ...], remaps: dict[str, str], peers: tuple[str, ...]
 ) -> None:
-    settings = RunSettings(prefix=prefix, wires={"Laser": wires} if wires else {}, remaps=remaps)
+    settings = RunSettings(
+        prefix=prefix, connections={"Laser": wires} if wires else {}, remaps=remaps
+    )
     assert settings.peers_of("Laser") == peers
 
 
@@ -209,17 +210,17 @@ def test_prefixes(text: str, prefix: str) -> None:
 
 @pytest.mark.parametrize("text", ["a//b", "a b", "*", "a/*", "/".join("abcdefghi"), "é"])
 def test_prefixes_that_are_none(text: str) -> None:
-    with pytest.raises(WrongSetting):
+    with pytest.raises(InvalidSetting):
         parse_prefix(text)
 
 
 @pytest.mark.parametrize("text", ["", "/", "//a", "a/", "a//b", "*", "*.x", "../a"])
 def test_peers_that_are_none(text: str) -> None:
-    with pytest.raises(WrongSetting):
+    with pytest.raises(InvalidSetting):
         parse_peer(text)
 
 
 @pytest.mark.parametrize("text", ["", "A=", "=x", "A=a/b", "A=*", "A=1", "A"])
 def test_remaps_that_are_none(text: str) -> None:
-    with pytest.raises(WrongSetting):
+    with pytest.raises(InvalidSetting):
         parse_remaps([text])

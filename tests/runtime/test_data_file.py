@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.runtime.config.data_file import data_file
-from robocomp_dsl.runtime.config.surroundings import surroundings
+from robocomp_dsl.runtime.config.search_environment import SearchEnvironment
 from robocomp_dsl.runtime.parameters import ConfigError
 
 PLACES = (  # in the order of the search, below a folder of the test
@@ -25,14 +25,14 @@ PLACES = (  # in the order of the search, below a folder of the test
 def machine(folder: Path):
     for place in PLACES:
         (folder / place).mkdir(parents=True, exist_ok=True)
-    said = {
+    environment = {
         "ROBOCOMP_CONFIG_HOME": str(folder / "home"),
         "ROBOCOMP_DATA_HOME": str(folder / "data"),
         "ROBOCOMP_CONFIG_DIRS": str(folder / "shared"),
         "ROBOCOMP_DATA_DIRS": str(folder / "installed"),
         "ROBOCOMP_ROBOT_NAME": "arm7",
     }
-    return surroundings(said, folder / "working")
+    return SearchEnvironment.from_environ(environment, folder / "working")
 
 
 def found(name: str, folder: Path) -> Path:
@@ -74,16 +74,16 @@ def test_what_is_nowhere_is_told_with_every_place_and_the_nearest_name(tmp_path:
     (tmp_path / "home" / "other.toml").write_text("")
     with pytest.raises(ConfigError) as caught:
         found("map.yaml", tmp_path)
-    said = str(caught.value)
-    assert "there is no file `map.yaml`" in said
-    assert "parameter map:1:1" in said
-    assert "did you mean `mapp.yaml`?" in said
-    places = [said.index(f"{tmp_path / place / 'map.yaml'}") for place in PLACES]
+    message = str(caught.value)
+    assert "file not found: `map.yaml`" in message
+    assert "parameter map:1:1" in message
+    assert "did you mean `mapp.yaml`?" in message
+    places = [message.index(f"{tmp_path / place / 'map.yaml'}") for place in PLACES]
     assert places == sorted(places)
 
 
 @pytest.mark.parametrize("name", ["", ".", "/", "..", "a\0b", "x" * 300, "folder"])
 def test_names_that_can_be_no_file(name: str, tmp_path: Path) -> None:
     (tmp_path / "beside" / "folder").mkdir(parents=True)
-    with pytest.raises(ConfigError, match="there is no file"):
+    with pytest.raises(ConfigError, match="file not found"):
         found(name, tmp_path)

@@ -15,41 +15,40 @@ import pytest
 
 from robocomp_dsl.runtime import Component, ComponentSpec
 from robocomp_dsl.runtime import types as rt
-from robocomp_dsl.runtime.clock_interface import ClockProxy
-from robocomp_dsl.runtime.clock_settings import parse_clock
-from robocomp_dsl.runtime.clock_source import ClockSource
-from robocomp_dsl.runtime.lifecycle import State
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.spec import CalledPort, ServedPort
+from robocomp_dsl.runtime.time.clock_interface import ClockProxy
+from robocomp_dsl.runtime.time.clock_settings import parse_clock
+from robocomp_dsl.runtime.time.clock_source import ClockSource
 
 DEADLINE = 120.0
 DRIVE = rt.Interface(
     "Test::Drive",
-    (
-        rt.Operation("where", rt.Pattern.QUERY, outputs=(("", rt.DOUBLE),)),
-        rt.Operation("go", rt.Pattern.COMMAND, inputs=(("speed", rt.DOUBLE),)),
-    ),
+    rt.Operation("where", returns=rt.Double),
+    rt.Operation("go", rt.Pattern.COMMAND, inputs={"speed": rt.Double}),
 )
-SEEN = rt.Interface(
-    "Test::Seen", (rt.Operation("seen", rt.Pattern.PUBLISH, inputs=(("x", rt.DOUBLE),)),)
-)
+SEEN = rt.Interface("Test::Seen", rt.Operation("seen", rt.Pattern.PUBLISH, inputs={"x": rt.Double}))
 
 
 class DriveProxy(rt.Proxy):
     INTERFACE = DRIVE
 
-    def _bind(self, bind: Callable[[rt.Operation], Callable[..., Any]]) -> None:
-        self.where, self.go = map(bind, DRIVE.operations)
+    def where(self) -> float:
+        return self._call("where")
+
+    def go(self, speed: float) -> None:
+        self._call("go", speed)
 
 
 class SeenProxy(rt.Proxy):
     INTERFACE = SEEN
 
-    def _bind(self, bind: Callable[[rt.Operation], Callable[..., Any]]) -> None:
-        self.seen = bind(SEEN.operations[0])
+    def seen(self, x: float) -> None:
+        self._call("seen", x)
 
 
 class Base(Component):
@@ -164,18 +163,18 @@ def running(
 ) -> Iterator[dict[str, Any]]:
     """The components by their names; the first is the source."""
     domain = uuid.uuid4().hex
-    names = "+".join(one.SPEC.name for one in kinds[1:])
+    names = "+".join(follower.SPEC.name for follower in kinds[1:])
     with ExitStack() as ends:
-        made = {}
+        runners = {}
         for kind in kinds:
-            said = f"lockstep,from=base,limit={limit}{more}"
-            said += f",with={names}" if kind is kinds[0] else ""
-            settings = RunSettings(domain=domain, middleware=middleware, clock=parse_clock(said))
+            clock = f"lockstep,from=base,limit={limit}{more}"
+            clock += f",with={names}" if kind is kinds[0] else ""
+            settings = RunSettings(domain=domain, middleware=middleware, clock=parse_clock(clock))
             runner = Runner(kind, Parameters(), settings)
             runner.start()
             ends.callback(end, runner)
-            made[kind.SPEC.name] = runner
-        yield made
+            runners[kind.SPEC.name] = runner
+        yield runners
 
 
 def end(runner: Runner) -> None:
@@ -194,7 +193,9 @@ def until(condition: Callable[[], Any], what: str) -> None:
 def record(middleware: str, order: list[type[Component]]) -> str:
     with running([Base, *order], middleware) as them:
         base = them["base"].worker
-        until(lambda: them["base"].state is State.COMPUTE and base.source.paused, "the end")
+        until(
+            lambda: them["base"].state is LifecycleState.COMPUTE and base.source.paused, "the end"
+        )
         until(lambda: base.commands == 81, "what is due at the end")
         return "\n".join(them["recorder"].worker.lines)
 
@@ -217,7 +218,9 @@ def test_two_runs_are_the_same_to_the_bit(middleware: str) -> None:
 def test_timers_keep_their_moments(middleware: str) -> None:
     with running([Base, Napper], middleware) as them:
         base = them["base"].worker
-        until(lambda: them["base"].state is State.COMPUTE and base.source.paused, "the end")
+        until(
+            lambda: them["base"].state is LifecycleState.COMPUTE and base.source.paused, "the end"
+        )
         assert them["napper"].worker.woken == [0.313, 0.726, 1.139, 1.552, 1.965]
 
 
@@ -227,7 +230,9 @@ def test_a_reset_is_the_beginning_again(middleware: str) -> None:
 
     with running([Base, Short], middleware) as them:
         base, lines = them["base"].worker, lambda: them["recorder"].worker.lines
-        until(lambda: them["base"].state is State.COMPUTE and base.source.paused, "the end")
+        until(
+            lambda: them["base"].state is LifecycleState.COMPUTE and base.source.paused, "the end"
+        )
         seen = [line.split(" ")[0] for line in lines()]
         base.source.reset()
         base.source.resume()
@@ -241,25 +246,27 @@ def die(runner: Runner) -> None:
 
 
 @pytest.mark.parametrize(
-    ("how", "middleware", "said", "level"),
+    ("how", "middleware", "message", "level"),
     [
-        (end, "inproc", "recorder has ended, the others go on without it", logging.INFO),
-        (end, "zenoh", "recorder has ended, the others go on without it", logging.INFO),
-        (die, "inproc", "recorder was lost at", logging.WARNING),
-        (die, "zenoh", "recorder was lost at", logging.WARNING),
+        (end, "inproc", "recorder stopped; the others continue", logging.INFO),
+        (end, "zenoh", "recorder stopped; the others continue", logging.INFO),
+        (die, "inproc", "recorder timed out or disconnected at", logging.WARNING),
+        (die, "zenoh", "recorder timed out or disconnected at", logging.WARNING),
     ],
 )
 def test_who_is_away_is_told_and_left_out(
     how: Callable[[Runner], None],
     middleware: str,
-    said: str,
+    message: str,
     level: int,
     caplog: pytest.LogCaptureFixture,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # Who has been there is not waited for as at the start.
     for module in ("inproc", "zenoh.client"):
-        monkeypatch.setattr(f"robocomp_dsl.runtime.middleware.{module}.GRACE_S", 3 * DEADLINE)
+        monkeypatch.setattr(
+            f"robocomp_dsl.runtime.middleware.{module}.DISCOVERY_TIMEOUT_S", 3 * DEADLINE
+        )
     with (
         caplog.at_level(logging.INFO),
         running([Base, Driver, Recorder], middleware) as them,
@@ -270,8 +277,8 @@ def test_who_is_away_is_told_and_left_out(
         how(them["recorder"])
         gone = base.clock.now()
         until(lambda: base.clock.now() > gone + 0.5, "half a second without it")
-        told = [one for one in caplog.records if said in one.getMessage()]
-        assert [one.levelno for one in told] == [level]
+        records = [record for record in caplog.records if message in record.getMessage()]
+        assert [record.levelno for record in records] == [level]
         commands = base.commands
         until(lambda: base.commands > commands + 5, "commands of the driver")
 
@@ -282,16 +289,18 @@ def test_who_was_started_again_unnoticed_is_lost_and_back(
     with caplog.at_level(logging.INFO), running([Base, Recorder], middleware) as them:
         base, before = them["base"].worker, them["recorder"]
         base.end = 0.5
-        until(lambda: them["base"].state is State.COMPUTE and base.source.paused, "the pause")
+        until(
+            lambda: them["base"].state is LifecycleState.COMPUTE and base.source.paused, "the pause"
+        )
         die(before)
         again = Runner(Recorder, Parameters(), before.settings)
         again.start()
         try:
-            until(lambda: again.state is State.COMPUTE, "its second life")
+            until(lambda: again.state is LifecycleState.COMPUTE, "its second life")
             base.end = 1e9
             base.source.resume()
-            until(lambda: "recorder is back at" in caplog.text, "its return")
-            assert "recorder was lost at" in caplog.text
+            until(lambda: "recorder rejoined at" in caplog.text, "its return")
+            assert "recorder timed out or disconnected at" in caplog.text
             until(lambda: any("saw" in line for line in again.worker.lines), "what others publish")
         finally:
             end(again)
@@ -319,10 +328,10 @@ def test_who_does_not_answer_is_left_out_until_it_does(
         base.end = 1e9
         try:
             until(lambda: base.clock.now() > 0.5, "the time behind it")
-            assert "stuck was lost at 0.1 s" in caplog.text
+            assert "stuck timed out or disconnected at 0.1 s" in caplog.text
         finally:
             Stuck.let_go.set()
-        until(lambda: "stuck is back at" in caplog.text, "its return")
+        until(lambda: "stuck rejoined at" in caplog.text, "its return")
         computed = them["stuck"].worker.computed
         until(lambda: them["stuck"].worker.computed > computed + 3, "its computes")
 
@@ -337,4 +346,4 @@ def test_the_source_ends_with_the_first_that_is_lost(caplog: pytest.LogCaptureFi
         threading.Thread(target=lambda: ended.append(them["base"].wait()), daemon=True).start()
         until(lambda: ended, "the end of the source")
         assert ended == [False]
-        assert "recorder was lost" in caplog.text
+        assert "recorder timed out or disconnected" in caplog.text

@@ -10,13 +10,13 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.clock_interface import CLOCK, ClockProxy, Tick
-from robocomp_dsl.runtime.component_interface import COMPONENT
-from robocomp_dsl.runtime.onlooker import Onlooker, interfaces
+from robocomp_dsl.runtime.client import DomainClient, load_generated_interfaces
+from robocomp_dsl.runtime.component.component_interface import COMPONENT
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.spec import CalledPort
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.spec import CalledPort
+from robocomp_dsl.runtime.time.clock_interface import CLOCK, ClockProxy, Tick
 
 COMPONENTS = Path(__file__).parents[2] / "components"
 DEADLINE = 60.0
@@ -38,27 +38,27 @@ class Teller(Component):
 
 
 @pytest.fixture
-def onlooker() -> Iterator[Onlooker]:
+def onlooker() -> Iterator[DomainClient]:
     domain = uuid.uuid4().hex
     runner = Runner(Teller, Parameters(), RunSettings(domain=domain))
     runner.start()
-    made = Onlooker(domain, "inproc")
-    yield made
-    made.close()
+    client = DomainClient(domain, "inproc")
+    yield client
+    client.close()
     runner.stop()
     assert runner.wait()
 
 
-def test_it_asks_components_about_themselves_and_calls_their_ports(onlooker: Onlooker) -> None:
+def test_it_asks_components_about_themselves_and_calls_their_ports(onlooker: DomainClient) -> None:
     proxy = onlooker.component("teller")
     assert proxy.wait_for_server(DEADLINE)
     assert proxy.getInfo().name == "teller"
-    assert onlooker.calls(COMPONENT, "teller", "Component").getInfo().name == "teller"
+    assert onlooker.operations(COMPONENT, "teller", "Component").getInfo().name == "teller"
 
 
-def test_it_hears_what_is_published(onlooker: Onlooker) -> None:
+def test_it_hears_what_is_published(onlooker: DomainClient) -> None:
     heard: list[Tick] = []
-    onlooker.hear(CLOCK, "teller", "Clock", {"tick": heard.append})
+    onlooker.subscribe(CLOCK, "teller", "Clock", {"tick": heard.append})
     end = time.monotonic() + DEADLINE
     while not heard:
         assert time.monotonic() < end, "nothing was heard"
@@ -67,9 +67,11 @@ def test_it_hears_what_is_published(onlooker: Onlooker) -> None:
 
 
 def test_interfaces_of_components_are_modules_of_their_own() -> None:
-    reflex, arm = (interfaces(COMPONENTS / name) for name in ("reflex", "generic_arm"))
-    assert reflex is interfaces(COMPONENTS / "reflex")
+    reflex, arm = (
+        load_generated_interfaces(COMPONENTS / name) for name in ("reflex", "generic_arm")
+    )
+    assert reflex is load_generated_interfaces(COMPONENTS / "reflex")
     assert reflex.GENERICARM.name == arm.GENERICARM.name
     assert reflex is not arm
     with pytest.raises(FileNotFoundError):
-        interfaces(COMPONENTS / "nowhere")
+        load_generated_interfaces(COMPONENTS / "nowhere")

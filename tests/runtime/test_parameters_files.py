@@ -110,10 +110,10 @@ def test_values_of_yaml(tmp_path: Path, text: str, attribute: str, value: object
 
 WRONG = [
     # text, complaints (line:column message)
-    ("rte: 5", ["1:1 there is no parameter `rte`"]),
+    ("rte: 5", ["1:1 unknown parameter `rte`"]),
     ("rate: fast", ["1:7 `rate` must be a number, not `fast`"]),
     ("rate: true", ["1:7 `rate` must be a number, not `true`"]),
-    ('rate: "5"', ["1:7 `rate` must be a number, not a quoted text"]),
+    ('rate: "5"', ["1:7 `rate` must be a number, not a quoted string"]),
     ("rate: [5]", ["1:7 `rate` must be a number, not a list"]),
     ("rate: {a: 5}", ["1:7 `rate` must be a number, not a group"]),
     ("rate: .nan", ["1:7 `rate` is `.nan`, it must be a finite number"]),
@@ -126,14 +126,15 @@ WRONG = [
     ("rate: ~", ["1:7 `rate` has no value"]),
     ("retries: 5.0", ["1:10 `retries` must be a whole number, not `5.0`"]),
     ("retries: -1", ["1:10 `retries` is -1, its lowest value is 0"]),
-    ("device: 5", ["1:9 `device` must be a text, not the number 5"]),
-    ("device: true", ["1:9 `device` must be a text, not the bool true"]),
+    ("device: 5", ["1:9 `device` must be a string, not the number 5"]),
+    ("device: true", ["1:9 `device` must be a string, not the bool true"]),
     ("mode: speed", ["1:7 `mode` cannot be `speed`"]),
     ("verbose: 1", ["1:10 `verbose` must be true or false, not `1`"]),
-    ("rate: 5\nmode: off\nrate: 6", ["3:1 `rate` is given twice"]),
+    ("rate: 5\nmode: off\nrate: 6", ["3:1 `rate` is a duplicate key"]),
     ("- 1\n- 2", ["1:1 a configuration is a group of `key: value` lines"]),
     ("just words", ["1:1 a configuration is a group of `key: value` lines"]),
-    ("rate: 5\n---\nrate: 6", ["2:1 a configuration is one YAML document, a second begins here"]),
+    ("rate: 5\n---\nrate: 6",
+     ["2:1 a configuration is one YAML document; a second one starts here"]),
     ("device: !!python/name:os.system x",
      ["1:9 the tag `!!python/name:os.system` has no meaning here"]),
     ("rate: *b", ["1:7 the alias `*b` stands before the end of its anchor `&b`, or has none",
@@ -150,7 +151,7 @@ WRONG = [
      ["1:9 `motors` has 4 entries, it must have 0 to 3"]),
     ("? [a]\n: 5", ["1:3 a key must be a single word"]),
     ("rte: 5\nmode: speed\nmotors: 7\nrate: 0", [
-        "1:1 there is no parameter `rte`",
+        "1:1 unknown parameter `rte`",
         "2:7 `mode` cannot be `speed`",
         "3:9 `motors` must be a list, not a single value",
         "4:7 `rate` is 0 Hz, its lowest value is 1 Hz",
@@ -164,7 +165,7 @@ def test_wrong_yaml(tmp_path: Path, text: str, expected: list[str]) -> None:
         load(tmp_path, text)
     found = complaints(caught.value)
     # the words behind "this is not YAML" are those of the YAML library in use
-    assert [re.sub("(not YAML): .+", r"\1", one) for one in found] == expected
+    assert [re.sub("(not YAML): .+", r"\1", message) for message in found] == expected
 
 
 def test_a_finding_shows_file_excerpt_caret_and_way_out(tmp_path: Path) -> None:
@@ -173,7 +174,7 @@ def test_a_finding_shows_file_excerpt_caret_and_way_out(tmp_path: Path) -> None:
     assert (
         str(caught.value)
         == f"""\
-error: there is no parameter `ratte`
+error: unknown parameter `ratte`
   --> {tmp_path}/config.yaml:2:1
    |
  2 | ratte: 20
@@ -206,8 +207,8 @@ def test_toml_has_the_same_values_and_places(tmp_path: Path) -> None:
         load(tmp_path, bad, suffix=".toml")
     assert complaints(caught.value) == [
         "1:8 `rate` is 5000 Hz, its highest value is 1000 Hz",
-        "3:8 `motors[0].name` must be a text, not the number 7",
-        "6:14 `motors[1].limits.low` must be a number, not a quoted text",
+        "3:8 `motors[0].name` must be a string, not the number 7",
+        "6:14 `motors[1].limits.low` must be a number, not a quoted string",
         "7:1 `motors[1]` has no parameter `ids`",
     ]
 
@@ -259,7 +260,7 @@ def test_overrides_can_give_a_required_list() -> None:
         ("a..b=5", "1:1 `--set a..b=5` is not of the form `key=value`"),
         ("a[x]=5", "1:1 `--set a[x]=5` is not of the form `key=value`"),
         ("[0]=5", "1:1 `--set [0]=5` is not of the form `key=value`"),
-        ("rte=5", "1:1 there is no parameter `rte`"),
+        ("rte=5", "1:1 unknown parameter `rte`"),
         ("rate=", "1:6 `rate` must be a number, not ``"),
         ("rate=5000", "1:6 `rate` is 5000 Hz, its highest value is 1000 Hz"),
         ("motors[1].name=a", "1:1 `motors` has 0 entries, there is no [1] (they count from 0)"),
@@ -279,9 +280,9 @@ def unusable(tmp_path: Path) -> list[tuple[Path, str]]:
     latin.write_bytes("device: größe".encode("latin-1"))
     huge.write_bytes(b"# " + b"x" * 2_000_000)
     return [
-        (tmp_path / "none.yaml", "there is no such file"),
+        (tmp_path / "none.yaml", "file not found"),
         (tmp_path, "this is a folder, not a file"),
-        (binary, "this is a binary file, not a text"),
+        (binary, "this is a binary file, not text"),
         (latin, "the text is not UTF-8: byte 0xf6 at offset 10"),
         (huge, "it is larger than 1024 kB"),
     ]
@@ -291,7 +292,7 @@ def test_unusable_files(tmp_path: Path) -> None:
     for path, reason in unusable(tmp_path):
         with pytest.raises(ConfigError) as caught:
             NeedyParams.load(path)
-        assert complaints(caught.value) == [f"1:1 the configuration cannot be used: {reason}"]
+        assert complaints(caught.value) == [f"1:1 unreadable configuration: {reason}"]
         assert str(path) in str(caught.value)
 
 

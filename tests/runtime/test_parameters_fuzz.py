@@ -14,8 +14,8 @@ from robocomp_dsl.runtime.parameters import (
     Group,
     Parameter,
     ParameterGroup,
+    ParameterRejected,
     Parameters,
-    Refused,
 )
 
 
@@ -141,6 +141,6 @@ def test_live_changes(changes: dict[str, Any]) -> None:
 def refused(params: Params, changes: dict[str, Any]) -> str | None:
     try:
         params.set(changes)
-    except Refused as refusal:
+    except ParameterRejected as refusal:
         return refusal.reason
     return None

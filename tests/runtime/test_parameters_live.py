@@ -8,7 +8,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from robocomp_dsl.runtime.parameters import Group, Parameter, ParameterGroup, Parameters, Refused
+from robocomp_dsl.runtime.parameters import (
+    Group,
+    Parameter,
+    ParameterGroup,
+    ParameterRejected,
+    Parameters,
+)
 
 
 class MotorsGroup(ParameterGroup):
@@ -78,12 +84,12 @@ def test_a_change_is_seen(params: Params, change: dict[str, Any], expected: dict
         ({"on": 1}, "`on` must be true or false, not 1; expected bool"),
         ({"mode": "c"}, "`mode` cannot be `c`; it is one of: a, b"),
         ({"device": "y"}, "`device` is not live: it is read at the start only"),
-        ({"rat": 5}, "there is no parameter `rat`; did you mean `rate`?"),
+        ({"rat": 5}, "unknown parameter `rat`; did you mean `rate`?"),
         (
             {"motors[1].mn": 5},
-            "there is no parameter `motors[1].mn`; did you mean `motors[1].min`?",
+            "unknown parameter `motors[1].mn`; did you mean `motors[1].min`?",
         ),
-        ({"motors[7].min": 5}, "there is no parameter `motors[7].min`; `motors` has 2 entries"),
+        ({"motors[7].min": 5}, "unknown parameter `motors[7].min`; `motors` has 2 entries"),
         ({"motors": []}, "`motors` is a group: change one of its members, as in `motors[0].name`"),
     ],
 )
@@ -91,14 +97,14 @@ def test_a_refused_value_changes_nothing(
     params: Params, change: dict[str, Any], reason: str
 ) -> None:
     before = params.values()
-    with pytest.raises(Refused) as caught:
+    with pytest.raises(ParameterRejected) as caught:
         params.set({"label": "good", **change})
     assert caught.value.reason == reason
     assert params.values() == before
 
 
 def test_all_reasons_are_told_at_once(params: Params) -> None:
-    with pytest.raises(Refused) as caught:
+    with pytest.raises(ParameterRejected) as caught:
         params.set({"rate": 0, "count": 99, "device": "y"})
     assert len(caught.value.reason.splitlines()) == 3
 
@@ -106,7 +112,7 @@ def test_all_reasons_are_told_at_once(params: Params) -> None:
 def test_texts_are_understood_as_on_a_command_line(params: Params) -> None:
     params.set_text({"rate": "1e2", "on": "yes", "label": "5", "motors[0].max": "3"})
     assert (params.rate, params.on, params.label, params.motors[0].max) == (100.0, True, "5", 3.0)
-    with pytest.raises(Refused, match="must be a number"):
+    with pytest.raises(ParameterRejected, match="must be a number"):
         params.set_text({"rate": "fast"})
 
 
@@ -131,7 +137,7 @@ class Worker:
     def will_set_rate(self, value: float) -> None:
         self.log.append(("will rate", value, self.params.rate))
         if value == 13:
-            raise Refused("13 brings bad luck")
+            raise ParameterRejected("13 brings bad luck")
 
     def did_set_rate(self, old: float) -> None:
         self.log.append(("did rate", old, self.params.rate))
@@ -146,7 +152,7 @@ class Worker:
         self.log.append(("will", dict(changes)))
         low = changes.get("motors[0].min", self.params.motors[0].min)
         if low >= changes.get("motors[0].max", self.params.motors[0].max):
-            raise Refused("min must be below max")
+            raise ParameterRejected("min must be below max")
 
     def did_set_count(self, old: int) -> None:
         raise ValueError("a bug of the user")
@@ -176,7 +182,7 @@ def test_a_hook_refuses_the_whole_change(
 ) -> None:
     before = params.values()
     worker = Worker(params)
-    with pytest.raises(Refused) as caught:
+    with pytest.raises(ParameterRejected) as caught:
         params.set({"label": "new", **change})
     assert caught.value.reason == reason
     assert params.values() == before

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_parameters_live import Params
 
-from robocomp_dsl.runtime.parameters import ConfigError, Refused
-from robocomp_dsl.runtime.parameters.saved import beside
+from robocomp_dsl.runtime.parameters import ConfigError, ParameterRejected
+from robocomp_dsl.runtime.parameters.saved import saved_path
+from tests.runtime.test_parameters_live import Params
 
 CONFIG = "# mine\nrate: 30\nmotors:\n  - name: m\n"
 
@@ -25,14 +25,14 @@ def config(tmp_path: Path) -> Path:
 
 
 def load(config: Path, *overrides: str) -> Params:
-    return Params.load(config, overrides, keeps=config)
+    return Params.load(config, overrides, save_beside=config)
 
 
 def test_what_was_changed_is_there_again(config: Path) -> None:
     params = load(config)
     params.set({"rate": 20, "motors[0].min": -3, "label": 'a "b" # c: \n é', "on": True})
     assert load(config).rate == 30, "nothing is kept that nobody asked for"
-    assert params.save() == beside(config)
+    assert params.save() == saved_path(config)
     again = load(config)
     assert (again.rate, again.motors[0].min, again.on) == (20.0, -3.0, True)
     assert again.label == 'a "b" # c: \n é'
@@ -52,7 +52,7 @@ def test_what_was_kept_before_is_kept_on(config: Path) -> None:
     second.save()
     third = load(config)
     assert (third.rate, third.count) == (20.0, 5)
-    assert "mode" not in beside(config).read_text()
+    assert "mode" not in saved_path(config).read_text()
 
 
 @given(value=st.floats(1, 1000), text=st.text(st.characters(codec="utf-8"), max_size=20))
@@ -62,7 +62,7 @@ def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text:
     params = load(config)
     try:
         params.set({"rate": value, "label": text})
-    except Refused:  # a text that no configuration can hold
+    except ParameterRejected:  # a text that no configuration can hold
         return
     params.save()
     again = load(config)
@@ -71,7 +71,7 @@ def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("speed: 3\n", "speed"),
         ("rate: fast\n", "number"),
@@ -81,20 +81,20 @@ def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text:
         ("rate: {\n", "config.saved.yaml"),
     ],
 )
-def test_a_damaged_file_is_a_located_finding(config: Path, text: str, said: str) -> None:
-    beside(config).write_text(text)
+def test_a_damaged_file_is_a_located_finding(config: Path, text: str, message: str) -> None:
+    saved_path(config).write_text(text)
     with pytest.raises(ConfigError) as caught:
         load(config)
-    assert said in str(caught.value)
+    assert message in str(caught.value)
     assert "config.saved.yaml:" in str(caught.value)
 
 
 def test_no_place_for_it(config: Path, tmp_path: Path) -> None:
-    with pytest.raises(Refused, match="without a place"):
+    with pytest.raises(ParameterRejected, match="without a file"):
         Params.load(config).save()
     blocked = tmp_path / "file"
     blocked.write_text("")
-    params = Params.load(config, keeps=blocked / "config.yaml")
+    params = Params.load(config, save_beside=blocked / "config.yaml")
     params.set({"rate": 20})
-    with pytest.raises(Refused, match="cannot be written"):
+    with pytest.raises(ParameterRejected, match="cannot be written"):
         params.save()

@@ -45,7 +45,7 @@ class Arm(Component):
 
 
 HELP = """\
-parameters (in the configuration, or after --set):
+parameters (in the configuration file, or with --set):
   device=<string>  required
       Serial device: 100 % of it.
   mode=fast|slow  'fast' if not given

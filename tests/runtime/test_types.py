@@ -10,36 +10,19 @@ from typing import Any
 
 import numpy as np
 import pytest
-from random_schemas import array_of, enumeration, record
 
 from robocomp_dsl.runtime import types as rt
+from tests.runtime.random_schemas import array_of, enumeration, struct_of
 
 
-class Pose(rt.Struct):
-    __slots__ = ("None_", "joints", "parts")
-    _fields_ = (
-        ("joints", rt.Array(rt.DOUBLE)),
-        ("None", rt.STRING),
-        ("parts", rt.Dictionary(rt.STRING, rt.Array(rt.INT))),
-    )
-
-    def __init__(
-        self,
-        joints: rt.Float64Array | None = None,
-        None_: str = "",  # noqa: N803 - as the generator spells a word of Python
-        parts: dict[str, rt.Int32Array] | None = None,
-    ) -> None:
-        self.joints = np.zeros(0) if joints is None else joints
-        self.None_ = None_
-        self.parts = {} if parts is None else parts
+class Pose(rt.Struct, rename={"None_": "None"}):
+    joints: rt.Float64Array = rt.default()
+    None_: rt.String = ""
+    parts: dict[rt.String, rt.Int32Array] = rt.default()
 
 
 class HardwareFailed(rt.DeclaredError):
-    __slots__ = ("what",)
-    _fields_ = (("what", rt.STRING),)
-
-    def __init__(self, what: str = "") -> None:
-        self.what = what
+    what: rt.String = ""
 
 
 def pose(last: float = 2.0) -> Pose:
@@ -64,11 +47,11 @@ def test_structs_are_shown_as_they_are_made() -> None:
     assert "… 100 float64]" in repr(Pose(np.zeros(100)))
 
 
-@pytest.mark.parametrize("one", [pose(), HardwareFailed("x")], ids=["struct", "exception"])
-def test_records_are_copied_and_pickled(one: Any) -> None:
-    for again in (copy.copy(one), copy.deepcopy(one), pickle.loads(pickle.dumps(one))):
-        assert again == one
-        assert type(again) is type(one)
+@pytest.mark.parametrize("value", [pose(), HardwareFailed("x")], ids=["struct", "exception"])
+def test_records_are_copied_and_pickled(value: Any) -> None:
+    for again in (copy.copy(value), copy.deepcopy(value), pickle.loads(pickle.dumps(value))):
+        assert again == value
+        assert type(again) is type(value)
 
 
 def test_declared_exceptions_are_raised_and_told() -> None:
@@ -78,13 +61,68 @@ def test_declared_exceptions_are_raised_and_told() -> None:
     assert caught.value == HardwareFailed("motor 3")
 
 
-def test_slots_and_fields_go_together() -> None:
-    spec = {"__slots__": ("a", "lambda_", "lambda__"), "_fields_": ()}
-    names = ("lambda", "lambda_", "a")
-    good: Any = type("Good", (rt.Struct,), {**spec, "_fields_": tuple((n, rt.INT) for n in names)})
-    assert good._names_ == ("lambda__", "lambda_", "a")
-    with pytest.raises(TypeError, match="do not agree"):
-        type("Bad", (rt.Struct,), spec)
+def test_struct_fields_have_the_names_of_the_wire() -> None:
+    assert Pose._names_ == ("joints", "None_", "parts")
+    assert [name for name, _ in Pose._fields_] == ["joints", "None", "parts"]
+    assert dict(Pose._fields_)["parts"] == rt.Dictionary(rt.STRING, rt.Array(rt.INT))
+
+
+def test_struct_defaults_are_fresh_for_each_struct() -> None:
+    first, second = Pose(), Pose()
+    first.parts["a"] = np.zeros(1, np.int32)
+    assert second.parts == {}
+    assert first.joints is not second.joints
+    assert first.joints.dtype == np.float64
+
+
+def test_struct_is_constructed_by_position_and_by_name() -> None:
+    class Range(rt.Struct):
+        low: rt.Int
+        high: rt.Int = 5
+
+    assert Range(1) == Range(low=1, high=5) == Range(1, 5)
+    with pytest.raises(TypeError, match="low"):
+        Range()  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="width"):
+        Range(1, width=3)  # type: ignore[call-arg]
+    match Range(1, 2):
+        case Range(low, high):
+            assert (low, high) == (1, 2)
+
+
+def test_struct_subclass_of_a_user_has_the_fields_of_the_struct() -> None:
+    class Marked(Pose):
+        mark: int
+
+        def __init__(self, mark: int) -> None:
+            super().__init__(None_="x")
+            self.mark = mark
+
+    assert Marked(3).mark == 3
+    assert Marked(3) == Pose(None_="x")
+
+
+def wrong(**annotations: Any) -> Any:
+    return type("Wrong", (rt.Struct,), {"__annotations__": annotations, "__module__": __name__})
+
+
+def test_struct_takes_types_of_idsl_only() -> None:
+    with pytest.raises(TypeError, match=r"float.* is no type of IDSL"):
+        wrong(x=float)
+    with pytest.raises(TypeError, match="must be defined above"):
+        wrong(x="Missing")
+
+
+def test_struct_refuses_a_default_that_structs_would_share() -> None:
+    class Shared(rt.Struct):
+        names: list[rt.String] = []  # noqa: RUF012 - that is the mistake
+
+    class Empty(rt.Struct):
+        x: rt.Int = rt.default()
+
+    for cls in (Shared, Empty):
+        with pytest.raises(TypeError, match="its default must be"):
+            cls()
 
 
 @pytest.mark.parametrize(
@@ -104,18 +142,18 @@ def interface(**changed: Any) -> rt.Interface:
     spec: dict[str, Any] = {
         "name": "move",
         "pattern": rt.Pattern.QUERY,
-        "inputs": (("to", record([rt.INT])),),
+        "inputs": (("to", struct_of([rt.INT])),),
         "outputs": (("", enumeration([1, 2])), ("l", rt.Sequence(rt.STRING))),
-        "throws": (record([rt.STRING], rt.DeclaredError),),
+        "throws": (struct_of([rt.STRING], rt.DeclaredError),),
     }
-    return rt.Interface("Arm::Arm", (rt.Operation(**{**spec, **changed}),))
+    return rt.Interface("Arm::Arm", rt.Operation(**{**spec, **changed}))
 
 
 def test_equal_shapes_have_equal_hashes_whatever_their_types_are_called() -> None:
     assert interface().hash == interface().hash
     assert len(interface().hash) == 8
     assert interface(idempotent=True).hash == interface().hash
-    rows, objects = array_of(record([rt.INT])), rt.Sequence(record([rt.INT]))
+    rows, objects = array_of(struct_of([rt.INT])), rt.Sequence(struct_of([rt.INT]))
     assert interface(inputs=(("a", rows),)).hash == interface(inputs=(("a", objects),)).hash
 
 
@@ -124,14 +162,14 @@ def test_equal_shapes_have_equal_hashes_whatever_their_types_are_called() -> Non
     [
         {"name": "moveTo"},
         {"pattern": rt.Pattern.COMMAND},
-        {"inputs": (("to", record([rt.LONG])),)},
-        {"inputs": (("at", record([rt.INT])),)},
+        {"inputs": (("to", struct_of([rt.LONG])),)},
+        {"inputs": (("at", struct_of([rt.INT])),)},
         {"inputs": (("to", rt.INT),)},
-        {"inputs": (("to", record([rt.INT])), ("x", rt.INT))},
+        {"inputs": (("to", struct_of([rt.INT])), ("x", rt.INT))},
         {"outputs": (("", enumeration([1, 3])), ("l", rt.Sequence(rt.STRING)))},
         {"outputs": (("", enumeration([1, 2])), ("l", rt.Dictionary(rt.INT, rt.STRING)))},
         {"throws": ()},
-        {"throws": (record([rt.INT], rt.DeclaredError),)},
+        {"throws": (struct_of([rt.INT], rt.DeclaredError),)},
     ],
 )
 def test_the_hash_sees_a_change(changed: dict[str, Any]) -> None:
@@ -141,13 +179,13 @@ def test_the_hash_sees_a_change(changed: dict[str, Any]) -> None:
 def test_the_hash_is_that_of_other_processes() -> None:
     # Fixed here, for components of different releases of this project must understand each other.
     operation = rt.Operation("stop", rt.Pattern.COMMAND, inputs=(("hard", rt.BOOL),))
-    assert rt.Interface("A::B", (operation,)).hash.hex() == "f63fcdb396d27f2d"
+    assert rt.Interface("A::B", operation).hash.hex() == "f63fcdb396d27f2d"
 
 
 def test_the_order_of_operations_means_nothing() -> None:
-    one, two = rt.Operation("a", rt.Pattern.QUERY), rt.Operation("b", rt.Pattern.QUERY)
-    assert rt.Interface("A::B", (one, two)).hash == rt.Interface("A::B", (two, one)).hash
-    assert rt.Interface("A::B", (one, two)).operation("b") is two
+    first, second = rt.Operation("a", rt.Pattern.QUERY), rt.Operation("b", rt.Pattern.QUERY)
+    assert rt.Interface("A::B", first, second).hash == rt.Interface("A::B", second, first).hash
+    assert rt.Interface("A::B", first, second).operation("b") is second
 
 
 def test_types_load_nothing_heavy() -> None:

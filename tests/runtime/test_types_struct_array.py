@@ -21,35 +21,23 @@ class Mode(rt.Enum):
 
 
 class Point(rt.Struct):
-    __slots__ = ("x", "y")
-    _fields_ = (("x", rt.FLOAT), ("y", rt.FLOAT))
-
-    def __init__(self, x: float = 0.0, y: float = 0.0) -> None:
-        self.x = x
-        self.y = y
+    x: rt.Float = 0.0
+    y: rt.Float = 0.0
 
 
 class Contact(rt.Struct):
-    __slots__ = ("at", "firm", "id", "mode")
-    _fields_ = (("id", rt.BYTE), ("at", Point), ("mode", Mode), ("firm", rt.BOOL))
-
-    def __init__(
-        self, id: int = 0, at: Point | None = None, mode: Mode = Mode.Off, firm: bool = False
-    ) -> None:
-        self.id = id
-        self.at = Point() if at is None else at
-        self.mode = mode
-        self.firm = firm
+    id: rt.Byte = 0
+    at: Point = rt.default()
+    mode: Mode = Mode.Off
+    firm: rt.Bool = False
 
 
 class Points(rt.StructArray[Point]):
     __slots__ = ()
-    _element_ = Point
 
 
 class Contacts(rt.StructArray[Contact]):
     __slots__ = ()
-    _element_ = Contact
 
 
 def contacts(count: int = 3) -> Contacts:
@@ -81,10 +69,14 @@ def test_a_row_refuses_what_does_not_fit(name: str, value: Any) -> None:
 
 def test_a_copied_row_is_a_value_of_its_own() -> None:
     rows = contacts()
-    for one in (copy.copy(rows[1]), copy.deepcopy(rows[1]), pickle.loads(pickle.dumps(rows[1]))):
-        assert type(one) is Contact
-        assert one == rows[1]
-        one.id = 77
+    for duplicate in (
+        copy.copy(rows[1]),
+        copy.deepcopy(rows[1]),
+        pickle.loads(pickle.dumps(rows[1])),
+    ):
+        assert type(duplicate) is Contact
+        assert duplicate == rows[1]
+        duplicate.id = 77
     assert rows == contacts()
 
 
@@ -147,9 +139,9 @@ class Pair:
 
     def do(self, action: Any) -> None:
         outcomes = []
-        for one in (self.array, self.list):
+        for sequence in (self.array, self.list):
             try:
-                result = action(one)
+                result = action(sequence)
                 outcomes.append(copy.deepcopy(result))
             except (IndexError, ValueError) as error:
                 outcomes.append(type(error))
@@ -245,11 +237,10 @@ def test_copied_and_pickled() -> None:
 
 def test_only_numbers_have_arrays() -> None:
     class Named(rt.Struct):
-        __slots__ = ("name",)
-        _fields_ = (("name", rt.STRING),)
+        name: rt.String = ""
 
     class NamedList(rt.StructArray[Named]):
-        _element_ = Named
+        __slots__ = ()
 
     with pytest.raises(TypeError, match="name: no number, so no fixed size"):
         NamedList()

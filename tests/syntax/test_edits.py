@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
-from robocomp_dsl.syntax import LANGUAGES, parse_idsl
-from robocomp_dsl.syntax.node import Node
+from robocomp_dsl.syntax.ast.node import Node
+from robocomp_dsl.syntax.parse import LANGUAGES, parse_idsl
 from tests.syntax.test_mutated import PIECES, REAL
 
 STATEMENTS = [
@@ -63,12 +63,12 @@ def plain(value: Any) -> Any:
         fields: tuple[str, ...] = type(value).__match_args__
         return type(value).__name__, *(plain(getattr(value, field)) for field in fields)
     if isinstance(value, tuple):
-        return tuple(plain(one) for one in value)
+        return tuple(plain(diagnostic) for diagnostic in value)
     if isinstance(value, Diagnostic):
         notes = tuple((plain(note.span), note.message) for note in value.notes)
         edits = tuple((plain(e.span), e.text) for e in value.fix.edits) if value.fix else ()
-        said = (value.code.id, value.message, value.label, value.help)
-        return *said, plain(value.span), notes, edits
+        shown = (value.code.id, value.message, value.label, value.help)
+        return *shown, plain(value.span), notes, edits
     return value
 
 
@@ -87,7 +87,7 @@ def edit(text: str, rng: random.Random) -> str:
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
 @settings(max_examples=120, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
-def test_edits(suffix: str, seed: int) -> None:
+def test_incremental_parse_equals_full_parse(suffix: str, seed: int) -> None:
     rng = random.Random(seed)
     text = rng.choice(TEXTS[suffix])
     compare(suffix, [text := edit(text, rng) for _ in range(rng.randint(2, 12))])
@@ -98,16 +98,18 @@ def compare(suffix: str, texts: list[str]) -> None:
     path, memory = Path(f"x{suffix}"), dict[str, Any]()
     parse = LANGUAGES[suffix]
     for number, text in enumerate(texts):
-        kept, alone = Report(), Report()
+        remaining, alone = Report(), Report()
         source = Source(path, text, memory)
-        tree = parse(source, kept)
+        tree = parse(source, remaining)
         fresh = parse(Source(path, text), alone)
         shown = "\n=====\n".join(texts[: number + 1])
         assert plain(tree) == plain(fresh), shown
-        assert [plain(one) for one in kept] == [plain(one) for one in alone], shown
+        assert [plain(diagnostic) for diagnostic in remaining] == [
+            plain(diagnostic) for diagnostic in alone
+        ], shown
 
 
-def test_only_the_edited_items_are_read_again() -> None:
+def test_incremental_parse_reuses_unchanged_items() -> None:
     memory = dict[str, Any]()
     text = TEXTS[".idsl"][-2]
     first = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations
@@ -119,7 +121,7 @@ def test_only_the_edited_items_are_read_again() -> None:
     assert again[-1].span.text == "sequence<S39> L39;"
 
 
-def test_an_error_elsewhere_does_not_stop_it() -> None:
+def test_incremental_parse_reuses_items_despite_error_elsewhere() -> None:
     memory = dict[str, Any]()
     text = TEXTS[".idsl"][-2].replace("int a5 =", "int int a5 =").replace("int a35 =", "int int =")
     first = parse_idsl(Source(Path("x.idsl"), text, memory), Report()).modules[0].declarations

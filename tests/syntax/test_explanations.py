@@ -1,4 +1,4 @@
-"""What `rcgen explain` shows as wrong gives that finding; what it shows as right does not."""
+"""The examples of `rcgen explain`: the wrong one gives the code, the correct one does not."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import (
-    codes,
+from robocomp_dsl.syntax.parse import (
     parse_cdsl,
     parse_ddsl,
     parse_idsl,
@@ -28,9 +28,7 @@ HEADS = {
     r"^\s*<": (".xml", parse_innermodel),
 }
 EXAMPLE = re.compile(r"^(Wrong|Right)[^\n]*:\n\n((?:    [^\n]*\n|\n)+)", re.MULTILINE)
-CODES = sorted(
-    (one for one in vars(codes).values() if isinstance(one, Code)), key=lambda one: one.id
-)
+CODES = sorted(stage_codes("syntax"), key=lambda code: code.id)
 
 
 def examples(code: Code) -> list[tuple[str, str]]:
@@ -40,28 +38,28 @@ def examples(code: Code) -> list[tuple[str, str]]:
     ]
 
 
-def found(text: str) -> set[str]:
+def reported_codes(text: str) -> set[str]:
     for head, (suffix, parse) in HEADS.items():
         if re.search(head, text, re.MULTILINE | re.IGNORECASE):
             report = Report()
             parse(Source(Path(f"example{suffix}"), text), report)
-            return {one.code.id for one in report}
-    raise AssertionError(f"which language is this?\n{text}")
+            return {diagnostic.code.id for diagnostic in report}
+    raise AssertionError(f"unknown language:\n{text}")
 
 
 @pytest.mark.parametrize("code", [c for c in CODES if examples(c)], ids=lambda c: c.id)
-def test_examples(code: Code) -> None:
+def test_explanation_examples(code: Code) -> None:
     for kind, text in examples(code):
         if kind == "Wrong":
-            assert code.id in found(text), text
+            assert code.id in reported_codes(text), text
         else:
-            assert code.id not in found(text), text
+            assert code.id not in reported_codes(text), text
 
 
-def test_most_codes_have_examples() -> None:
+def test_most_explanations_have_examples() -> None:
     assert len([c for c in CODES if examples(c)]) >= 30
 
 
-def test_ids_are_unique() -> None:
-    ids = [one.id for one in CODES]
+def test_code_ids_are_unique() -> None:
+    ids = [code.id for code in CODES]
     assert len(ids) == len(set(ids))

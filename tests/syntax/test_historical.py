@@ -15,7 +15,7 @@ import pytest
 from robocomp_dsl.check.fixes import fix_all
 from robocomp_dsl.diagnostics import Report, Severity
 from robocomp_dsl.source import Source
-from robocomp_dsl.syntax import parse_cdsl, parse_idsl, parse_pdsl, parse_smdsl
+from robocomp_dsl.syntax.parse import parse_cdsl, parse_idsl, parse_pdsl, parse_smdsl
 
 Parser = Callable[[Source, Report], Any]
 
@@ -137,14 +137,14 @@ PDSL: list[tuple[str, str]] = [
 ]
 
 CASES = [
-    (parse, text, wanted)
+    (parse, text, expected)
     for parse, table in (
         (parse_cdsl, CDSL),
         (parse_idsl, IDSL),
         (parse_smdsl, SMDSL),
         (parse_pdsl, PDSL),
     )
-    for text, wanted in table
+    for text, expected in table
 ]
 
 
@@ -154,20 +154,20 @@ def found(parse: Parser, text: str) -> tuple[Source, Report]:
     return source, report
 
 
-@pytest.mark.parametrize(("parse", "text", "wanted"), CASES)
-def test_findings(parse: Parser, text: str, wanted: str) -> None:
+@pytest.mark.parametrize(("parse", "text", "expected"), CASES)
+def test_parser_reports_historical_syntax(parse: Parser, text: str, expected: str) -> None:
     _, report = found(parse, text)
-    assert [d.code.id for d in report.sorted()] == wanted.split(), text
+    assert [d.code.id for d in report.sorted()] == expected.split(), text
 
 
-@pytest.mark.parametrize(("parse", "text", "wanted"), [c for c in CASES if c[2]])
-def test_old_forms_are_fixed(parse: Parser, text: str, wanted: str) -> None:
-    def judge(one: str) -> tuple[Source, list[Any]]:
-        source, report = found(parse, one)
+@pytest.mark.parametrize(("parse", "text", "expected"), [c for c in CASES if c[2]])
+def test_fixes_update_historical_syntax(parse: Parser, text: str, expected: str) -> None:
+    def judge(diagnostic: str) -> tuple[Source, list[Any]]:
+        source, report = found(parse, diagnostic)
         return source, report.sorted()
 
     _, report = found(parse, text)
-    if report.failed:
+    if report.has_errors:
         return
     fixed = fix_all(Source(Path("x.dsl"), text), judge)
     without = {d.code.id for d in report if d.fix is None}

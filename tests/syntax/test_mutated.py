@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import MAX_BYTES, Source, UnreadableSource, decode
-from robocomp_dsl.syntax import LANGUAGES, parse_innermodel
+from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel
 
 ROOT = Path(__file__).parents[2]
 PARSERS = {**LANGUAGES, ".xml": parse_innermodel}
@@ -65,11 +65,11 @@ def judge(suffix: str, text: str) -> Report:
     report = Report()
     tree = PARSERS[suffix](Source(Path(f"x{suffix}"), text), report)
     assert tree is not None
-    for one in report:
-        for span in (one.span, *(n.span for n in one.notes)):
+    for diagnostic in report:
+        for span in (diagnostic.span, *(n.span for n in diagnostic.notes)):
             assert 0 <= span.start <= span.end <= len(text)
-            assert span.begin <= span.finish
-        for edit in one.fix.edits if one.fix else ():
+            assert span.start_position <= span.end_position
+        for edit in diagnostic.fix.edits if diagnostic.fix else ():
             assert 0 <= edit.span.start <= edit.span.end <= len(text)
     return report
 
@@ -95,7 +95,7 @@ def mutate(text: str, rng: random.Random) -> str:
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
 @settings(max_examples=150, suppress_health_check=list(HealthCheck))
 @given(seed=st.integers(0, 2**32))
-def test_mutated_real_files(suffix: str, seed: int) -> None:
+def test_parser_accepts_mutated_files(suffix: str, seed: int) -> None:
     rng = random.Random(seed)
     files = REAL[suffix]
     text = (
@@ -109,7 +109,7 @@ def test_mutated_real_files(suffix: str, seed: int) -> None:
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
 @settings(max_examples=100)
 @given(text=st.text(max_size=300))
-def test_any_text(suffix: str, text: str) -> None:
+def test_parser_accepts_any_text(suffix: str, text: str) -> None:
     judge(suffix, text)
 
 
@@ -117,7 +117,7 @@ def test_any_text(suffix: str, text: str) -> None:
 @pytest.mark.parametrize(
     "piece", ["{", "}", ";", "(", '"', "/*", "a ", "a{", "<a>", "struct s {", "\n", "é", "#"]
 )
-def test_a_very_long_file_of_one_thing(suffix: str, piece: str) -> None:
+def test_parser_bounds_time_for_long_repetition(suffix: str, piece: str) -> None:
     # Lark reads a million tags in half a minute; a tenth of them show the same.
     size = MAX_BYTES // 10 if suffix == ".xml" else MAX_BYTES
     count = size // len(piece.encode())
@@ -126,20 +126,20 @@ def test_a_very_long_file_of_one_thing(suffix: str, piece: str) -> None:
 
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
 @pytest.mark.parametrize("piece", ["[", "-", "€ ", "<", "/*", "<!--", "("])
-def test_nonsense_inside_a_block_ends(suffix: str, piece: str) -> None:
+def test_recovery_ends_for_invalid_block_content(suffix: str, piece: str) -> None:
     # The end of the file has to be reached even after the parser gave up.
     head = HEADS.get(suffix, "M {\n")
     assert 1 <= len(judge(suffix, head + piece * 2000)) <= 210
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
-def test_an_empty_file(suffix: str) -> None:
-    assert [one.code.id for one in judge(suffix, "")]
+def test_parser_reports_empty_file(suffix: str) -> None:
+    assert [diagnostic.code.id for diagnostic in judge(suffix, "")]
 
 
 @pytest.mark.parametrize(
     "data", [b"\0\1\2", b"\xff\xfe\0m", b"module \xe9", b"x" * (MAX_BYTES + 1)]
 )
-def test_what_is_no_text_is_told(data: bytes) -> None:
+def test_source_reports_binary_data(data: bytes) -> None:
     with pytest.raises(UnreadableSource):
         decode(data)

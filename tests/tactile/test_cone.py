@@ -32,10 +32,10 @@ def test_points_lie_where_equation_six_puts_them(x, theta, point):
 def test_normals_stand_on_the_surface():
     theta = np.linspace(-3, 3, 13)
     along = FOREARM.points(0.08, theta) - FOREARM.points(0.04, theta)
-    around = FOREARM.points(0.06, theta + 1e-6) - FOREARM.points(0.06, theta - 1e-6)
+    angle = FOREARM.points(0.06, theta + 1e-6) - FOREARM.points(0.06, theta - 1e-6)
     normals = FOREARM.normals(theta)
     assert np.einsum("ij,ij->i", along, normals) == pytest.approx(np.zeros(13), abs=1e-12)
-    assert np.einsum("ij,ij->i", around, normals) == pytest.approx(np.zeros(13), abs=1e-12)
+    assert np.einsum("ij,ij->i", angle, normals) == pytest.approx(np.zeros(13), abs=1e-12)
     assert np.linalg.norm(normals, axis=1) == pytest.approx(np.ones(13))
     assert (normals[:, 0] > 0).all()
 
@@ -59,17 +59,17 @@ def rotation(seed: int) -> np.ndarray:
 @settings(max_examples=30)
 @given(st.integers(0, 10_000), st.floats(-0.3, 0.3), st.floats(0.02, 0.05), st.floats(0.05, 0.2))
 def test_a_tilted_cone_is_found_again(seed, slope, radius, length):
-    made = Cone(0.0, length, radius, radius + slope * 0.05)
+    points = Cone(0.0, length, radius, radius + slope * 0.05)
     rng = np.random.default_rng(seed)
     x = np.concatenate(([0.0, length], rng.uniform(0, length, 200)))
-    local = made.points(x, rng.uniform(-np.pi, np.pi, len(x)))
+    local = points.points(x, rng.uniform(-np.pi, np.pi, len(x)))
     turn, shift = rotation(seed), rng.normal(size=3) * 0.1
     tilted = turn[:, 0] + 0.2 * turn[:, 1]
     fit = fit_cone(local @ turn.T + shift, axis=tilted)
     assert fit.rms < 1e-9
     assert abs(fit.axes[:, 0] @ turn[:, 0]) == pytest.approx(1.0, abs=1e-9)
-    found = np.array([fit.cone.r0, fit.cone.r1, fit.cone.length])
-    assert found == pytest.approx([made.r0, made.r1, length], abs=1e-7)
+    fitted = np.array([fit.cone.r0, fit.cone.r1, fit.cone.length])
+    assert fitted == pytest.approx([points.r0, points.r1, length], abs=1e-7)
 
 
 def test_noisy_half_covered_skin_is_fitted_to_the_noise():
@@ -87,7 +87,7 @@ def test_noisy_half_covered_skin_is_fitted_to_the_noise():
 
 
 @pytest.mark.parametrize(
-    ("points", "said"),
+    ("points", "message"),
     [
         (np.zeros((20, 3)), "too few"),
         (np.random.default_rng(0).normal(size=(20, 3)) * [1, 1, 0], "one plane"),
@@ -95,8 +95,8 @@ def test_noisy_half_covered_skin_is_fitted_to_the_noise():
         (np.zeros((20, 2)), "rows of three"),
     ],
 )
-def test_points_that_are_no_cone_are_refused(points, said):
-    with pytest.raises(BadFit, match=said):
+def test_points_that_are_no_cone_are_refused(points, message):
+    with pytest.raises(BadFit, match=message):
         fit_cone(points)
 
 
@@ -132,17 +132,17 @@ def test_the_older_form_has_plain_rows():
 @pytest.mark.parametrize(
     ("text", "places"),
     [
-        ("[calibration]\n0 0 1 0 0\n0 0 1 0 0 1\n", [(2, 1, "this one has 5")]),
+        ("[calibration]\n0 0 1 0 0\n0 0 1 0 0 1\n", [(2, 1, "it has 5")]),
         ("[calibration]\n0 0 1 x 0 nan\n", [(2, 7, "`x` is not"), (2, 11, "`nan` is not")]),
         ("[other]\n0 0 1 0 0 1\n", [(1, 1, "no [calibration] section")]),
         ("", [(1, 1, "no taxel")]),
         ("[calibration]\n", [(1, 1, "no taxel")]),
-        ("1 2 3 4 5 6\n  7\n", [(2, 3, "this one has 1")]),
+        ("1 2 3 4 5 6\n  7\n", [(2, 3, "it has 1")]),
     ],
 )
 def test_faulty_files_are_told_with_their_places(text, places):
     with pytest.raises(DescriptionError) as caught:
         read_positions(text, Path("f.txt"))
-    told = caught.value.findings
-    assert [(f.line, f.column) for f in told] == [(line, column) for line, column, _ in places]
-    assert all(said in f.message for f, (_, _, said) in zip(told, places, strict=True))
+    findings = caught.value.findings
+    assert [(f.line, f.column) for f in findings] == [(line, column) for line, column, _ in places]
+    assert all(messages in f.message for f, (_, _, messages) in zip(findings, places, strict=True))

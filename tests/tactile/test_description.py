@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robocomp_dsl.tactile.description.check import Facts, compare
-from robocomp_dsl.tactile.description.listing import read_listing
-from robocomp_dsl.tactile.description.read import read_robot, rotation
+from robocomp_dsl.tactile.description.check import RobotStructure, compare
+from robocomp_dsl.tactile.description.part_xml import read_part_xml
+from robocomp_dsl.tactile.description.read import read_robot, rotation_from_rpy
 from robocomp_dsl.tactile.errors import DescriptionError, Fault
 from robocomp_dsl.tactile.skin.cone import cartesian
 
@@ -55,8 +55,8 @@ def test_a_description_is_read_in_si_units():
     assert arm.chain.base[:3, 2] == pytest.approx([0, 1, 0])
     assert [row.joint for row in arm.chain.rows] == [0, 1, None]
     assert arm.chain.rows[2].offset == 0.5
-    assert [(one.joint, one.part) for one in arm.held] == [("wrist", "LArm")]
-    assert arm.held[0].at == pytest.approx(np.deg2rad(30))
+    assert [(servo.joint, servo.part) for servo in arm.fixed_joints] == [("wrist", "LArm")]
+    assert arm.fixed_joints[0].position == pytest.approx(np.deg2rad(30))
 
 
 def test_limbs_skin_and_fields_lie_in_the_frame_of_the_limb():
@@ -87,60 +87,64 @@ def test_generic_chain_of_a_description():
 def faults(text: str) -> list[str]:
     with pytest.raises(DescriptionError) as caught:
         read_robot(text, Path("r.yaml"))
-    return [str(one) for one in caught.value.findings]
+    return [str(finding) for finding in caught.value.findings]
 
 
 @pytest.mark.parametrize(
     ("old", "new", "expected"),
     [
         ("gamma: -1,", "gamma: 0,", "r.yaml:5:9: gamma must not be 0"),
-        ("gamma: -1,", "gamma: .inf,", "r.yaml:5:43: a number is needed here"),
+        ("gamma: -1,", "gamma: .inf,", "r.yaml:5:43: a number is expected here"),
         ("gamma: -1,", "gama: -1,", "r.yaml:5:9: `gamma` is missing here"),
-        ("gamma: -1,", "gama: -1,", "`gama` means nothing here (did you mean `gamma`?)"),
-        ("start: 1.2", "start: 2.5", "r.yaml:5:9: the start pose 2.5 of `Pitch` leaves"),
-        ("2.0]", "-3.0]", "the lower limit -2.0944 lies above the upper limit -3"),
-        ("sigma: 90 deg", "sigma: 700 deg", "leave the limits of a turning joint"),
-        ("{sigma: 0.1}", "{sigma: 0.1, limits: [1, 2]}", "sigma 0.1 of the missing joint leaves"),
+        ("gamma: -1,", "gama: -1,", "`gama` is not a known key here (did you mean `gamma`?)"),
+        ("start: 1.2", "start: 2.5", "r.yaml:5:9: the start pose 2.5 of `Pitch` is outside"),
+        ("2.0]", "-3.0]", "the lower limit -2.0944 is above the upper limit -3"),
+        ("sigma: 90 deg", "sigma: 700 deg", "exceed the range of a rotating joint"),
+        (
+            "{sigma: 0.1}",
+            "{sigma: 0.1, limits: [1, 2]}",
+            "sigma 0.1 of the missing joint is outside",
+        ),
         ("speed: 4.0", "speed: 0", "the speed of `Pitch` must be positive"),
-        ("unit: deg", "unit: turns", "`turns` is no unit of a joint"),
+        ("unit: deg", "unit: turns", "`turns` is not a unit of a joint"),
         ("joint: roll", "joint: Pitch, part: LArm", "`LArm/Pitch` is mapped twice"),
         ("joint: wrist", "joint: Pitch", "r.yaml:11:9: `LArm/Pitch` cannot be held"),
         ("wrist, part: LArm", "wrist, part: Head", "held on `Head`, where `left_arm` has no servo"),
         ("unit: deg, at: 30", "unit: deg", "r.yaml:11:9: `at` is missing here"),
-        ("unit: deg, at: 30", "unit: ms, at: 30", "`ms` is no unit of a joint"),
+        ("unit: deg, at: 30", "unit: ms, at: 30", "`ms` is not a unit of a joint"),
         ("servo: 1, a", "servo: 7, a", "r.yaml:16:19: there is no servo 7"),
         ("servo: 1, a", "servo: 0, a", "occurs at most once"),
-        ("[0.02, 0.10]", "[0.10, 0.02]", "a cone must end behind its start"),
+        ("[0.02, 0.10]", "[0.10, 0.02]", "a cone must end after its start"),
         ("limb: lower, points", "limb: upper, points", "no limb `upper` (limbs: lower)"),
         ("count: 8", "count: 0", "at least one x and one module"),
         ("first_id: 100", "first_id: 1", "taxel id 1 of `dots` is also in `rings`"),
-        ("[0.05, 0], [", "[0.15, 0], [", "1 taxel of `dots` is off its body (taxel 0 is 50 mm"),
+        ("[0.05, 0], [", "[0.15, 0], [", "1 taxel of `dots` is off its limb (taxel 0 is 50 mm"),
         ("x: 0.05, theta", "x: 0.5, theta", "no taxel of `lower` is in the field `back` (the near"),
         (
             "theta: 0, radius",
             "theta: 90, radius",
-            "more than a whole turn (is it meant in degrees?",
+            "more than a full turn (if it is in degrees,",
         ),
-        ("theta: 0, radius", "theta: 3 mm, radius", "an angle is needed here, and `mm` is no unit"),
-        ("[0.02, 0.10]", "[20 deg, 0.10]", "a length is needed here, and `deg` is no unit of one"),
-        ("gamma: -1,", "gamma: -1 m,", "a number is needed here, and `m` is no unit of one (with"),
-        ("[-0.2, 0.3", "[-50, 0.3", "moves `Pitch` by -50, more than it can turn at all (from"),
-        ("[-0.2, 0.3", "[-50, 0.3", "is it meant in degrees? write `-50 deg`"),
-        ("sigma: 90 deg", "sigma: 90", "is it meant in degrees? write `90 deg`"),
+        ("theta: 0, radius", "theta: 3 mm, radius", "an angle cannot have the unit `mm`"),
+        ("[0.02, 0.10]", "[20 deg, 0.10]", "a length cannot have the unit `deg`"),
+        ("gamma: -1,", "gamma: -1 m,", "a number cannot have the unit `m` (with"),
+        ("[-0.2, 0.3", "[-50, 0.3", "moves `Pitch` by -50, more than its whole range (from"),
+        ("[-0.2, 0.3", "[-50, 0.3", "if it is in degrees, write `-50 deg`"),
+        ("sigma: 90 deg", "sigma: 90", "if it is in degrees, write `90 deg`"),
         ("stiffness: 0.8", "stiffness: -0.8", "the stiffness of `Pitch` must not be negative"),
         ("damping: 0.1", "damping: -0.1", "the damping of `Pitch` must not be negative"),
         ("count: 8", "count: 334", "at most 1000 modules, not 1002"),
         (
             "first_id: 100",
             "first_id: -1",
-            "taxels cannot have ids from -1 (ids are 0 to 2147483647",
+            "taxel ids cannot start at -1 (ids are 0 to 2147483647",
         ),
-        ("first_id: 100", "first_id: 2147483400", "taxels cannot have ids from 2147483400"),
-        ("patch: dots", "patch: rings", "there are two patches of the name `rings`"),
+        ("first_id: 100", "first_id: 2147483400", "taxel ids cannot start at 2147483400"),
+        ("patch: dots", "patch: rings", "there are two patches named `rings`"),
         (
             "    skin:",
             "      hand: {body: LForeArm, cone: {x: [0, 1], r: [1, 1]}}\n    skin:",
-            "the body `LForeArm` is below the skin of `hand` and of `lower`",
+            "the body `LForeArm` is covered by the skin of `hand` and of `lower`",
         ),
         ("floor: 2", "floor: 300", "0 <= floor < saturation"),
         ("radius: 30 mm", "radius: 0", "radius of a field must be positive"),
@@ -149,13 +153,13 @@ def faults(text: str) -> list[str]:
         ("points: [[0.05, 0], [0.06, 1]]", "file: none.txt", "positions `none.txt` cannot be read"),
         ("sensitivity: {", "file: x, sensitivity: {", "exactly one of rings, points, file"),
         ("robot: two_link", "", "`robot` is missing here"),
-        ("position: [0, 98 mm", "position: [0, 98 miles", "a length is needed here (a unit may"),
-        ("    limbs:", "    servos: []\n    limbs:", "`servos` is given twice"),
+        ("position: [0, 98 mm", "position: [0, 98 miles", "a length is expected here (a unit may"),
+        ("    limbs:", "    servos: []\n    limbs:", "`servos` is set twice"),
     ],
 )
 def test_faults_are_found_with_their_place(old, new, expected):
     assert old in GOOD
-    assert any(expected in told for told in faults(GOOD.replace(old, new, 1)))
+    assert any(expected in reported for reported in faults(GOOD.replace(old, new, 1)))
 
 
 @pytest.mark.parametrize(
@@ -167,15 +171,19 @@ def test_texts_that_are_no_description(text):
 
 def test_two_fields_of_one_name_are_told():
     again = GOOD + GOOD.splitlines()[-1] + "\n"
-    assert "there are two fields of the name `back`" in faults(again)[0]
+    assert "there are two fields named `back`" in faults(again)[0]
 
 
 def test_units_may_be_written_behind_numbers_that_count_in_degrees():
     written = GOOD.replace("limits: [0, 160], speed: 100,", "limits: [0, 2.5 rad], speed: 100 deg,")
     roll = read_robot(written, Path("r.yaml")).part("left_arm").servos[1]
     assert (roll.low, roll.high, roll.speed) == pytest.approx((0.0, np.rad2deg(2.5), 100.0))
-    held = read_robot(GOOD.replace("at: 30", "at: 30 deg"), Path("r.yaml")).part("left_arm").held
-    assert held[0].at == pytest.approx(np.deg2rad(30))
+    held = (
+        read_robot(GOOD.replace("at: 30", "at: 30 deg"), Path("r.yaml"))
+        .part("left_arm")
+        .fixed_joints
+    )
+    assert held[0].position == pytest.approx(np.deg2rad(30))
 
 
 def test_all_faults_are_told_at_once():
@@ -205,19 +213,19 @@ def test_joints_and_bodies_of_the_robot_are_compared():
     robot = read_robot(GOOD, Path("r.yaml"))
     turn = np.deg2rad(160)
     fit = {"Pitch": (-2.1, 2.0), "roll": (0, turn), "wrist": (-1, 1)}
-    compare(robot, Facts(fit, frozenset({"LForeArm"})))
+    compare(robot, RobotStructure(fit, frozenset({"LForeArm"})))
     wrong = {"Pitsch": (-2.1, 2.0), "roll": (0, np.deg2rad(90)), "wrist": (-1, 0.2)}
     with pytest.raises(DescriptionError) as caught:
-        compare(robot, Facts(wrong, frozenset({"LForearm", "torso"})))
-    assert [str(one) for one in caught.value.findings] == [
+        compare(robot, RobotStructure(wrong, frozenset({"LForearm", "torso"})))
+    assert [str(finding) for finding in caught.value.findings] == [
         "r.yaml:5:9: the robot has no joint `Pitch` (did you mean `Pitsch`?)",
         "r.yaml:7:9: the limits of `roll` are wider than the robot's (the robot has 0 to 90 deg)",
-        "r.yaml:11:9: `wrist` cannot be held at 0.523599, outside of its limits "
+        "r.yaml:11:9: `wrist` cannot be held at 0.523599, outside its limits "
         "(the robot has -1 to 0.2)",
         "r.yaml:19:14: the limb `lower` is on `LForeArm`, which the robot does not have "
         "(did you mean `LForearm`?)",
     ]
-    assert [one.fault for one in caught.value.findings] == [
+    assert [finding.fault for finding in caught.value.findings] == [
         Fault.JOINT,
         Fault.LIMITS,
         Fault.LIMITS,
@@ -226,7 +234,7 @@ def test_joints_and_bodies_of_the_robot_are_compared():
 
 
 def test_rotations_turn_about_fixed_axes():
-    turned = rotation(np.pi / 2, -np.pi / 2, 0)
+    turned = rotation_from_rpy(np.pi / 2, -np.pi / 2, 0)
     assert turned == pytest.approx(np.array([[0, -1, 0], [0, 0, -1], [1, 0, 0]]), abs=1e-12)
 
 
@@ -250,27 +258,31 @@ PRINTED = """\
 
 
 def test_the_printed_listing_is_read_with_its_slip():
-    part = read_listing(PRINTED, Path("l.xml"), ("neck_pitch", "neck_roll", "neck_yaw"))
+    part = read_part_xml(PRINTED, Path("l.xml"), ("neck_pitch", "neck_roll", "neck_yaw"))
     assert part.name == "head"
     assert part.joints == ("neck_yaw",)
     assert part.mapping.available.tolist() == [False, True]
     servo = part.servos[1]
     assert (servo.gamma, servo.sigma, servo.speed, servo.start) == (1, 0, 20, 15)
     assert servo.unit == "deg"
-    assert [(one.joint, one.at) for one in part.held] == [("neck_pitch", np.deg2rad(-2))]
+    assert [(position.joint, position.position) for position in part.fixed_joints] == [
+        ("neck_pitch", np.deg2rad(-2))
+    ]
 
 
 def test_the_listing_with_root_limits_and_destination_part():
     text = f"<?xml version='1.0'?><robot>{PRINTED}</robot>".replace(
         "<speed>", '<limits min="-55" max="55"/><destination_part>neck</destination_part><speed>'
     )
-    part = read_listing(text, Path("l.xml"))
+    part = read_part_xml(text, Path("l.xml"))
     assert part.joints == ("neck/2",)
     assert (part.servos[1].low, part.servos[1].high) == (-55, 55)
 
 
 def test_a_listing_may_quote_as_xml_does():
-    part, other = (read_listing(one, Path("l.xml")) for one in (PRINTED, PRINTED.replace('"', "'")))
+    part, other = (
+        read_part_xml(servo, Path("l.xml")) for servo in (PRINTED, PRINTED.replace('"', "'"))
+    )
     assert other.servos == part.servos
 
 
@@ -278,10 +290,10 @@ def test_a_servo_that_is_there_twice_is_told():
     start, end = PRINTED.index("<generic_servo "), PRINTED.index("</generic_servo>")
     again = PRINTED[start:end].replace('id="1"', 'id="0"') + "</generic_servo>"
     with pytest.raises(DescriptionError) as caught:
-        read_listing(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
-    (found,) = caught.value.findings
-    assert (found.message, found.fault) == (
-        "the destination servo `2` is there twice",
+        read_part_xml(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
+    (error,) = caught.value.findings
+    assert (error.message, error.fault) == (
+        "the destination servo `2` is used twice",
         Fault.TWICE,
     )
 
@@ -290,25 +302,25 @@ def test_a_servo_that_is_there_twice_is_told():
     ("old", "new", "expected"),
     [
         ("</generic_servo>", "", "l.xml:3:3: <generic_servo> is never closed"),
-        ('id="1"', 'id="2"', "l.xml:3:3: the ids of the generic servos are 0 to 1"),
+        ('id="1"', 'id="2"', "l.xml:3:3: the ids of the generic servos must be 0 to 1"),
         ('id="1"', "", "l.xml:3:3: <generic_servo> has no attribute `id`"),
         ('pos="15.00"', "", "<servo> has no attribute `pos`"),
-        (">1.00</transform_factor", ">0</transform_factor", "factor of 0 cannot be turned"),
+        (">1.00</transform_factor", ">0</transform_factor", "factor of 0 cannot be inverted"),
         (">20.00<", ">fast<", "l.xml:9:5: `fast` in <speed> is not a number"),
-        (">2</generic_servo_number", ">0</generic_servo_number", "must say how many"),
+        (">2</generic_servo_number", ">0</generic_servo_number", "must be the number"),
         ("Generic_Robot_Part", "Part", "there is no <Generic_Robot_Part>"),
-        ('type="deg"', 'type="turns"', "`turns` is no unit"),
+        ('type="deg"', 'type="turns"', "`turns` is not a unit"),
         ("</initial_postions>", "", "<initial_positions> is never closed"),
         (">2</destination", ">-2</destination", "no destination servo -2"),
-        ("<speed>", '<limits min="2" max="1"/><speed>', "lower limit 2 lies above"),
+        ("<speed>", '<limits min="2" max="1"/><speed>', "lower limit 2 is above"),
     ],
 )
 def test_faulty_listings(old, new, expected):
     with pytest.raises(DescriptionError) as caught:
-        read_listing(PRINTED.replace(old, new), Path("l.xml"))
+        read_part_xml(PRINTED.replace(old, new), Path("l.xml"))
     assert expected in str(caught.value)
 
 
 def test_a_deep_listing_does_not_break():
     with pytest.raises(DescriptionError):
-        read_listing("<a>" * 50_000, Path("l.xml"))
+        read_part_xml("<a>" * 50_000, Path("l.xml"))

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import robocomp_dsl.tactile
-from robocomp_dsl.check import check_file
-from robocomp_dsl.check.workspace import Workspace
+from robocomp_dsl.check.languages import check_file
+from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.resources import INTERFACES
@@ -30,7 +30,7 @@ def test_no_robot_is_named_where_all_robots_are_alike(package):
 def test_the_interfaces_have_no_findings(name):
     report = Report()
     check_file(INTERFACES / f"{name}.idsl", Workspace(environ={}), report)
-    assert [one.message for one in report] == []
+    assert [item.message for item in report] == []
 
 
 def values(file: str, enum: str) -> list[str]:
@@ -44,6 +44,6 @@ def values(file: str, enum: str) -> list[str]:
 
 def test_enumerations_of_interfaces_and_code_have_the_same_order():
     renamed = {"HARDWARE_FAULT": "HW_FAULT", "CALIBRATION_DONE": "CALIB_DONE"}
-    modes = [renamed.get(one, one) for one in values("ControlBoard.idsl", "ControlMode")]
+    modes = [renamed.get(value, value) for value in values("ControlBoard.idsl", "ControlMode")]
     assert modes == [mode.name for mode in Mode]
-    assert values("ControlBoard.idsl", "InteractionMode") == [one.name for one in Interaction]
+    assert values("ControlBoard.idsl", "InteractionMode") == [item.name for item in Interaction]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.tactile.arm.generic_arm import PEAK, Control, GenericArm
-from robocomp_dsl.tactile.description.model import Part
+from robocomp_dsl.tactile.description.model import GenericPart
 from robocomp_dsl.tactile.description.read import read_robot
 from robocomp_dsl.tactile.errors import InvalidCommand, NoChain, NoState, Unreachable
 
@@ -37,9 +37,11 @@ READING = np.array([1.2, 0.3, -1.0, -0.8])  # rad, whatever the unit of the devi
 
 @pytest.fixture
 def arm() -> GenericArm:
-    made = GenericArm(PART)
-    made.sense(1.0, READING, np.array([0.1, 0.2, 0.3, 0.4]), np.array([1.0, 2.0, 3.0, 4.0]))
-    return made
+    generic_arm = GenericArm(PART)
+    generic_arm.update_state(
+        1.0, READING, np.array([0.1, 0.2, 0.3, 0.4]), np.array([1.0, 2.0, 3.0, 4.0])
+    )
+    return generic_arm
 
 
 def test_readings_become_generic_angles(arm):
@@ -49,7 +51,7 @@ def test_readings_become_generic_angles(arm):
 
 
 def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
-    orders = arm.move(arm.state.position)
+    orders = arm.position_move(arm.state.position)
     assert orders.control is Control.POSITION
     assert orders.joints == ("a", "b", "other/c", "d")
     assert orders.values == pytest.approx(READING)
@@ -59,69 +61,72 @@ def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
 
 
 def test_moves_are_clipped_slowed_and_dropped_with_notice(arm):
-    orders = arm.move(np.array([9.0, 9, 0, 0.5, 1.0]), np.full(5, 0.5))
+    orders = arm.position_move(np.array([9.0, 9, 0, 0.5, 1.0]), np.full(5, 0.5))
     assert orders.values[:2] == pytest.approx([-2.0, np.deg2rad(80)])
     assert orders.clipped.tolist() == [True, True, False, False, False]
     assert orders.dropped.tolist() == [False] * 4 + [True]
     assert orders.speeds == pytest.approx(np.full(4, 0.5))
-    fast = arm.move(arm.state.position, np.full(5, 99.0))
+    fast = arm.position_move(arm.state.position, np.full(5, 99.0))
     assert fast.speeds == pytest.approx(np.array([4, np.deg2rad(100), 4, 4]) / PEAK)
 
 
 def test_displacements_start_from_where_the_arm_is(arm):
-    orders = arm.move_by(np.array([0.1, -0.1, 0.2, 0.1, 0.0]))
+    orders = arm.relative_move(np.array([0.1, -0.1, 0.2, 0.1, 0.0]))
     assert orders.values == pytest.approx(READING + np.array([-0.1, -0.1, 0.2, -0.1]))
     with pytest.raises(NoState):
-        GenericArm(PART).move_by(np.zeros(5))
+        GenericArm(PART).relative_move(np.zeros(5))
 
 
 def test_velocities_torques_and_stiffness(arm):
-    orders = arm.drive(np.array([1.0, 9.0, -9.0, 1.0, 1.0]))
+    orders = arm.velocity_move(np.array([1.0, 9.0, -9.0, 1.0, 1.0]))
     assert orders.values == pytest.approx([-1, np.deg2rad(100), -4, -1])
     assert orders.clipped.tolist() == [False, True, True, False, False]
     assert orders.control is Control.VELOCITY
     assert orders.dropped.tolist() == [False] * 4 + [True]
-    pushed = arm.push(np.ones(5))
+    pushed = arm.set_torque(np.ones(5))
     assert pushed.control is Control.TORQUE
     assert pushed.values == pytest.approx([-1, 1, 1, -1])
     assert pushed.dropped.tolist() == [False] * 4 + [True]
-    assert not arm.push(np.array([1.0, 1, 1, 1, 0])).dropped.any()
-    assert arm.follow(np.full(5, 0.5)).dropped.tolist() == [False] * 4 + [True]
+    assert not arm.set_torque(np.array([1.0, 1, 1, 1, 0])).dropped.any()
+    assert arm.set_position(np.full(5, 0.5)).dropped.tolist() == [False] * 4 + [True]
     stiffness, damping = arm.stiffness(np.full(5, 10.0), np.full(5, 1.0))
     assert stiffness == pytest.approx(np.full(4, 10.0))
     assert damping == pytest.approx(np.full(4, 1.0))
-    assert arm.follow(arm.state.position).control is Control.DIRECT
+    assert arm.set_position(arm.state.position).control is Control.DIRECT
 
 
 def test_the_hand_reaches_points_and_says_what_it_cannot(arm):
     goal = arm.chain.pose(np.array([0.6, 0.4, 0.2, 1.0, 0.2]))
     orders = arm.reach(goal[:3, 3])
     generic = arm.mapping.read(orders.values / arm._to_si)
-    assert arm.hand(generic)[:3, 3] == pytest.approx(goal[:3, 3], abs=2e-4)
+    assert arm.end_effector_pose(generic)[:3, 3] == pytest.approx(goal[:3, 3], abs=2e-4)
     with pytest.raises(Unreachable):
         arm.reach(np.array([3.0, 0, 0]))
 
 
 @pytest.mark.parametrize("way", [(0.05, 0, 0), (0, 0.05, 0), (0, 0, -0.05)])
 def test_the_hand_glides_along_a_line(arm, way):
-    orders = arm.glide(np.array(way))
+    orders = arm.line_move(np.array(way))
     generic = np.zeros(5)
     generic[:4] = arm.mapping.read_speed(orders.values / arm._to_si)[:4]
     dt = 1e-4
-    before, after = arm.hand(), arm.hand(arm.state.position + generic * dt)
+    before, after = (
+        arm.end_effector_pose(),
+        arm.end_effector_pose(arm.state.position + generic * dt),
+    )
     velocity = (after - before)[:3, 3] / dt
     assert velocity == pytest.approx(way, abs=0.006)
 
 
 def test_gliding_respects_limits_and_speeds(arm):
-    fast = arm.glide(np.array([50.0, 0, 0]))
+    fast = arm.line_move(np.array([50.0, 0, 0]))
     speeds = np.abs(arm.mapping.read_speed(fast.values / arm._to_si))
     assert speeds.max() <= arm.speed_limits.max() + 1e-9
     assert not fast.clipped.any()
     edge = np.array([2.0, np.deg2rad(80), 2.0, -0.03])
-    arm.sense(2.0, edge, np.zeros(4), np.zeros(4))
+    arm.update_state(2.0, edge, np.zeros(4), np.zeros(4))
     for way in np.vstack((np.eye(3), -np.eye(3))):
-        orders = arm.glide(0.1 * way)
+        orders = arm.line_move(0.1 * way)
         speed = arm.mapping.read_speed(orders.values / arm._to_si)
         assert not ((arm.state.position >= arm.high - 1e-9) & (speed > 1e-9)).any()
         assert not ((arm.state.position <= arm.low + 1e-9) & (speed < -1e-9)).any()
@@ -130,12 +135,12 @@ def test_gliding_respects_limits_and_speeds(arm):
 def test_a_push_does_the_same_work_on_the_device(arm):
     """Power in generic units is power in those of the device, whatever gamma and unit are."""
     torque, velocity = np.array([0.3, -0.2, 0.5, 1.1, 0]), np.array([0.4, 0.3, -0.2, 0.1, 0])
-    device = arm.push(torque).values @ arm.drive(velocity).values
+    device = arm.set_torque(torque).values @ arm.velocity_move(velocity).values
     assert device == pytest.approx(torque @ velocity)
 
 
 def test_springs_are_none_that_pull(arm):
-    with pytest.raises(InvalidCommand, match="not negative"):
+    with pytest.raises(InvalidCommand, match="must not be negative"):
         arm.stiffness(np.full(5, -1.0), np.ones(5))
     with pytest.raises(InvalidCommand, match="5 values are needed"):
         arm.stiffness(np.ones(4), np.ones(5))
@@ -143,31 +148,37 @@ def test_springs_are_none_that_pull(arm):
 
 def test_a_speed_that_never_arrives_is_refused_only_where_there_is_a_joint(arm):
     with pytest.raises(InvalidCommand, match="above 0"):
-        arm.move(arm.state.position, np.array([1.0, 0, 1, 1, 1]))
-    assert arm.move(arm.state.position, np.array([1.0, 1, 1, 1, 0])).speeds.shape == (4,)
+        arm.position_move(arm.state.position, np.array([1.0, 0, 1, 1, 1]))
+    assert arm.position_move(arm.state.position, np.array([1.0, 1, 1, 1, 0])).speeds.shape == (4,)
 
 
 @pytest.mark.parametrize(
     "rotation", [np.eye(3) * 1.1, np.diag([1.0, 1, -1]), np.full((3, 3), np.nan), np.eye(4)]
 )
 def test_a_rotation_that_is_none_is_refused(arm, rotation):
-    with pytest.raises(InvalidCommand, match="unit axes"):
-        arm.reach(arm.hand()[:3, 3], rotation)
+    with pytest.raises(InvalidCommand, match="orthonormal"):
+        arm.reach(arm.end_effector_pose()[:3, 3], rotation)
 
 
 @pytest.mark.parametrize("bad", [np.full(5, np.nan), np.zeros(4), np.zeros((5, 1))])
 def test_commands_that_cannot_be_meant_are_refused(arm, bad):
-    for command in (arm.move, arm.move_by, arm.follow, arm.drive, arm.push):
+    for command in (
+        arm.position_move,
+        arm.relative_move,
+        arm.set_position,
+        arm.velocity_move,
+        arm.set_torque,
+    ):
         with pytest.raises(InvalidCommand):
             command(bad)
-    for command in (arm.reach, arm.glide):
+    for command in (arm.reach, arm.line_move):
         with pytest.raises(InvalidCommand):
             command(np.array([0.0, np.inf, 0.0]))
 
 
 def test_an_arm_without_a_chain_moves_but_knows_no_space():
-    bare = GenericArm(Part("arm", PART.servos))
-    bare.sense(0.0, READING, np.zeros(4), np.zeros(4))
-    bare.move(bare.state.position)
+    bare = GenericArm(GenericPart("arm", PART.servos))
+    bare.update_state(0.0, READING, np.zeros(4), np.zeros(4))
+    bare.position_move(bare.state.position)
     with pytest.raises(NoChain):
-        bare.hand()
+        bare.end_effector_pose()

@@ -7,20 +7,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot
+from robocomp_dsl.tactile.description.model import GenericPart, Limb, Patch, RobotDescription
 from robocomp_dsl.tactile.skin.cone import Cone
 from robocomp_dsl.tactile.skin.contacts import contacts
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from robocomp_dsl.tactile.skin.kernel import Kernel
-from robocomp_dsl.tactile.skin.layout import rings, singles
+from robocomp_dsl.tactile.skin.kernel import ForceKernel
+from robocomp_dsl.tactile.skin.layout import place_rings, place_taxels
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
 from robocomp_dsl.tactile.skin.sensor import Imperfections, Sensor
-from robocomp_dsl.tactile.skin.touches import Neighbours
+from robocomp_dsl.tactile.skin.touches import TaxelGraph
 
 CONE = Cone(0.02, 0.10, 0.032, 0.026)
-SKIN = rings(CONE, (0.033, 0.06, 0.087), 8)
+SKIN = place_rings(CONE, (0.033, 0.06, 0.087), 8)
 ONE_LIMB = np.zeros(len(SKIN.points), np.int64)
-KERNEL = Kernel(SKIN.points, ONE_LIMB, 1)
+KERNEL = ForceKernel(SKIN.points, ONE_LIMB, 1)
 
 spots = st.tuples(st.floats(0.0, 0.13), st.floats(-3.2, 3.2), st.floats(0.01, 0.06))
 
@@ -44,11 +44,11 @@ def test_the_grid_gives_what_the_plain_rule_gives(places, seed):
     x, theta, rho = np.array(places).T
     points = np.stack((x, rho * np.sin(theta), rho * np.cos(theta)), axis=1)
     forces = np.random.default_rng(seed).uniform(0, 10, len(points))
-    share = KERNEL.share(points, np.zeros(len(points), np.int64), forces)
+    share = KERNEL.distribute(points, np.zeros(len(points), np.int64), forces)
     felt, missed = slow(points, forces)
-    assert share.felt == pytest.approx(felt, abs=1e-9)
-    assert share.missed == pytest.approx(missed)
-    assert share.felt.sum() + share.missed == pytest.approx(forces.sum())
+    assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
+    assert share.off_skin == pytest.approx(missed)
+    assert share.taxel_forces.sum() + share.off_skin == pytest.approx(forces.sum())
 
 
 @pytest.mark.parametrize("sigma", [0.001, 0.0049, 0.0051, 0.03])
@@ -56,51 +56,51 @@ def test_a_kernel_of_any_width_gives_what_the_plain_rule_gives(sigma):
     rng = np.random.default_rng(1)
     points = SKIN.points[::7] + rng.normal(0.0, sigma, SKIN.points[::7].shape)
     forces = rng.uniform(0, 10, len(points))
-    kernel = Kernel(SKIN.points, ONE_LIMB, 1, sigma)
-    share = kernel.share(points, np.zeros(len(points), np.int64), forces)
+    kernel = ForceKernel(SKIN.points, ONE_LIMB, 1, sigma)
+    share = kernel.distribute(points, np.zeros(len(points), np.int64), forces)
     felt, missed = slow(points, forces, sigma)
-    assert share.felt == pytest.approx(felt, abs=1e-9)
-    assert share.missed == pytest.approx(missed)
+    assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
+    assert share.off_skin == pytest.approx(missed)
 
 
 def test_taxels_a_kilometre_apart_cost_no_more_than_others():
     points = np.array([[0.0, 0, 0], [1000.0, 500.0, -700.0]])
-    share = Kernel(points, np.zeros(2, np.int64), 1).share(
+    share = ForceKernel(points, np.zeros(2, np.int64), 1).distribute(
         np.array([[1000.0, 500.0, -700.001], [500.0, 0, 0]]), np.zeros(2, np.int64), np.ones(2)
     )
-    assert share.felt.tolist() == [0.0, 1.0]
-    assert share.missed == 1.0
+    assert share.taxel_forces.tolist() == [0.0, 1.0]
+    assert share.off_skin == 1.0
 
 
 def test_vectors_are_spread_with_the_same_weights():
     points = CONE.points(np.array([0.05, 0.07]), np.array([0.3, 1.3]))
     vectors = np.array([[1.0, -2.0], [0.5, 4.0]])
     where = np.zeros(2, np.int64)
-    both = KERNEL.share(points, where, vectors)
+    both = KERNEL.distribute(points, where, vectors)
     for i in range(2):
-        one = KERNEL.share(points, where, vectors[:, i])
-        assert both.felt[:, i] == pytest.approx(one.felt)
-    assert both.felt.sum(axis=0) + both.missed == pytest.approx([1.5, 2.0])
+        index = KERNEL.distribute(points, where, vectors[:, i])
+        assert both.taxel_forces[:, i] == pytest.approx(index.taxel_forces)
+    assert both.taxel_forces.sum(axis=0) + both.off_skin == pytest.approx([1.5, 2.0])
 
 
 def test_limbs_do_not_feel_each_other():
     points = np.concatenate((SKIN.points, SKIN.points))
     limb = np.repeat([0, 1], len(SKIN.points))
-    kernel = Kernel(points, limb, 3)
+    kernel = ForceKernel(points, limb, 3)
     touch = CONE.points(0.05, 0.0)[None]
-    for one in range(2):
-        felt = kernel.share(touch, np.array([one]), np.array([3.0])).felt
-        assert felt[limb == one].sum() == pytest.approx(3.0)
-        assert not felt[limb != one].any()
-    bare = kernel.share(touch, np.array([2]), np.array([3.0]))
-    assert bare.missed == 3.0
+    for index in range(2):
+        felt = kernel.distribute(touch, np.array([index]), np.array([3.0])).taxel_forces
+        assert felt[limb == index].sum() == pytest.approx(3.0)
+        assert not felt[limb != index].any()
+    bare = kernel.distribute(touch, np.array([2]), np.array([3.0]))
+    assert bare.off_skin == 3.0
 
 
 def test_a_skin_without_taxels_misses_everything():
-    kernel = Kernel(np.empty((0, 3)), np.empty(0, np.int64), 1)
-    share = kernel.share(np.zeros((1, 3)), np.zeros(1, np.int64), np.ones(1))
-    assert share.missed == 1.0
-    assert share.felt.shape == (0,)
+    kernel = ForceKernel(np.empty((0, 3)), np.empty(0, np.int64), 1)
+    share = kernel.distribute(np.zeros((1, 3)), np.zeros(1, np.int64), np.ones(1))
+    assert share.off_skin == 1.0
+    assert share.taxel_forces.shape == (0,)
 
 
 @pytest.mark.parametrize(
@@ -112,15 +112,15 @@ def test_a_dense_grid_shows_the_known_figures(sigma, active, peak):
     x = np.arange(11) * step
     theta = np.arange(33) * step / 0.035
     places = np.stack(np.meshgrid(x, theta, indexing="ij"), axis=-1).reshape(-1, 2)
-    grid = singles(Cone(-0.01, 0.1, 0.035, 0.035), places)
-    kernel = Kernel(grid.points, np.zeros(363, np.int64), 1, sigma)
+    grid = place_taxels(Cone(-0.01, 0.1, 0.035, 0.035), places)
+    kernel = ForceKernel(grid.points, np.zeros(363, np.int64), 1, sigma)
     counts, peaks, errors = [], [], []
     rng = np.random.default_rng(0)
     for _ in range(200):
         spot = Cone(-0.01, 0.1, 0.035, 0.035).points(
             rng.uniform(0.02, 0.045), rng.uniform(1.0, 5.0)
         )
-        felt = kernel.share(spot[None], np.zeros(1, np.int64), np.array([4.905])).felt
+        felt = kernel.distribute(spot[None], np.zeros(1, np.int64), np.array([4.905])).taxel_forces
         assert felt.sum() == pytest.approx(4.905)
         counts.append(np.count_nonzero(felt))
         peaks.append(felt.max())
@@ -130,7 +130,7 @@ def test_a_dense_grid_shows_the_known_figures(sigma, active, peak):
     assert np.median(errors) < 0.0006
 
 
-def description() -> Robot:
+def description() -> RobotDescription:
     limb = Limb("lower", "body", np.zeros(3), np.eye(3), CONE)
     patch = Patch(
         "p",
@@ -140,27 +140,27 @@ def description() -> Robot:
         SKIN.normals,
         Sensitivity(0.05, 2, 240),
     )
-    return Robot("r", (Part("arm", (), limbs=(limb,), patches=(patch,)),))
+    return RobotDescription("r", (GenericPart("arm", (), limbs=(limb,), patches=(patch,)),))
 
 
 def test_contacts_are_listed_touch_by_touch():
     geometry = SkinGeometry.of(description(), version=3)
     assert (geometry.size, geometry.version, geometry.limbs) == (240, 3, ("arm/lower",))
-    neighbours = Neighbours.of(geometry.points, geometry.limb)
+    neighbours = TaxelGraph.of(geometry.points, geometry.limb)
     spots = CONE.points(np.array([0.05, 0.07]), np.array([0.2, 2.8]))
-    force = KERNEL.share(spots, np.zeros(2, np.int64), np.array([2.0, 5.0])).felt
+    force = KERNEL.distribute(spots, np.zeros(2, np.int64), np.array([2.0, 5.0])).taxel_forces
     shear = np.zeros((240, 3))
     shear[force > 0, 0] = 0.1
-    found = contacts(geometry, neighbours, force, shear)
-    assert sorted(one.force for one in found) == pytest.approx([2.0, 5.0])
-    for one in found:
-        spot = spots[0] if one.force < 3 else spots[1]
-        assert one.centre == pytest.approx(spot, abs=0.003)
+    listed = contacts(geometry, neighbours, force, shear)
+    assert sorted(index.force for index in listed) == pytest.approx([2.0, 5.0])
+    for index in listed:
+        spot = spots[0] if index.force < 3 else spots[1]
+        assert index.centre == pytest.approx(spot, abs=0.003)
         outward = spot - [spot[0], 0, 0]
-        assert one.normal @ outward / np.linalg.norm(outward) > 0.95
-        assert one.area == pytest.approx(len(one.taxels) * 36.6e-6, rel=0.01)
-        assert one.shear[0] == pytest.approx(0.1 * len(one.taxels))
-        assert one.pressure == pytest.approx(one.force / len(one.taxels))
+        assert index.normal @ outward / np.linalg.norm(outward) > 0.95
+        assert index.area == pytest.approx(len(index.taxels) * 36.6e-6, rel=0.01)
+        assert index.shear[0] == pytest.approx(0.1 * len(index.taxels))
+        assert index.pressure == pytest.approx(index.force / len(index.taxels))
     assert contacts(geometry, neighbours, np.zeros(240)) == []
     assert geometry.normaliser.force(np.full(240, 20.0)) == pytest.approx(np.full(240, 1.0))
 

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from robocomp_dsl.hardware.robots.catalog import description
-from robocomp_dsl.tactile.arm.chain import Chain, Row, generic_chain, link
+from robocomp_dsl.simulation.robots.catalog import description
+from robocomp_dsl.tactile.arm.chain import Chain, DhLink, generic_chain, link
 from robocomp_dsl.tactile.arm.generic_arm import GenericArm
 from robocomp_dsl.tactile.arm.inverse import Solver, Tolerance, rotation_vector
 from robocomp_dsl.tactile.errors import Unreachable
@@ -16,11 +16,11 @@ from robocomp_dsl.tactile.errors import Unreachable
 Q = np.pi / 2
 ARM = Chain(  # five joints: shoulder with three crossing axes, elbow, forearm
     (
-        Row(0, 0, Q, 0, 0),
-        Row(0.015, 0, Q, Q, 1),
-        Row(0, 0.105, -Q, 0, 2),
-        Row(0, 0, Q, 0, 3),
-        Row(0.012, 0.114, 0, -Q, 4),
+        DhLink(0, 0, Q, 0, 0),
+        DhLink(0.015, 0, Q, Q, 1),
+        DhLink(0, 0.105, -Q, 0, 2),
+        DhLink(0, 0, Q, 0, 3),
+        DhLink(0.012, 0.114, 0, -Q, 4),
     ),
     5,
     base=link(0, 0.1, -Q, 0),
@@ -30,14 +30,14 @@ angles = st.tuples(*(st.floats(a, b) for a, b in zip(LOW, HIGH, strict=True))).m
 
 
 def test_a_planar_arm_stands_where_trigonometry_puts_it():
-    planar = Chain((Row(0.3, 0, 0, 0, 0), Row(0.2, 0, 0, 0, 1)), 2)
-    one, two = 0.4, -1.1
+    planar = Chain((DhLink(0.3, 0, 0, 0, 0), DhLink(0.2, 0, 0, 0, 1)), 2)
+    angle, two = 0.4, -1.1
     expected = [
-        0.3 * np.cos(one) + 0.2 * np.cos(one + two),
-        0.3 * np.sin(one) + 0.2 * np.sin(one + two),
+        0.3 * np.cos(angle) + 0.2 * np.cos(angle + two),
+        0.3 * np.sin(angle) + 0.2 * np.sin(angle + two),
         0,
     ]
-    assert planar.pose(np.array([one, two]))[:3, 3] == pytest.approx(expected)
+    assert planar.pose(np.array([angle, two]))[:3, 3] == pytest.approx(expected)
 
 
 @given(angles)
@@ -64,9 +64,9 @@ def test_the_generic_chain_is_the_same_arm(generic, signs, missing):
     available = np.array([not missing >> i & 1 for i in range(5)])
     sigma = np.array([Q, 0.1, -0.4, 0.0, 0.3])
     device = np.where(available, (generic - sigma) / gamma, 0.0)
-    made = generic_chain(ARM, gamma, sigma, available)
-    assert made.pose(generic) == pytest.approx(ARM.pose(device), abs=1e-12)
-    dead = made.jacobian(generic)[:, ~available]
+    chain = generic_chain(ARM, gamma, sigma, available)
+    assert chain.pose(generic) == pytest.approx(ARM.pose(device), abs=1e-12)
+    dead = chain.jacobian(generic)[:, ~available]
     assert not dead.any()
 
 
@@ -78,16 +78,16 @@ def test_a_generic_chain_needs_radians():
 @pytest.mark.parametrize("joints", [(0, 0), (0, 2), (-1, 0)])
 def test_chains_with_impossible_joints_are_refused(joints):
     with pytest.raises(ValueError, match="joint index"):
-        Chain(tuple(Row(0, 0, 0, 0, joint) for joint in joints), 2)
+        Chain(tuple(DhLink(0, 0, 0, 0, joint) for joint in joints), 2)
 
 
 @settings(max_examples=60)
 @given(angles, angles)
 def test_every_reachable_point_is_found_within_the_limits(goal, start):
-    found = Solver(ARM, LOW, HIGH).solve(ARM.pose(goal)[:3, 3], start)
-    assert ARM.pose(found)[:3, 3] == pytest.approx(ARM.pose(goal)[:3, 3], abs=1.1e-4)
-    assert (found >= LOW).all()
-    assert (found <= HIGH).all()
+    solution = Solver(ARM, LOW, HIGH).solve(ARM.pose(goal)[:3, 3], start)
+    assert ARM.pose(solution)[:3, 3] == pytest.approx(ARM.pose(goal)[:3, 3], abs=1.1e-4)
+    assert (solution >= LOW).all()
+    assert (solution <= HIGH).all()
 
 
 @settings(max_examples=40)
@@ -95,8 +95,8 @@ def test_every_reachable_point_is_found_within_the_limits(goal, start):
 def test_a_whole_pose_is_found_from_nearby(goal):
     pose = ARM.pose(goal)
     start = np.clip(goal + 0.1, LOW, HIGH)
-    found = Solver(ARM, LOW, HIGH).solve(pose[:3, 3], start, pose[:3, :3])
-    assert rotation_vector(ARM.pose(found)[:3, :3] @ pose[:3, :3].T) == pytest.approx(
+    solution = Solver(ARM, LOW, HIGH).solve(pose[:3, 3], start, pose[:3, :3])
+    assert rotation_vector(ARM.pose(solution)[:3, :3] @ pose[:3, :3].T) == pytest.approx(
         np.zeros(3), abs=1.1e-3
     )
 
@@ -140,14 +140,14 @@ def test_what_an_arm_reaches_with_joints_at_their_limits_is_found(robot, side):
     for _ in range(50):
         share, at_limit = random.uniform(size=5), random.uniform(size=5) < 0.5
         angles = arm.low + np.where(at_limit, share.round(), share) * (arm.high - arm.low)
-        wanted = arm.chain.pose(angles)
-        for rotation in (None, wanted[:3, :3]):
+        target = arm.chain.pose(angles)
+        for rotation in (None, target[:3, :3]):
             try:
-                found = solver.solve(wanted[:3, 3], arm.part.start, rotation)
+                solution = solver.solve(target[:3, 3], arm.part.start, rotation)
             except Unreachable:
                 missed += 1
                 continue
-            assert (found >= arm.low).all()
-            assert (found <= arm.high).all()
-            assert arm.chain.pose(found)[:3, 3] == pytest.approx(wanted[:3, 3], abs=1e-4)
+            assert (solution >= arm.low).all()
+            assert (solution <= arm.high).all()
+            assert arm.chain.pose(solution)[:3, 3] == pytest.approx(target[:3, 3], abs=1e-4)
     assert missed <= 1

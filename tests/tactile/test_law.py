@@ -25,7 +25,7 @@ def taxels(*rows):
 def motion(*rows) -> np.ndarray:
     points, forces = taxels(*rows)
     answers = [respond(LAW, FIELD, points[i], forces[i]) for i in clusters(points)]
-    return total_motion([one for one in answers if one], 5)
+    return total_motion([answer for answer in answers if answer], 5)
 
 
 @pytest.mark.parametrize(
@@ -122,9 +122,9 @@ def test_a_small_change_of_force_changes_the_answer_little(rows, which, change):
     other = forces.copy()
     other[which % len(forces)] += change
     radius = 0.2  # wide enough that no taxel is left out
-    one, two = stimulus(points, forces, radius), stimulus(points, other, radius)
-    assert two.force == pytest.approx(one.force, abs=1e-7)
-    assert two.centre == pytest.approx(one.centre, abs=1e-8)
+    smaller, two = stimulus(points, forces, radius), stimulus(points, other, radius)
+    assert two.force == pytest.approx(smaller.force, abs=1e-7)
+    assert two.centre == pytest.approx(smaller.centre, abs=1e-8)
 
 
 @given(touches)

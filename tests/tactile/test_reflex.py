@@ -10,30 +10,30 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from robocomp_dsl.tactile.description.model import Limb, Part, Patch, Robot
+from robocomp_dsl.tactile.description.model import GenericPart, Limb, Patch, RobotDescription
 from robocomp_dsl.tactile.errors import BadGeometry, FrameFault, InvalidField, RejectedFrame
-from robocomp_dsl.tactile.reflex.frames import FrameGate
+from robocomp_dsl.tactile.reflex.frames import FrameValidator
 from robocomp_dsl.tactile.reflex.law import Field, Law, Response, Stimulus
-from robocomp_dsl.tactile.reflex.receptors import Receptors
-from robocomp_dsl.tactile.reflex.sense import Sense
+from robocomp_dsl.tactile.reflex.perception import ReflexPerception
+from robocomp_dsl.tactile.reflex.receptive_fields import ReceptiveFields
 from robocomp_dsl.tactile.reflex.withdrawal import (
-    ArmFacts,
+    ArmProperties,
     Withdrawal,
-    furthest,
-    lasts,
-    news,
-    standing,
-    stronger,
+    add_responses,
+    duration,
+    initial,
+    max_joint_distance,
+    new_responses,
 )
 from robocomp_dsl.tactile.skin.cone import Cone
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from robocomp_dsl.tactile.skin.layout import rings
+from robocomp_dsl.tactile.skin.geometry_message import geometry_from_message
+from robocomp_dsl.tactile.skin.layout import place_rings
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
-from robocomp_dsl.tactile.skin.told import told_geometry
 
 START = np.array([0.4, 0.2, 0.3, 0.6, 0.0])
 ALL = np.ones(5, bool)
-FACTS = ArmFacts(np.full(5, -0.5), np.full(5, 1.2), np.full(5, 2.0), START, ALL)
+FACTS = ArmProperties(np.full(5, -0.5), np.full(5, 1.2), np.full(5, 2.0), START, ALL)
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.0])
 OTHER = np.array([0.1, 0.0, 0.4, 0.0, 0.0])
 
@@ -43,12 +43,12 @@ def response(gain: float, name: str = "a", motion: np.ndarray = THETA) -> Respon
     return Response(field, Stimulus(np.zeros(3), 1.0), 0.0, gain)
 
 
-def withdrawn(*frames: list[Response], facts: ArmFacts = FACTS) -> Withdrawal:
+def withdrawn(*frames: list[Response], facts: ArmProperties = FACTS) -> Withdrawal:
     """What comes of the responses of one frame after the other."""
-    made = standing(START, 7.0)
+    withdrawal = initial(START, 7.0)
     for responses in frames:
-        made = stronger(made, responses, facts)
-    return made
+        withdrawal = add_responses(withdrawal, responses, facts)
+    return withdrawal
 
 
 @pytest.mark.parametrize(
@@ -65,64 +65,68 @@ def withdrawn(*frames: list[Response], facts: ArmFacts = FACTS) -> Withdrawal:
     ],
 )
 def test_each_field_counts_with_its_strongest_response(frames, motion):
-    made = withdrawn(*frames)
-    assert made.goal == pytest.approx(START + motion)
-    assert made.began == 7.0
-    assert made.origin is START
+    withdrawal = withdrawn(*frames)
+    assert withdrawal.goal == pytest.approx(START + motion)
+    assert withdrawal.began == 7.0
+    assert withdrawal.origin is START
 
 
 def test_news_are_the_responses_that_count_anew():
     weak, strong, other = response(0.2), response(0.6), response(0.5, "b", OTHER)
     before = withdrawn([weak])
-    assert news(before, stronger(before, [strong, other], FACTS)) == [strong, other]
-    assert news(before, stronger(before, [response(0.1)], FACTS)) == []
+    assert new_responses(before, add_responses(before, [strong, other], FACTS)) == [strong, other]
+    assert new_responses(before, add_responses(before, [response(0.1)], FACTS)) == []
 
 
 def test_goals_stay_within_limits_and_joints_that_are_not_there_stay_put():
-    made = withdrawn([response(1.0, "b", 50 * OTHER), response(1.0, "c", -50 * THETA)])
-    assert (made.goal >= FACTS.low).all()
-    assert (made.goal <= FACTS.high).all()
-    lacking = ArmFacts(
+    motion = withdrawn([response(1.0, "b", 50 * OTHER), response(1.0, "c", -50 * THETA)])
+    assert (motion.goal >= FACTS.low).all()
+    assert (motion.goal <= FACTS.high).all()
+    lacking = ArmProperties(
         FACTS.low, np.full(5, 0.1), FACTS.speed, START, np.array([True] * 4 + [False])
     )
-    made = withdrawn([response(1.0, motion=np.ones(5))], facts=lacking)
-    assert made.goal == pytest.approx([0.1, 0.1, 0.1, 0.1, START[4]])
+    motion = withdrawn([response(1.0, motion=np.ones(5))], facts=lacking)
+    assert motion.goal == pytest.approx([0.1, 0.1, 0.1, 0.1, START[4]])
 
 
 @given(st.lists(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=3), max_size=8))
 def test_a_withdrawal_never_takes_back_what_it_has_begun(gains):
-    made, far = standing(START, 0.0), 0.0
+    motion, far = initial(START, 0.0), 0.0
     for frame in gains:
-        made = stronger(made, [response(g, n) for g, n in zip(frame, "abc", strict=False)], FACTS)
-        assert furthest(made.goal, START) >= far - 1e-12
-        far = furthest(made.goal, START)
+        motion = add_responses(
+            motion, [response(g, n) for g, n in zip(frame, "abc", strict=False)], FACTS
+        )
+        assert max_joint_distance(motion.goal, START) >= far - 1e-12
+        far = max_joint_distance(motion.goal, START)
 
 
 def test_a_motion_lasts_as_long_as_its_slowest_joint():
     speed = np.array([1.0, 0.5, 2.0, 0.0, 1.0])
-    assert lasts(np.zeros(5), np.array([1.0, -1.0, 1.0, 1.0, 0.0]), speed) == 2.0
-    assert lasts(START, START, speed) == 0.0
+    assert duration(np.zeros(5), np.array([1.0, -1.0, 1.0, 1.0, 0.0]), speed) == 2.0
+    assert duration(START, START, speed) == 0.0
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"low": np.zeros(4)}, "differ in length"),
-        ({"available": np.ones(4, bool)}, "every joint"),
+        ({"available": np.ones(4, bool)}, "one entry per joint"),
         ({"start": np.full(5, np.nan)}, "NaN"),
         ({"high": np.full(5, -0.6)}, "above its upper"),
-        ({"speed": np.zeros(5)}, "no speed"),
+        ({"speed": np.zeros(5)}, "speed limit of 0"),
     ],
 )
-def test_facts_that_no_arm_can_have_are_refused(changes, said):
-    with pytest.raises(ValueError, match=said):
+def test_facts_that_no_arm_can_have_are_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
         replace(FACTS, **changes)
 
 
 def test_facts_of_joints_that_are_not_there_may_be_anything():
     nothing = np.array([False] * 5)
     wild = np.full(5, np.nan)
-    assert ArmFacts(wild, wild, wild, wild, nothing).within(THETA, START) == pytest.approx(START)
+    assert ArmProperties(wild, wild, wild, wild, nothing).within(THETA, START) == pytest.approx(
+        START
+    )
 
 
 GOOD = np.ones(4)
@@ -145,7 +149,7 @@ GOOD = np.ones(4)
     ],
 )
 def test_bad_frames_are_rejected_and_counted(frame, fault):
-    gate = FrameGate()
+    gate = FrameValidator()
     gate.expect(3, 4)
     gate.check(10, 1.0, 3, GOOD)
     if fault is None:
@@ -157,34 +161,34 @@ def test_bad_frames_are_rejected_and_counted(frame, fault):
     assert caught.value.fault is fault
     assert gate.rejected[fault] == 1
     assert gate.accepted == 1
-    assert gate.behind == (frame[2] == 4)
-    gate.forget()
+    assert gate.is_outdated == (frame[2] == 4)
+    gate.reset_sequence()
     gate.check(1, 0.0, 3, GOOD)
-    assert not gate.behind
+    assert not gate.is_outdated
 
 
 def test_without_a_geometry_every_frame_is_of_another_one():
-    gate = FrameGate()
+    gate = FrameValidator()
     with pytest.raises(RejectedFrame, match="none is known yet"):
         gate.check(1, 0.0, 3, GOOD)
-    assert gate.behind
+    assert gate.is_outdated
     gate.expect(3, 4)
-    assert not gate.behind
+    assert not gate.is_outdated
     assert gate.rejected.total() == 1
 
 
 def test_negative_forces_count_as_none():
-    gate = FrameGate()
+    gate = FrameValidator()
     gate.expect(1, 2)
     assert gate.check(1, 1.0, 1, np.array([-1.0, 2.0])).tolist() == [0.0, 2.0]
 
 
 CONE = Cone(0.02, 0.10, 0.03, 0.03)
-SKIN = rings(CONE, (0.033, 0.06, 0.087), 8)
+SKIN = place_rings(CONE, (0.033, 0.06, 0.087), 8)
 
 
-def robot() -> Robot:
-    def part(name: str, first: int) -> Part:
+def robot() -> RobotDescription:
+    def part(name: str, first: int) -> GenericPart:
         limbs = tuple(Limb(n, n, np.zeros(3), np.eye(3), CONE) for n in ("upper", "lower"))
         patch = Patch(
             f"{name}_lower",
@@ -194,9 +198,9 @@ def robot() -> Robot:
             SKIN.normals,
             Sensitivity(),
         )
-        return Part(name, (), limbs=limbs, patches=(patch,))
+        return GenericPart(name, (), limbs=limbs, patches=(patch,))
 
-    return Robot("r", (part("left_arm", 0), part("right_arm", 1000)))
+    return RobotDescription("r", (part("left_arm", 0), part("right_arm", 1000)))
 
 
 def test_receptors_answer_for_their_own_arm_only():
@@ -208,21 +212,21 @@ def test_receptors_answer_for_their_own_arm_only():
     )
     near = np.linalg.norm(geometry.points - centre, axis=1) < 0.01
     left = geometry.limb == geometry.limbs.index("left_arm/lower")
-    receptors = Receptors(geometry, "left_arm", fields, Law(0.05, 1.0))
+    receptors = ReceptiveFields(geometry, "left_arm", fields, Law(0.05, 1.0))
     forces = np.where(near & left, 0.5, 0.0)
-    (answer,) = receptors.answer(forces)
+    (answer,) = receptors.respond(forces)
     assert answer.field.name == "near"
     assert answer.gain > 0.3
-    assert receptors.answer(np.where(near & ~left, 0.5, 0.0)) == []
+    assert receptors.respond(np.where(near & ~left, 0.5, 0.0)) == []
     opposite = np.linalg.norm(geometry.points - CONE.points(0.06, np.pi), axis=1) < 0.01
-    both = receptors.answer(forces + np.where(opposite & left, 0.5, 0.0))
-    assert sorted(one.field.name for one in both) == ["far", "near"]
-    assert receptors.answer(np.zeros(geometry.size)) == []
+    both = receptors.respond(forces + np.where(opposite & left, 0.5, 0.0))
+    assert sorted(arm_name.field.name for arm_name in both) == ["far", "near"]
+    assert receptors.respond(np.zeros(geometry.size)) == []
     dead = forces.copy()
     dead[geometry.patch == geometry.patches.index("left_arm_lower")] = 0.0
-    assert receptors.answer(dead) == []
+    assert receptors.respond(dead) == []
     with pytest.raises(InvalidField, match=r"no limb `left_arm/hand`.*it has left_arm/upper"):
-        Receptors(geometry, "left_arm", (Field("x", "hand", centre, 0.03, THETA),), Law())
+        ReceptiveFields(geometry, "left_arm", (Field("x", "hand", centre, 0.03, THETA),), Law())
 
 
 def test_a_sense_takes_other_fields_laws_and_geometries_or_stays_as_it_was():
@@ -231,51 +235,51 @@ def test_a_sense_takes_other_fields_laws_and_geometries_or_stays_as_it_was():
                    (("here", 0.0), ("there", np.pi)))  # fmt: skip
     left = geometry.limb == geometry.limbs.index("left_arm/lower")
     forces = np.where(left & (np.linalg.norm(geometry.points - here.centre, axis=1) < 0.01), 0.5, 0)
-    sense = Sense("left_arm", (here,), Law(0.05, 1.0))
+    sense = ReflexPerception("left_arm", (here,), Law(0.05, 1.0))
     with pytest.raises(RejectedFrame):
-        sense.feel(1, 0.1, 1, forces)
-    with pytest.raises(InvalidField, match="not told yet"):
+        sense.process_frame(1, 0.1, 1, forces)
+    with pytest.raises(InvalidField, match="not reported"):
         sense.use_fields((there,))
     sense.adopt(geometry)
-    (weak,) = sense.feel(2, 0.2, 1, forces)
+    (weak,) = sense.process_frame(2, 0.2, 1, forces)
     sense.use_law(Law(0.05, 0.5), 0.015)
-    (strong,) = sense.feel(3, 0.3, 1, forces)
+    (strong,) = sense.process_frame(3, 0.3, 1, forces)
     assert strong.gain > 1.5 * weak.gain
     with pytest.raises(InvalidField):
         sense.use_fields((replace(here, limb="tail"),))
-    assert sense.feel(4, 0.4, 1, forces)
+    assert sense.process_frame(4, 0.4, 1, forces)
     sense.use_fields((there,))
-    assert sense.feel(5, 0.5, 1, forces) == []
+    assert sense.process_frame(5, 0.5, 1, forces) == []
     with pytest.raises(InvalidField):
         sense.adopt(replace(geometry, version=2, limbs=("a/upper", "a/lower", "b", "c")))
-    assert sense.feel(6, 0.6, 1, forces) == []
+    assert sense.process_frame(6, 0.6, 1, forces) == []
     sense.adopt(replace(geometry, version=2))
-    assert sense.feel(7, 0.7, 2, forces) == []
-    assert sense.gate.accepted == 6
+    assert sense.process_frame(7, 0.7, 2, forces) == []
+    assert sense.validator.accepted == 6
 
 
 def as_told(geometry: SkinGeometry, **changes: object) -> SimpleNamespace:
     """A geometry by the names of the interface."""
     axes = [f"r{i}{j}" for i in range(3) for j in range(3)]
-    told = {"version": geometry.version, "id": geometry.ids, "patch": geometry.patch}
-    told |= {"limb": geometry.limb}
-    told |= dict(zip("xyz", geometry.points.T, strict=True))
-    told |= dict(zip(("nx", "ny", "nz"), geometry.normals.T, strict=True))
-    told["patches"] = [
+    message = {"version": geometry.version, "id": geometry.ids, "patch": geometry.patch}
+    message |= {"limb": geometry.limb}
+    message |= dict(zip("xyz", geometry.points.T, strict=True))
+    message |= dict(zip(("nx", "ny", "nz"), geometry.normals.T, strict=True))
+    message["patches"] = [
         SimpleNamespace(name=n, gain=s.gain, floor=s.floor, saturation=s.saturation)
         for n, s in zip(geometry.patches, geometry.sensitivities, strict=True)
     ]
-    told["limbs"] = [
+    message["limbs"] = [
         SimpleNamespace(name=n, body=f.body, x=1.0, y=2.0, z=3.0,
                         **dict(zip(axes, np.eye(3).ravel(), strict=True)))
         for n, f in zip(geometry.limbs, geometry.frames, strict=True)
     ]  # fmt: skip
-    return SimpleNamespace(**(told | changes))
+    return SimpleNamespace(**(message | changes))
 
 
 def test_a_geometry_comes_back_from_what_is_told_of_it():
     geometry = SkinGeometry.of(robot(), version=4)
-    back = told_geometry(as_told(geometry))
+    back = geometry_from_message(as_told(geometry))
     assert (back.version, back.size, back.limbs) == (4, geometry.size, geometry.limbs)
     for name in ("ids", "patch", "limb", "points", "normals"):
         assert (getattr(back, name) == getattr(geometry, name)).all(), name
@@ -284,7 +288,7 @@ def test_a_geometry_comes_back_from_what_is_told_of_it():
 
 
 @pytest.mark.parametrize(
-    ("changes", "said"),
+    ("changes", "message"),
     [
         ({"patch": np.zeros(3, int)}, "`patch` has 3 entries for 480"),
         ({"x": np.zeros(3)}, "differ in length"),
@@ -297,6 +301,6 @@ def test_a_geometry_comes_back_from_what_is_told_of_it():
         ({"patches": [SimpleNamespace(name="p", gain=0, floor=0, saturation=1)] * 2}, "gain > 0"),
     ],
 )
-def test_a_geometry_that_contradicts_itself_is_refused(changes, said):
-    with pytest.raises(BadGeometry, match=said):
-        told_geometry(as_told(SkinGeometry.of(robot()), **changes))
+def test_a_geometry_that_contradicts_itself_is_refused(changes, message):
+    with pytest.raises(BadGeometry, match=message):
+        geometry_from_message(as_told(SkinGeometry.of(robot()), **changes))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from robocomp_dsl.tactile.skin import triangle
 from robocomp_dsl.tactile.skin.manager import Compensation, SkinManager
 from robocomp_dsl.tactile.skin.normalise import Normaliser, Sensitivity
-from robocomp_dsl.tactile.skin.touches import Neighbours, clusters
+from robocomp_dsl.tactile.skin.touches import TaxelGraph, clusters
 
 LINE = np.arange(10)[:, None] * [0.01, 0, 0]
 
@@ -28,15 +28,15 @@ LINE = np.arange(10)[:, None] * [0.01, 0, 0]
 def test_touches_are_connected_neighbours(touched, expected):
     mask = np.zeros(10, bool)
     mask[touched] = True
-    found = Neighbours.of(LINE).touches(mask)
-    assert [one.tolist() for one in found] == expected
+    found = TaxelGraph.of(LINE).touches(mask)
+    assert [touch.tolist() for touch in found] == expected
 
 
 def test_the_reach_is_inclusive_and_limbs_do_not_touch_each_other():
     pair = np.array([[0, 0, 0], [0.015, 0, 0]])
     assert len(clusters(pair)) == 1
     assert len(clusters(pair * 1.001)) == 2
-    apart = Neighbours.of(pair, np.array([0, 1]))
+    apart = TaxelGraph.of(pair, np.array([0, 1]))
     assert len(apart.touches(np.ones(2, bool))) == 2
     assert clusters(np.empty((0, 3))) == []
 
@@ -49,13 +49,13 @@ def test_components_agree_with_a_plain_search(seed, count):
     while left:
         group, todo = set(), [min(left)]
         while todo:
-            one = todo.pop()
-            group.add(one)
-            near = np.linalg.norm(points - points[one], axis=1) <= 0.015
+            touch = todo.pop()
+            group.add(touch)
+            near = np.linalg.norm(points - points[touch], axis=1) <= 0.015
             todo += [k for k in np.flatnonzero(near) if k not in group]
         left -= group
         groups.append(sorted(group))
-    assert [one.tolist() for one in clusters(points)] == groups
+    assert [cluster.tolist() for cluster in clusters(points)] == groups
 
 
 def test_forces_are_normalised_patch_by_patch():

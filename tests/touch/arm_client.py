@@ -9,20 +9,19 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-import shipped_component
-from served_robot import ServedRobot
-
 from robocomp_dsl.runtime.clock import Clock
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.lifecycle import State
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.runner import Runner
-from robocomp_dsl.runtime.settings import RunSettings
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
+from tests.touch import shipped_component
+from tests.touch.served_robot import ServedRobot
 
 ARM = shipped_component.load("generic_arm")
-DESCRIPTIONS = Path(__file__).parents[2] / "robocomp_dsl" / "hardware" / "robots" / "descriptions"
+DESCRIPTIONS = Path(__file__).parents[2] / "robocomp_dsl" / "simulation" / "robots" / "descriptions"
 FIRST_BOARD = {"nao_h25": "LArm", "nao_h21": "LArm", "icub_v2": "left_arm"}
 _domains = (f"generic-arm-{number}" for number in count())
 
@@ -35,13 +34,13 @@ def until(what: Callable[[], Any], seconds: float = 120.0) -> None:
         time.sleep(0.002)
 
 
-def refused(call: Callable[..., Any], *given: Any) -> str:
+def refused(call: Callable[..., Any], *arguments: Any) -> str:
     """What the arm says when it does not do it."""
     try:
-        call(*given)
+        call(*arguments)
     except ARM.interfaces.NotPossible as error:
         return str(error.what)
-    raise AssertionError(f"{given} were taken")
+    raise AssertionError(f"{arguments} were taken")
 
 
 class RunningArm:
@@ -52,18 +51,20 @@ class RunningArm:
     ) -> None:
         params = ARM.worker.SPEC.parameters.load(None, ("period=2", *settings))
         wired = {port: (peer,) for port, peer in wires.items()}
-        said = RunSettings(domain=domain, middleware="inproc", wires=wired)
-        self.runner = Runner(ARM.worker, params, said, clock)
-        self._client = open_middleware("inproc", Host("client", domain, Execution(), Statistics()))
+        run_settings = RunSettings(domain=domain, middleware="inproc", connections=wired)
+        self.runner = Runner(ARM.worker, params, run_settings, clock)
+        self._client = open_middleware(
+            "inproc", MiddlewareContext("client", domain, CallbackGroup(), Statistics())
+        )
         self.states: list[Any] = []
         topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
         at = Endpoint(topic, "client", "GenericArmState")
-        self._client.subscribe(at, {"armState": self.states.append}, Execution())
+        self._client.subscribe(at, {"armState": self.states.append}, CallbackGroup())
         self.runner.start()
         interface = ARM.interfaces.GENERICARM
         link = self._client.proxy(Endpoint(interface, "client", "arm"))
         assert link.wait(60)
-        self._bound = {one.name: link.bind(one) for one in interface.operations}
+        self._bound = {operation.name: link.bind(operation) for operation in interface.operations}
 
     def __getattr__(self, operation: str) -> Any:
         return self._bound[operation]
@@ -75,11 +76,11 @@ class RunningArm:
         self._client.close()
         return well
 
-    def sets_off(self, command: Callable[..., Any], *given: Any) -> None:
+    def sets_off(self, command: Callable[..., Any], *arguments: Any) -> None:
         """Give the command, and see that it moves; it may be at rest again before anybody looks."""
         seen = len(self.states)
-        command(*given)
-        until(lambda: any(one.moving for one in self.states[seen:]))
+        command(*arguments)
+        until(lambda: any(state.moving for state in self.states[seen:]))
 
     def rest(self) -> Any:
         """The state once nothing moves any more."""
@@ -111,7 +112,7 @@ def arm_on(
         clock=clock,
     )
     try:
-        until(lambda: arm.states or arm.runner.lifecycle.state is State.EMERGENCY)
+        until(lambda: arm.states or arm.runner.lifecycle.state is LifecycleState.EMERGENCY)
         yield arm, served
     finally:
         well = arm.end()

@@ -12,17 +12,17 @@ from types import ModuleType
 from typing import Any
 
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.mujoco.control_board import SimulatedBoard
-from robocomp_dsl.hardware.mujoco.world import World
-from robocomp_dsl.hardware.robots.boards import board_names, robot_board, whole_robot
-from robocomp_dsl.hardware.robots.build import add_robot, new_world, set_pose
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
 from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
-from robocomp_dsl.hardware.serving import Port
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.hardware.servants.serving import DevicePort
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
+from robocomp_dsl.simulation.robots.boards import board_names, robot_board, whole_robot
+from robocomp_dsl.simulation.robots.build import add_robot, new_world, set_pose
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.world.world import World
 
 TICK = 0.01
 """So much time passes with every question for a state [s]."""
@@ -59,25 +59,25 @@ class ServedRobot:
 
     def connect(self) -> None:
         """Be there for others."""
-        self._execution = Execution()
+        self._execution = CallbackGroup()
         self._middleware = open_middleware(
-            "inproc", Host("robot", self._domain, self._execution, Statistics())
+            "inproc", MiddlewareContext("robot", self._domain, self._execution, Statistics())
         )
         interface = self._interfaces.CONTROLBOARD
         for name, joints in self.joints.items():
             devices = dict.fromkeys(joints, self.part)
             servant = ControlBoardServant(interface, name, joints, devices)
             handlers = {
-                one.name: self._watched(
-                    name, one.name, getattr(Port(servant, self._turn), one.name)
+                operation.name: self._watched(
+                    name, operation.name, getattr(DevicePort(servant, self._turn), operation.name)
                 )
-                for one in interface.operations
+                for operation in interface.operations
             }
             at = Endpoint(interface, "robot", name)
             self._middleware.serve(at, handlers, self._execution)
 
     def _watched(self, board: str, operation: str, call: Any) -> Any:
-        def answer(*given: Any) -> Any:
+        def answer(*arguments: Any) -> Any:
             if operation == "getState" and self.ticking:
                 with self._turn:
                     self.world.advance(TICK)
@@ -85,9 +85,9 @@ class ServedRobot:
             self.calls.append((board, operation))
             if (board, operation) in self.failing:
                 raise self.failing[board, operation]
-            said = call(*given)
-            self.after.get((board, operation), lambda _: None)(said)
-            return said
+            result = call(*arguments)
+            self.after.get((board, operation), lambda _: None)(result)
+            return result
 
         return answer
 

@@ -1,13 +1,13 @@
-"""The component `generic_arm` on the boards of two robots: the same words, the same arm."""
+"""The component `generic_arm` on the boards of two robots: the same arm on both."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from arm_client import arm_on, refused, until
-from served_robot import ServedRobot
 
 from robocomp_dsl.hardware.control.modes import Mode
+from tests.touch.arm_client import arm_on, refused, until
+from tests.touch.served_robot import ServedRobot
 
 ROBOTS = ("nao_h25", "icub_v2")
 GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
@@ -25,7 +25,7 @@ def test_it_tells_where_the_arm_is(robot: str) -> None:
         assert limits.available.all()
         assert state.position == pytest.approx(limits.start, abs=0.05)
         until(lambda: len(arm.states) > 3)
-        times = [one.time for one in arm.states]
+        times = [published.time for published in arm.states]
         assert times == sorted(set(times))
 
 
@@ -55,7 +55,7 @@ def test_speeds_are_kept_and_goals_are_clipped(robot: str) -> None:
         limits = arm.getLimits()
         arm.move(limits.start + 0.4 * ELBOW, np.array([1, 1, 1, 0.2, 1]))
         arm.rest()
-        fastest = max(abs(one.velocity[3]) for one in arm.states)
+        fastest = max(abs(state.velocity[3]) for state in arm.states)
         assert 0.2 < fastest < 0.2 * 2.2  # minimum jerk peaks at 1.875 of its mean
         outcome = arm.move(np.array([9.0, 0.6, 0.3, 9.0, 0.2]), NONE)
         assert outcome.clipped.tolist() == [True, False, False, True, False]
@@ -80,12 +80,12 @@ def test_what_the_robot_lacks_reads_sigma_and_drops_commands() -> None:
 def test_what_cannot_be_meant_changes_nothing(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         before = len([call for call in served.calls if call[1] == "positionMove"])
-        assert "5 values are needed, 3 were given" in refused(arm.move, np.zeros(3), NONE)
+        assert "5 values are needed, not 3" in refused(arm.move, np.zeros(3), NONE)
         assert "NaN" in refused(arm.move, np.full(5, np.nan), NONE)
         assert "above 0" in refused(arm.move, GOAL, np.zeros(5))
         assert "5 finite displacements" in refused(arm.moveBy, NONE, NONE)
-        assert "not negative" in refused(arm.setStiffness, np.full(5, -1.0), np.ones(5))
-        assert "5 values are needed, 0" in refused(arm.setStiffness, np.ones(5), NONE)
+        assert "must not be negative" in refused(arm.setStiffness, np.full(5, -1.0), np.ones(5))
+        assert "5 values are needed, not 0" in refused(arm.setStiffness, np.ones(5), NONE)
         arm.drive(np.full(5, np.inf))
         arm.push(np.zeros(2))
         arm.follow(np.zeros(0))
@@ -143,7 +143,7 @@ def test_a_pushed_joint_turns_the_way_it_is_pushed(robot: str) -> None:
         del arm.states[:]
         torque = {"nao_h25": 0.8, "icub_v2": 3.0}[robot] * ELBOW
         until(lambda: arm.push(torque) or arm.getState().position[3] > before[3] + 0.15)
-        assert max(one.torque[3] for one in arm.states) > 0
+        assert max(state.torque[3] for state in arm.states) > 0
         arm.stop()
         rest = arm.rest()
         until(lambda: arm.states[-1].time > rest.time + 0.3)
@@ -174,14 +174,14 @@ def test_springs_are_set_in_the_units_of_the_device(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         arm.setStiffness(np.full(5, 6.0), np.full(5, 0.3))
         board = served.part.board
-        joints = [one.rpartition("/")[2] for one in arm.runner.worker.arm.part.joints]
+        joints = [joint.rpartition("/")[2] for joint in arm.runner.worker.arm.part.joints]
         rows = [board.spec.names.index(name) for name in joints]
         assert [board.table.interactions[row].value for row in rows] == ["comp"] * 5
         assert board.impedance.stiffness[rows] == pytest.approx(6.0)
         assert board.impedance.damping[rows] == pytest.approx(0.3)
-        said = refused(arm.setStiffness, np.array([5.0, 5, 5, 5, 1e6]), np.zeros(5))
-        assert "`board`" in said
-        assert joints[4] in said
+        message = refused(arm.setStiffness, np.array([5.0, 5, 5, 5, 1e6]), np.zeros(5))
+        assert "`board`" in message
+        assert joints[4] in message
         assert board.impedance.stiffness[rows] == pytest.approx(6.0)
         arm.setStiffness(NONE, NONE)
         assert [board.table.interactions[row].value for row in rows] == ["stif"] * 5
@@ -229,4 +229,4 @@ def test_live_parameters_change_speed_and_rate(robot: str) -> None:
         assert not outcome.clipped.any()
         del arm.states[:]
         arm.rest()
-        assert max(abs(one.velocity[3]) for one in arm.states) <= 0.1 * full[3] * 1.3
+        assert max(abs(state.velocity[3]) for state in arm.states) <= 0.1 * full[3] * 1.3

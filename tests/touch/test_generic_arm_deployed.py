@@ -18,14 +18,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from arm_client import ARM, DESCRIPTIONS, refused, until
-from shipped_component import COMPONENTS
 
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
+from tests.touch.arm_client import ARM, DESCRIPTIONS, refused, until
+from tests.touch.shipped_component import COMPONENTS
 
 ROBOTS = {"nao": ("nao_h25", "LArm"), "icub": ("icub_v2", "left_arm")}
 GOALS = (
@@ -69,16 +69,16 @@ class Deployed:
         )
 
     def end(self) -> None:
-        for one in self.processes.values():
+        for process in self.processes.values():
             with contextlib.suppress(ProcessLookupError):
-                one.send_signal(signal.SIGCONT)
-                one.terminate()
-        for one in self.processes.values():
+                process.send_signal(signal.SIGCONT)
+                process.terminate()
+        for process in self.processes.values():
             try:
-                one.wait(60)
+                process.wait(60)
             except subprocess.TimeoutExpired:
-                one.kill()
-                one.wait()
+                process.kill()
+                process.wait()
 
     def answers(self) -> bool:
         try:
@@ -97,22 +97,24 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
     with ExitStack() as stack:
 
         def deploy(robot: str) -> Deployed:
-            made = Deployed(robot, f"arm-{robot}-{tmp_path.name}")
-            stack.callback(made.end)
-            made.start(made.simulator)
-            made.start_arm()
-            host = Host("client", made.domain, Execution(), Statistics())
+            deployment = Deployed(robot, f"arm-{robot}-{tmp_path.name}")
+            stack.callback(deployment.end)
+            deployment.start(deployment.simulator)
+            deployment.start_arm()
+            host = MiddlewareContext("client", deployment.domain, CallbackGroup(), Statistics())
             middleware = open_middleware("zenoh", host)
             stack.callback(middleware.close)
             interface = ARM.interfaces.GENERICARM
             link = middleware.proxy(Endpoint(interface, "client", "arm", ("generic_arm",)))
             assert link.wait(120)
-            made.arm = {one.name: link.bind(one) for one in interface.operations}
+            deployment.arm = {
+                operation.name: link.bind(operation) for operation in interface.operations
+            }
             topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
             at = Endpoint(topic, "client", "GenericArmState")
-            middleware.subscribe(at, {"armState": made.states.append}, Execution())
-            until(made.answers)
-            return made
+            middleware.subscribe(at, {"armState": deployment.states.append}, CallbackGroup())
+            until(deployment.answers)
+            return deployment
 
         yield deploy
 
@@ -120,15 +122,15 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
 def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> None:
     reached = {}
     for name in ROBOTS:
-        one = deployed(name)
+        deployment = deployed(name)
         reached[name] = []
         for goal in GOALS:
-            outcome = one.arm["move"](goal, np.full(5, 1.0))
+            outcome = deployment.arm["move"](goal, np.full(5, 1.0))
             assert not (outcome.clipped | outcome.dropped).any()
-            reached[name].append(one.rest())
-        assert len(one.states) > 10
-        assert one.arm["getLimits"]().available.all()
-        one.end()
+            reached[name].append(deployment.rest())
+        assert len(deployment.states) > 10
+        assert deployment.arm["getLimits"]().available.all()
+        deployment.end()
     for goal, nao, icub in zip(GOALS, reached["nao"], reached["icub"], strict=True):
         assert nao == pytest.approx(goal, abs=0.05)
         assert icub == pytest.approx(goal, abs=0.05)
@@ -136,21 +138,21 @@ def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> 
 
 
 def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> None:
-    one = deployed("icub")
-    robot = one.processes[one.simulator]
+    deployment = deployed("icub")
+    robot = deployment.processes[deployment.simulator]
     robot.send_signal(signal.SIGSTOP)
-    until(lambda: not one.answers())
-    assert "the arm does not answer" in refused(one.arm["move"], GOALS[0], NONE)
+    until(lambda: not deployment.answers())
+    assert "the arm does not answer" in refused(deployment.arm["move"], GOALS[0], NONE)
     robot.send_signal(signal.SIGCONT)
-    until(one.answers)
+    until(deployment.answers)
     robot.kill()
     robot.wait()
-    until(lambda: not one.answers())
-    assert "the arm does not answer" in refused(one.arm["getState"])
-    one.start(one.simulator)
-    until(one.answers)
-    one.arm["move"](GOALS[0], NONE)
-    assert one.rest() == pytest.approx(GOALS[0], abs=0.05)
+    until(lambda: not deployment.answers())
+    assert "the arm does not answer" in refused(deployment.arm["getState"])
+    deployment.start(deployment.simulator)
+    until(deployment.answers)
+    deployment.arm["move"](GOALS[0], NONE)
+    assert deployment.rest() == pytest.approx(GOALS[0], abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -176,6 +178,6 @@ def test_a_deployment_wires_the_physical_parts_that_there_are(
     done = subprocess.run(
         [rcgen, "check", "arm.ddsl"], cwd=tmp_path, capture_output=True, text=True, check=False
     )
-    told = done.stdout + done.stderr
-    assert found in told
-    assert told.count("RC5") == bool(found)
+    output = done.stdout + done.stderr
+    assert found in output
+    assert output.count("RC5") == bool(found)

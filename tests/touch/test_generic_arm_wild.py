@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from arm_client import ARM, FIRST_BOARD, RunningArm, arm_on, until
+
+from tests.touch.arm_client import ARM, FIRST_BOARD, RunningArm, arm_on, until
 
 SLACK = 0.04  # rad: what a joint that is stopped at its limit runs over
 CATCHING_UP = 1.8  # of the speed limit: a joint that lags behind its reference, or was pushed
@@ -18,7 +19,7 @@ def command(arm: RunningArm, chance: np.random.Generator) -> str:
     rates = wide * limits.speed * chance.uniform(-1, 1, 5)
     x, y, z = chance.uniform(-0.4, 0.4, 3).tolist()
     name = str(chance.choice(["move", "moveBy", "reach", "follow", "drive", "glide", "stop"]))
-    given = {
+    commands = {
         "move": (angles, np.abs(rates) + 0.05 if chance.random() < 0.5 else np.zeros(0)),
         "moveBy": (rates * 0.3, np.zeros(0)),
         "reach": (x, y, z),
@@ -28,7 +29,7 @@ def command(arm: RunningArm, chance: np.random.Generator) -> str:
         "stop": (),
     }[name]
     try:
-        getattr(arm, name)(*given)
+        getattr(arm, name)(*commands)
     except (ARM.interfaces.Unreachable, ARM.interfaces.NotPossible):
         return f"{name}, refused"
     return name
@@ -49,8 +50,8 @@ def test_no_command_takes_the_arm_out_of_its_limits(robot: str, seed: int) -> No
             time = arm.getState().time
             until(lambda time=time: arm.states[-1].time > time + 0.1)
         assert {"move", "drive", "glide", "reach, refused"} <= done
-        positions = np.array([one.position for one in arm.states])
-        speeds = np.abs([one.velocity for one in arm.states])
+        positions = np.array([state.position for state in arm.states])
+        speeds = np.abs([state.velocity for state in arm.states])
         assert (positions > limits.low - SLACK).all(), (limits.low - positions.min(axis=0)).max()
         assert (positions < limits.high + SLACK).all(), (positions.max(axis=0) - limits.high).max()
         assert np.max(asked) <= 1.001  # no reference is faster than its joint may be

@@ -6,9 +6,9 @@ import re
 from pathlib import Path
 
 import pytest
-from shipped_component import COMPONENTS
 
-from robocomp_dsl.hardware.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from tests.touch.shipped_component import COMPONENTS
 
 SHARED = ("generic_arm", "reflex")
 MAKERS = ("nao", "icub", "pepper", "aldebaran", "softbank", "robotology", "roboskin")
@@ -22,7 +22,7 @@ MADE_BY_TOOLS = {"__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
 
 def files(component: str) -> list[Path]:
     every = (COMPONENTS / component).rglob("*")
-    return [one for one in every if one.is_file() and not MADE_BY_TOOLS & set(one.parts)]
+    return [path for path in every if path.is_file() and not MADE_BY_TOOLS & set(path.parts)]
 
 
 def test_names_are_found_where_they_are() -> None:
@@ -36,12 +36,12 @@ def test_names_are_found_where_they_are() -> None:
 def test_no_file_names_a_robot(component: str) -> None:
     found = files(component)
     assert {f"{component}.cdsl", "specificworker.py", "README.md", "config.yaml"} <= {
-        one.name for one in found
+        path.name for path in found
     }
     named = [
-        f"{one.relative_to(COMPONENTS)}:{number}: {match[0]}"
-        for one in found
-        for number, line in enumerate(one.read_text(encoding="utf-8").splitlines(), 1)
+        f"{path.relative_to(COMPONENTS)}:{number}: {match[0]}"
+        for path in found
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
         if (match := NAMED.search(line))
     ]
     assert named == []

@@ -11,11 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from equations import gain
-from puppet import ROBOTS, Central, Touched, words
 
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
+from tests.touch.equations import gain
+from tests.touch.kinematic_robot import ROBOTS, CentredRobot, ReflexHarness, interfaces
 
 ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
@@ -48,13 +48,13 @@ def place(x: float, theta: float) -> tuple[float, float, float]:
     return x, RADIUS * np.sin(theta), RADIUS * np.cos(theta)
 
 
-class TableSkin(Central):
+class TableSkin(CentredRobot):
     """A skin of the table's taxels alone, on the lower arm of the real description."""
 
     def initialize(self) -> None:
         super().initialize()
         places = list(dict.fromkeys(row[:2] for _, rows, _ in TABLE for row in rows))
-        points = np.array([place(*one) for one in places])
+        points = np.array([place(*system) for system in places])
         limb = self.geometry.limbs.index(f"{self.side}/lower_arm")
         n = len(points)
         self.geometry = replace(
@@ -74,24 +74,24 @@ class TableSkin(Central):
 
 
 @pytest.fixture
-def stage() -> Iterator[Callable[..., Touched]]:
-    made: list[Touched] = []
+def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
+    systems: list[ReflexHarness] = []
 
-    def make(*given: object, **said: object) -> Touched:
-        made.append(Touched(*given, **{**FORCES, **said}))
-        return made[-1].awake()
+    def make(*arguments: object, **params: object) -> ReflexHarness:
+        systems.append(ReflexHarness(*arguments, **{**FORCES, **params}))
+        return systems[-1].awake()
 
     yield make
-    for one in made:
-        one.close()
+    for system in systems:
+        system.close()
 
 
 @pytest.mark.parametrize(("rows", "motion"), [r[1:] for r in TABLE], ids=[r[0] for r in TABLE])
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table(stage, robot, side, rows, motion) -> None:
-    touched = stage(robot, side, TableSkin)
+def test_the_table(start_reflex, robot, side, rows, motion) -> None:
+    touched = start_reflex(robot, side, TableSkin)
     limb = f"{side}/lower_arm"
-    touched.reflex.setFields([words.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
+    touched.reflex.setFields([interfaces.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
     start = touched.robot.pose
     touched.robot.touch(rows)
     touched.run(0.02)
@@ -112,7 +112,7 @@ def test_the_table(stage, robot, side, rows, motion) -> None:
 class OwnSkin:
     """The taxels of one field's limb, from its centre outwards."""
 
-    def __init__(self, touched: Touched, name: str) -> None:
+    def __init__(self, touched: ReflexHarness, name: str) -> None:
         self.touched, self.field = touched, touched.field(name)
         geometry: SkinGeometry = touched.robot.geometry
         limb = geometry.limbs.index(f"{touched.robot.side}/{self.field.limb}")
@@ -168,7 +168,7 @@ def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], flo
     """What is touched in each row of the table, and the gain that belongs to it."""
     centre, half, edge = skin.at(0.0), skin.at(0.0175), skin.at(0.034)
     beside, beyond = skin.beside(centre), skin.at(0.05)
-    one: tuple[tuple[int, float], ...] = {
+    contact: tuple[tuple[int, float], ...] = {
         "1": ((centre, 10.0),),
         "2": ((centre, 5.5),),
         "3a": ((half, 10.0),),
@@ -182,14 +182,14 @@ def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], flo
         "8": ((centre, 10.0), (skin.opposite(), 10.0)),
         "9": ((centre, 10.0), (beyond, 1.5)),
     }[number]
-    first = one[:1] if number in ("8", "9") else one  # the others are touches of their own
-    return one, skin.expected(*first)
+    first = contact[:1] if number in ("8", "9") else contact  # the others are touches of their own
+    return contact, skin.expected(*first)
 
 
 @pytest.mark.parametrize("name", PLACES)
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table_on_the_taxels_of_the_real_skin(stage, robot, side, name) -> None:
-    touched = stage(robot, side, Central, refractory=0.0, hold=0.02, return_speed=1.0)
+def test_the_table_on_the_taxels_of_the_real_skin(start_reflex, robot, side, name) -> None:
+    touched = start_reflex(robot, side, CentredRobot, refractory=0.0, hold=0.02, return_speed=1.0)
     skin = OwnSkin(touched, name)
     touched.reflex.setFields([f for f in touched.reflex.getFields() if f.name == name])
     for number in ("1", "2", "3a", "3b", "4a", "4b", "5a", "5b", "6", "7", "8", "9"):

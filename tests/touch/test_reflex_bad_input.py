@@ -12,30 +12,30 @@ from typing import Any
 
 import numpy as np
 import pytest
-from puppet import ROBOTS, Puppet, Touched, words
 
-from robocomp_dsl.runtime.component_interface import COMPONENT, ComponentProxy, LifeState
-from robocomp_dsl.runtime.lifecycle import State
+from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy, LifeState
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from tests.touch.kinematic_robot import ROBOTS, KinematicRobot, ReflexHarness, interfaces
 
 COUNTERS = ("framesNotFinite", "framesWrongLength", "framesOutOfOrder", "framesOtherGeometry")
 
 
 @pytest.fixture
-def stage() -> Iterator[Callable[..., Touched]]:
-    made: list[Touched] = []
+def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
+    systems: list[ReflexHarness] = []
 
-    def make(*given: object, **said: object) -> Touched:
-        made.append(Touched(*given, **said))
-        return made[-1]
+    def make(*arguments: object, **params: object) -> ReflexHarness:
+        systems.append(ReflexHarness(*arguments, **params))
+        return systems[-1]
 
     yield make
-    for one in made:
-        one.close()
+    for system in systems:
+        system.close()
 
 
 @pytest.fixture(params=ROBOTS)
-def touched(stage, request) -> Touched:
-    return stage(request.param).awake()
+def touched(start_reflex, request) -> ReflexHarness:
+    return start_reflex(request.param).awake()
 
 
 def changed(frame: Any, **fields: object) -> Any:
@@ -83,13 +83,13 @@ def test_a_bad_frame_is_rejected_counted_and_moves_nothing(touched, counter, spo
 
 
 @pytest.mark.parametrize(("counter", "spoil"), BAD.values(), ids=list(BAD))
-def test_only_bad_frames_are_as_good_as_none(stage, counter, spoil) -> None:
-    touched = stage().awake()
+def test_only_bad_frames_are_as_good_as_none(start_reflex, counter, spoil) -> None:
+    touched = start_reflex().awake()
     touched.robot.spoil = spoil
     touched.run(0.3)
     assert touched.state == "Frozen"
-    assert touched.runners[0].state is State.EMERGENCY
-    assert "no usable frame for 0.2 s" in touched.worker().reason
+    assert touched.runners[0].state is LifecycleState.EMERGENCY
+    assert "no valid frame of the skin received for 0.2 s" in touched.worker().reason
     touched.press("lower_arm_under", 20.0)
     touched.run(2.0)
     assert touched.state == "Frozen"
@@ -98,11 +98,11 @@ def test_only_bad_frames_are_as_good_as_none(stage, counter, spoil) -> None:
     touched.release()
     touched.run(0.6)
     assert touched.state == "Watching"
-    assert touched.runners[0].state is State.COMPUTE
+    assert touched.runners[0].state is LifecycleState.COMPUTE
 
 
-def test_frames_before_the_geometry_is_known_are_not_judged(stage) -> None:
-    touched = stage()
+def test_frames_before_the_geometry_is_known_are_not_judged(start_reflex) -> None:
+    touched = start_reflex()
     touched.run(0.7)
     seen = touched.reflex.getStatistics()
     assert [getattr(seen, name) for name in COUNTERS] == [0, 0, 0, 0]
@@ -144,20 +144,20 @@ def test_a_skin_that_was_started_anew_with_an_older_version_is_found(touched) ->
     assert touched.state == "Watching"
 
 
-class Confused(Puppet):
+class Confused(KinematicRobot):
     """Its skin contradicts itself as long as `confused`."""
 
     confused = True
 
     def get_geometry(self) -> Any:
-        told = super().get_geometry()
+        geometry = super().get_geometry()
         if self.confused:
-            told.limb = told.limb + 100
-        return told
+            geometry.limb = geometry.limb + 100
+        return geometry
 
 
-def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(stage) -> None:
-    touched = stage("nao_h25", "left_arm", Confused)
+def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(start_reflex) -> None:
+    touched = start_reflex("nao_h25", "left_arm", Confused)
     touched.run(1.0)
     assert touched.state == "Frozen"
     assert "`limb` refers to entry" in touched.worker().reason
@@ -166,15 +166,15 @@ def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(stage) -> 
     assert touched.state == "Watching"
 
 
-def test_a_skin_without_the_limbs_of_the_fields_is_told(stage) -> None:
-    class Bare(Puppet):
+def test_a_skin_without_the_limbs_of_the_fields_is_told(start_reflex) -> None:
+    class Bare(KinematicRobot):
         def get_geometry(self) -> Any:
-            told = super().get_geometry()
-            for one in told.limbs:
-                one.name = one.name.replace("lower_arm", "tail")
-            return told
+            geometry = super().get_geometry()
+            for limb in geometry.limbs:
+                limb.name = limb.name.replace("lower_arm", "tail")
+            return geometry
 
-    touched = stage("nao_h25", "left_arm", Bare)
+    touched = start_reflex("nao_h25", "left_arm", Bare)
     touched.run(1.0)
     assert touched.state == "Frozen"
     assert "no limb `left_arm/lower_arm` for the field" in touched.worker().reason
@@ -186,20 +186,20 @@ WRONG_LIMITS = {
     "NaN": {"start": np.full(5, np.nan)},
     "differ in length": {"speed": np.ones(4)},
     "above its upper": {"low": np.full(5, 9.0)},
-    "no speed": {"speed": np.zeros(5)},
+    "speed limit of 0": {"speed": np.zeros(5)},
 }
 
 
-@pytest.mark.parametrize(("said", "wrong"), WRONG_LIMITS.items(), ids=list(WRONG_LIMITS))
-def test_limits_that_no_arm_has_keep_it_frozen(stage, said, wrong) -> None:
-    class Odd(Puppet):
+@pytest.mark.parametrize(("message", "wrong"), WRONG_LIMITS.items(), ids=list(WRONG_LIMITS))
+def test_limits_that_no_arm_has_keep_it_frozen(start_reflex, message, wrong) -> None:
+    class Odd(KinematicRobot):
         def limits(self) -> Any:
             return changed(super().limits(), **wrong)
 
-    touched = stage("nao_h25", "left_arm", Odd)
+    touched = start_reflex("nao_h25", "left_arm", Odd)
     touched.run(1.0)
     assert touched.state == "Frozen"
-    assert said in touched.worker().reason
+    assert message in touched.worker().reason
 
 
 @pytest.mark.parametrize("pose", [np.full(5, np.nan), np.zeros(4), np.zeros(0)])
@@ -210,7 +210,7 @@ def test_a_state_of_the_arm_that_makes_no_sense_counts_as_none(touched, pose) ->
     assert touched.state == "Watching"
     touched.run(0.2)
     assert touched.state == "Frozen"
-    assert "the arm has told no state" in touched.worker().reason
+    assert "no state of the arm received" in touched.worker().reason
 
 
 @pytest.mark.parametrize("lost", ["feels", "tells"])
@@ -297,13 +297,13 @@ def test_the_emergency_can_be_seen_from_outside_with_its_reason(touched) -> None
     touched.run(0.7)
     info = about.getInfo()
     assert info.state == LifeState.Emergency
-    assert info.reason == "the arm has told no state for 0.5 s"
+    assert info.reason == "no state of the arm received for 0.5 s"
     assert info.states == ["Frozen"]
-    assert touched.reflex.getStatistics().state == words.ReflexState.Frozen
-    assert touched.robot.heard[-1] == words.ReflexState.Frozen
+    assert touched.reflex.getStatistics().state == interfaces.ReflexState.Frozen
+    assert touched.robot.heard[-1] == interfaces.ReflexState.Frozen
     touched.robot.tells, touched.robot.feels = True, False
     touched.run(0.3)
-    assert about.getInfo().reason == "the skin has sent no usable frame for 0.2 s"
+    assert about.getInfo().reason == "no valid frame of the skin received for 0.2 s"
     touched.robot.feels = True
     touched.until("Watching")
     assert about.getInfo().reason == ""
@@ -336,21 +336,21 @@ WRONG_FIELDS = {
 }
 
 
-@pytest.mark.parametrize(("said", "wrong"), WRONG_FIELDS.items(), ids=list(WRONG_FIELDS))
-def test_fields_that_cannot_be_are_refused_and_nothing_changes(stage, said, wrong) -> None:
-    touched = stage("icub_v2").awake()
-    before = [one.name for one in touched.reflex.getFields()]
-    with pytest.raises(words.RoboCompReflex_NotPossible) as caught:
+@pytest.mark.parametrize(("message", "wrong"), WRONG_FIELDS.items(), ids=list(WRONG_FIELDS))
+def test_invalid_fields_are_rejected_unchanged(start_reflex, message, wrong) -> None:
+    touched = start_reflex("icub_v2").awake()
+    before = [field.name for field in touched.reflex.getFields()]
+    with pytest.raises(interfaces.RoboCompReflex_NotPossible) as caught:
         touched.reflex.setFields(
-            [words.Field(**FIELD), words.Field(**{**FIELD, "name": "g", **wrong})]
+            [interfaces.Field(**FIELD), interfaces.Field(**{**FIELD, "name": "g", **wrong})]
         )
-    assert said in caught.value.what
-    assert [one.name for one in touched.reflex.getFields()] == before
+    assert message in caught.value.what
+    assert [field.name for field in touched.reflex.getFields()] == before
 
 
 def test_two_fields_of_one_name_are_refused(touched) -> None:
-    with pytest.raises(words.RoboCompReflex_NotPossible, match="two fields of the name `f`"):
-        touched.reflex.setFields([words.Field(**FIELD), words.Field(**FIELD)])
+    with pytest.raises(interfaces.RoboCompReflex_NotPossible, match="two fields of the name `f`"):
+        touched.reflex.setFields([interfaces.Field(**FIELD), interfaces.Field(**FIELD)])
 
 
 @pytest.mark.parametrize(
@@ -358,6 +358,6 @@ def test_two_fields_of_one_name_are_refused(touched) -> None:
 )
 def test_forces_that_cannot_be_are_refused_and_nothing_changes(touched, threshold, full) -> None:
     law = touched.worker().sense.law
-    with pytest.raises(words.RoboCompReflex_NotPossible):
+    with pytest.raises(interfaces.RoboCompReflex_NotPossible):
         touched.reflex.setForces(threshold, full)
     assert touched.worker().sense.law is law

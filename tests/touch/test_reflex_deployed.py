@@ -17,21 +17,21 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import fingertip
 import mujoco
 import numpy as np
 import pytest
-from puppet import proxy_of, words
-from shipped_component import COMPONENTS
-from whole import ARM, BOARDS
 
-from robocomp_dsl.runtime.component_interface import ComponentProxy, LifeState
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.component_interface import ComponentProxy, LifeState
+from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.middleware import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, Host
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.tactile.description.read import load_robot
+from tests.touch import finger_geometry
+from tests.touch.kinematic_robot import interfaces, proxy_of
+from tests.touch.shipped_component import COMPONENTS
+from tests.touch.shipped_system import ARM, BOARDS
 
 DEADLINE = 120.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -76,7 +76,7 @@ pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themse
 def until(condition: Callable[[], Any], what: str) -> None:
     end = time.monotonic() + DEADLINE
     while time.monotonic() < end:
-        with contextlib.suppress(MiddlewareError, words.RoboCompGenericArm_NotPossible):
+        with contextlib.suppress(MiddlewareError, interfaces.RoboCompGenericArm_NotPossible):
             if condition():
                 return
         time.sleep(0.01)
@@ -90,22 +90,23 @@ class Deployed:
         self.name, self.makes_time = f"reflex-{robot}-{os.getpid()}", "sim" in clock
         home = COMPONENTS / f"{robot}_simulator"
         description = home / "tactile.yaml"
-        file, self.said = folder / "touch.ddsl", folder / "said.txt"
+        file, self.output_file = folder / "touch.ddsl", folder / "output.txt"
         board = BOARDS[robot, SIDE]
-        said = {"description": description, "robot": robot, "clock": clock, "board": board}
-        file.write_text(DDSL.format(**said, components=COMPONENTS), encoding="utf-8")
+        values = {"description": description, "robot": robot, "clock": clock, "board": board}
+        file.write_text(DDSL.format(**values, components=COMPONENTS), encoding="utf-8")
         self.part = load_robot(description).part(SIDE)
         self.model = mujoco.MjModel.from_xml_path(str(home / f"{robot}.xml"))
         self.data = mujoco.MjData(self.model)
         mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
         mujoco.mj_forward(self.model, self.data)
-        host = Host("looker", self.name, Execution(), Statistics())
+        host = MiddlewareContext("looker", self.name, CallbackGroup(), Statistics())
         self._middleware = open_middleware("zenoh", host)
-        self.reflex = self._proxy(proxy_of(words.REFLEX), "reflex", "Reflex")
+        self.reflex = self._proxy(proxy_of(interfaces.REFLEX), "reflex", "Reflex")
         self.finger = self._proxy(proxy_of(ARM.interfaces.CONTROLBOARD), "robot", "finger")
-        self.arm = self._proxy(proxy_of(words.GENERICARM), "arm", "GenericArm")
+        self.arm = self._proxy(proxy_of(interfaces.GENERICARM), "arm", "GenericArm")
         self.about = {
-            one: self._proxy(ComponentProxy, one, "Component") for one in ("robot", "arm", "reflex")
+            name: self._proxy(ComponentProxy, name, "Component")
+            for name in ("robot", "arm", "reflex")
         }
         self.pids: set[int] = set()
         self.process = subprocess.Popen(
@@ -119,15 +120,15 @@ class Deployed:
                 self.name,
                 "--no-table",
             ],
-            stdout=self.said.open("w"),
+            stdout=self.output_file.open("w"),
             stderr=subprocess.STDOUT,
         )
 
     def _proxy(self, kind: Any, component: str, port: str) -> Any:
         at = Endpoint(kind.INTERFACE, "looker", port, (f"{component}.{port}",))
-        made = kind(self._middleware.proxy(at))
-        made.set_timeout(2.0)
-        return made
+        proxy = kind(self._middleware.proxy(at))
+        proxy.set_timeout(2.0)
+        return proxy
 
     def pid(self, name: str) -> int:
         pid = int(self.about[name].getInfo().pid)
@@ -154,9 +155,9 @@ class Deployed:
 
     def touch(self, place: str) -> None:
         """Bring the finger before a field, and into the skin."""
-        field = next(one for one in self.part.fields if one.name == place)
+        field = next(candidate for candidate in self.part.fields if candidate.name == place)
         for off, seconds in ((0.12, 1.0), (0.004, 0.5), (-0.006, 0.1)):
-            goal = fingertip.before_skin(self.model, self.data, self.part, field, off)
+            goal = finger_geometry.before_skin(self.model, self.data, self.part, field, off)
             here = self.finger.getState().position
             self.finger.setReferenceSpeed([], np.maximum(np.abs(goal - here) / seconds, 0.01))
             self.finger.positionMove([], goal)
@@ -183,18 +184,19 @@ class Deployed:
 def deployed(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[Deployed]:
-    made = Deployed(*request.param, tmp_path_factory.mktemp(request.param[0]))
+    deployment = Deployed(*request.param, tmp_path_factory.mktemp(request.param[0]))
     code = None
     try:
-        made.awake()
-        for one in made.about:
-            made.pid(one)
-        yield made
+        deployment.awake()
+        for component in deployment.about:
+            deployment.pid(component)
+        yield deployment
     finally:
-        code = made.end()
-        sys.stdout.write(made.said.read_text(encoding="utf-8"))  # shown where something failed
+        code = deployment.end()
+        # pytest shows it if a test fails
+        sys.stdout.write(deployment.output_file.read_text(encoding="utf-8"))
     assert code == 0
-    assert not [pid for pid in made.pids if Path(f"/proc/{pid}").exists()]
+    assert not [pid for pid in deployment.pids if Path(f"/proc/{pid}").exists()]
 
 
 def test_the_finger_touches_and_the_arm_withdraws_and_comes_back(deployed: Deployed) -> None:
@@ -220,7 +222,7 @@ def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who
         until(lambda: deployed.state() == "Emergency", "an emergency")
         reason = deployed.about["reflex"].getInfo().reason
         assert reason
-        assert ("nobody tells the time" in reason) == (who == "robot" and deployed.makes_time)
+        assert ("simulated clock lost" in reason) == (who == "robot" and deployed.makes_time)
         frames = deployed.reflex.getStatistics().framesAccepted
         if who == "arm":  # the skin is there all the time, and heard
             until(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
@@ -246,7 +248,7 @@ def test_an_arm_that_hangs_on_its_way_is_stopped_when_it_is_back(deployed: Deplo
     finally:
         os.kill(hanging, signal.SIGCONT)
     deployed.awake()
-    assert frozen.state == words.ReflexState.Frozen
+    assert frozen.state == interfaces.ReflexState.Frozen
 
 
 @pytest.mark.parametrize("who", ["arm", "robot", "reflex"])

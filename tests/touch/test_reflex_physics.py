@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from equations import gain
-from pressed import Pressed
-from puppet import Touched, words
-from stepped import TICK
 
 from robocomp_dsl.tactile.reflex.law import Field
+from tests.touch.equations import gain
+from tests.touch.kinematic_robot import ReflexHarness, interfaces
+from tests.touch.lockstep_harness import TICK
+from tests.touch.physical_robot import PhysicalRobot
 
 ARMS = [(n, s) for n in ("nao_h21", "nao_h25", "icub_v2") for s in ("left_arm", "right_arm")]
 PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_upper",
@@ -23,22 +23,22 @@ FORCES = {"threshold": 0.03, "full": 0.12}
 
 
 @pytest.fixture
-def stage() -> Iterator[Callable[..., Touched]]:
+def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
     """Makes robots, and looks at all their joints did when the test is over."""
-    made: list[Touched] = []
+    systems: list[ReflexHarness] = []
 
-    def make(robot: str, side: str, **said: object) -> Touched:
-        made.append(Touched(robot, side, Pressed, **{**FORCES, **said}))
-        return made[-1].awake()
+    def make(robot: str, side: str, **params: object) -> ReflexHarness:
+        systems.append(ReflexHarness(robot, side, PhysicalRobot, **{**FORCES, **params}))
+        return systems[-1].awake()
 
     yield make
-    for one in made:
-        one.close()
-    for one in made:
-        keeps_to_its_limits(one.robot)
+    for system in systems:
+        system.close()
+    for system in systems:
+        keeps_to_its_limits(system.robot)
 
 
-def keeps_to_its_limits(robot: Pressed) -> None:
+def keeps_to_its_limits(robot: PhysicalRobot) -> None:
     """The angles and speeds that the joints really had, whatever was commanded."""
     poses, speeds = np.array(robot.poses), np.abs(robot.speeds)
     assert (poses >= robot.arm.low).all()
@@ -48,8 +48,8 @@ def keeps_to_its_limits(robot: Pressed) -> None:
 
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_a_pressed_arm_withdraws_and_comes_back(stage, robot, side, place) -> None:
-    touched = stage(robot, side)
+def test_a_pressed_arm_withdraws_and_comes_back(start_reflex, robot, side, place) -> None:
+    touched = start_reflex(robot, side)
     it, field = touched.robot, touched.field(place)
     before = it.spot(field)
     it.press(field, 0.004, 0.5)
@@ -68,45 +68,45 @@ def test_a_pressed_arm_withdraws_and_comes_back(stage, robot, side, place) -> No
     seen = touched.reflex.getStatistics()
     assert seen.withdrawals == 1
     assert seen.framesAccepted > 100
-    assert touched.worker().sense.gate.rejected.total() < 20  # while the geometry was unknown
+    assert touched.worker().sense.validator.rejected.total() < 20  # while the geometry was unknown
 
 
-def test_a_gentle_touch_below_the_threshold_is_left_alone(stage) -> None:
-    touched = stage("nao_h21", "left_arm", threshold=50.0, full=60.0)
+def test_a_gentle_touch_below_the_threshold_is_left_alone(start_reflex) -> None:
+    touched = start_reflex("nao_h21", "left_arm", threshold=50.0, full=60.0)
     touched.robot.press(touched.field("lower_arm_under"), 0.002, 0.3)
     touched.run(0.5)
     assert touched.robot.peak > 0.5
     assert touched.robot.moves == []
 
 
-def events(touched: Touched) -> list[Any]:
-    return [one for one in touched.robot.heard if isinstance(one, words.Event)]
+def events(touched: ReflexHarness) -> list[Any]:
+    return [event for event in touched.robot.heard if isinstance(event, interfaces.Event)]
 
 
-def strength(touched: Touched, name: str) -> float:
+def strength(touched: ReflexHarness, name: str) -> float:
     """How strongly a field has answered so far."""
-    return max((one.gain for one in events(touched) if one.field == name), default=0.0)
+    return max((event.gain for event in events(touched) if event.field == name), default=0.0)
 
 
-def only(touched: Touched, *names: str) -> None:
-    touched.reflex.setFields([one for one in touched.reflex.getFields() if one.name in names])
+def only(touched: ReflexHarness, *names: str) -> None:
+    touched.reflex.setFields([field for field in touched.reflex.getFields() if field.name in names])
 
 
 BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
 
 
 @BOTH
-def test_every_answer_is_what_the_equations_say_of_the_frame(stage, robot) -> None:
+def test_every_answer_is_what_the_equations_say_of_the_frame(start_reflex, robot) -> None:
     """Rows 2, 3 and 7 of the acceptance table, with the forces that physics makes of a press."""
-    touched = stage(robot, "left_arm", full=5.0)
+    touched = start_reflex(robot, "left_arm", full=5.0)
     it, place = touched.robot, "lower_arm_outer"
     only(touched, place)
     it.press(touched.field(place), 0.003, 0.3, along=0.006)
     touched.run(0.4)
-    told = events(touched)
-    assert told
+    responses = events(touched)
+    assert responses
     field, geometry = touched.field(place), it.geometry
-    for event in told:
+    for event in responses:
         force = it.frames[event.time].astype(float)
         index = np.flatnonzero((force > 0) & (geometry.limb == geometry.limbs.index(event.limb)))
         assert len(index) > 3
@@ -118,14 +118,14 @@ def test_every_answer_is_what_the_equations_say_of_the_frame(stage, robot) -> No
 
 @BOTH
 @pytest.mark.parametrize("place", ["lower_arm_under", "upper_arm_front"])
-def test_a_hard_press_at_the_centre_saturates(stage, robot, place) -> None:
+def test_a_hard_press_at_the_centre_saturates(start_reflex, robot, place) -> None:
     """Rows 1 and 6: as far as the base motion says, and no further."""
-    touched = stage(robot, "right_arm", threshold=0.01, full=0.05)
+    touched = start_reflex(robot, "right_arm", threshold=0.01, full=0.05)
     only(touched, place)
     start, field = touched.robot.poses[-1], touched.field(place)
     touched.robot.press(field, 0.004, 0.3)
     touched.run(0.3)
-    (last,) = [one for one in events(touched) if one.gain == strength(touched, place)]
+    (last,) = [event for event in events(touched) if event.gain == strength(touched, place)]
     assert last.force > 0.05
     assert last.gain > 0.9
     assert last.gain == pytest.approx(1 - last.distance / field.radius)
@@ -133,7 +133,7 @@ def test_a_hard_press_at_the_centre_saturates(stage, robot, place) -> None:
     assert touched.robot.poses[-1] - start == pytest.approx(last.motion, abs=0.05)
 
 
-def answer_to(touched: Touched, field: Field, depth: float, along: float = 0.0) -> Any:
+def answer_to(touched: ReflexHarness, field: Field, depth: float, along: float = 0.0) -> Any:
     """What the field `f` answers to a press that the arm has borne for a while; None: nothing."""
     touched.reflex.enable(False)
     touched.robot.press(field, depth, 0.5, along=along)
@@ -141,54 +141,57 @@ def answer_to(touched: Touched, field: Field, depth: float, along: float = 0.0) 
     assert touched.robot.felt().sum() > 0.2
     touched.reflex.enable(True)
     touched.run(TICK)
-    told = events(touched)
-    return told[0] if told else None
+    responses = events(touched)
+    return responses[0] if responses else None
 
 
-def one_field(touched: Touched, radius: float) -> Field:
+def one_field(touched: ReflexHarness, radius: float) -> Field:
     """The only field is that of the place, as wide as this."""
     field = touched.field("lower_arm_outer")
     centre = field.centre.tolist()
     touched.reflex.setFields(
-        [words.Field("f", "left_arm/lower_arm", *centre, radius, field.motion)]
+        [interfaces.Field("f", "left_arm/lower_arm", *centre, radius, field.motion)]
     )
     return field
 
 
 @BOTH
-def test_the_harder_the_press_the_further(stage, robot) -> None:
+def test_the_harder_the_press_the_further(start_reflex, robot) -> None:
     """Rows 2, 5 and 6."""
-    told = []
+    responses = []
     for depth in (0.0004, 0.0008, 0.0016, 0.0032):
-        touched = stage(robot, "left_arm", threshold=0.0, full=2.0)
-        told.append(answer_to(touched, one_field(touched, 0.03), depth))
-    forces, gains = [one.force for one in told], [one.gain for one in told]
+        touched = start_reflex(robot, "left_arm", threshold=0.0, full=2.0)
+        responses.append(answer_to(touched, one_field(touched, 0.03), depth))
+    forces, gains = [event.force for event in responses], [event.gain for event in responses]
     assert forces == sorted(forces)
     assert gains == sorted(gains)
     assert len(set(gains)) == 4
-    touched = stage(robot, "left_arm", threshold=forces[-1] + 0.1, full=50.0)
+    touched = start_reflex(robot, "left_arm", threshold=forces[-1] + 0.1, full=50.0)
     assert answer_to(touched, one_field(touched, 0.03), 0.0032) is None
     assert touched.robot.moves == []
 
 
 @BOTH
-def test_the_further_from_the_centre_the_weaker_and_outside_nothing(stage, robot) -> None:
+def test_the_further_from_the_centre_the_weaker_and_outside_nothing(start_reflex, robot) -> None:
     """Rows 3 and 4: along the limb from the centre to beyond the edge."""
-    told = []
+    responses = []
     for along in (0.0, 0.012, 0.02, 0.03):
-        touched = stage(robot, "left_arm", threshold=0.0, full=0.001)
-        told.append(answer_to(touched, one_field(touched, 0.025), 0.002, along))
-    assert told.pop() is None
+        touched = start_reflex(robot, "left_arm", threshold=0.0, full=0.001)
+        responses.append(answer_to(touched, one_field(touched, 0.025), 0.002, along))
+    assert responses.pop() is None
     assert touched.robot.moves == []
-    away, gains = [one.distance for one in told], [one.gain for one in told]
+    away, gains = (
+        [response.distance for response in responses],
+        [response.gain for response in responses],
+    )
     assert away == sorted(away)
-    assert gains == pytest.approx([1 - one / 0.025 for one in away])
+    assert gains == pytest.approx([1 - response / 0.025 for response in away])
     assert away[-1] - away[0] > 0.005
 
 
 @BOTH
-def test_a_dead_patch_feels_nothing_and_the_other_goes_on(stage, robot) -> None:
-    touched = stage(robot, "left_arm")
+def test_a_dead_patch_feels_nothing_and_the_other_goes_on(start_reflex, robot) -> None:
+    touched = start_reflex(robot, "left_arm")
     it = touched.robot
     dead = it.geometry.patch == it.geometry.patches.index("left_lower_arm")
     alive = it.felt
@@ -203,8 +206,8 @@ def test_a_dead_patch_feels_nothing_and_the_other_goes_on(stage, robot) -> None:
 
 
 @BOTH
-def test_when_the_skin_falls_silent_on_the_way_the_arm_stops(stage, robot) -> None:
-    touched = stage(robot, "left_arm", withdraw_speed=0.1)
+def test_when_the_skin_falls_silent_on_the_way_the_arm_stops(start_reflex, robot) -> None:
+    touched = start_reflex(robot, "left_arm", withdraw_speed=0.1)
     it = touched.robot
     it.press(touched.field("lower_arm_outer"), 0.003, 0.3)
     touched.until("Withdrawing", 1.0)

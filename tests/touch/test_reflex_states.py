@@ -10,17 +10,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from puppet import REFLEX, Touched, words
+
+from tests.touch.kinematic_robot import REFLEX, ReflexHarness, interfaces
 
 
 @pytest.fixture
-def touched() -> Iterator[Touched]:
-    made = Touched()
-    yield made
-    made.close()
+def touched() -> Iterator[ReflexHarness]:
+    system = ReflexHarness()
+    yield system
+    system.close()
 
 
-def test_a_touch_withdraws_holds_and_returns(touched: Touched) -> None:
+def test_a_touch_withdraws_holds_and_returns(touched: ReflexHarness) -> None:
     touched.awake()
     start, field = touched.robot.pose, touched.field("lower_arm_under")
     assert touched.robot.moves == []
@@ -47,7 +48,9 @@ def test_a_touch_withdraws_holds_and_returns(touched: Touched) -> None:
 
 def test_the_states_of_the_machine_are_those_that_the_interface_tells() -> None:
     machine = REFLEX.worker.SPEC.machine
-    assert {one.name for one in machine.states} == {one.name for one in words.ReflexState}
+    assert {state.name for state in machine.states} == {
+        state_.name for state_ in interfaces.ReflexState
+    }
 
 
 def test_its_page_draws_the_machine(tmp_path: Path) -> None:
@@ -56,9 +59,9 @@ def test_its_page_draws_the_machine(tmp_path: Path) -> None:
     subprocess.run([rcgen, "doc", "-q", file, "-o", tmp_path / "doc"], check=True, timeout=60)
     page = (tmp_path / "doc" / "components" / "reflex.html").read_text(encoding="utf-8")
     drawings = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
-    (drawn,) = [one for one in drawings if ">Withdrawing<" in one]
-    said = re.findall(r"<text[^>]*>([^<]+)", drawn)
-    assert sorted(said) == sorted(
-        [one.name for one in words.ReflexState]
-        + [one.event for one in REFLEX.worker.SPEC.machine.transitions]
+    (drawn,) = [drawing for drawing in drawings if ">Withdrawing<" in drawing]
+    labels = re.findall(r"<text[^>]*>([^<]+)", drawn)
+    assert sorted(labels) == sorted(
+        [state_.name for state_ in interfaces.ReflexState]
+        + [transition.event for transition in REFLEX.worker.SPEC.machine.transitions]
     )

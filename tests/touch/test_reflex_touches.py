@@ -8,33 +8,33 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from puppet import ROBOTS, Central, Touched, words
 
-from robocomp_dsl.runtime.parameters import Refused
+from robocomp_dsl.runtime.parameters import ParameterRejected
+from tests.touch.kinematic_robot import ROBOTS, CentredRobot, ReflexHarness, interfaces
 
 ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
 QUICK = {"refractory": 0.0, "hold": 0.02, "return_speed": 1.0}
 
 
 @pytest.fixture
-def stage() -> Iterator[Callable[..., Touched]]:
-    made: list[Touched] = []
+def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
+    systems: list[ReflexHarness] = []
 
-    def make(*given: object, **said: object) -> Touched:
-        made.append(Touched(*given, **said))
-        return made[-1].awake()
+    def make(*arguments: object, **params: object) -> ReflexHarness:
+        systems.append(ReflexHarness(*arguments, **params))
+        return systems[-1].awake()
 
     yield make
-    for one in made:
-        one.close()
+    for system in systems:
+        system.close()
 
 
 @pytest.fixture(params=ARMS, ids=[f"{robot}-{side}" for robot, side in ARMS])
-def touched(stage, request) -> Touched:
-    return stage(*request.param, Central)
+def touched(start_reflex, request) -> ReflexHarness:
+    return start_reflex(*request.param, CentredRobot)
 
 
-def withdrawal(touched: Touched, taxels: np.ndarray, newtons: float) -> np.ndarray:
+def withdrawal(touched: ReflexHarness, taxels: np.ndarray, newtons: float) -> np.ndarray:
     """Where a touch of one frame sends the arm, from rest to rest."""
     start, count = touched.robot.pose, len(touched.robot.moves)
     touched.robot.forces = np.where(taxels, newtons, 0.0)
@@ -48,9 +48,9 @@ def withdrawal(touched: Touched, taxels: np.ndarray, newtons: float) -> np.ndarr
     return goal - start
 
 
-def test_the_harder_the_further(stage) -> None:
+def test_the_harder_the_further(start_reflex) -> None:
     for robot in ROBOTS:
-        touched = stage(robot, "left_arm", Central, **QUICK)
+        touched = start_reflex(robot, "left_arm", CentredRobot, **QUICK)
         near = touched.near(touched.field("lower_arm_under"), 0.01)
         far = [np.abs(withdrawal(touched, near, n)).max() for n in (0.04, 0.06, 0.1, 0.3, 0.5, 5.0)]
         assert far == sorted(far)
@@ -61,9 +61,9 @@ def test_the_harder_the_further(stage) -> None:
         assert far[-1] == far[-2]
 
 
-def test_the_nearer_to_the_centre_the_further(stage) -> None:
+def test_the_nearer_to_the_centre_the_further(start_reflex) -> None:
     for robot in ROBOTS:
-        touched = stage(robot, "left_arm", Central, **QUICK)
+        touched = start_reflex(robot, "left_arm", CentredRobot, **QUICK)
         name = "lower_arm_outer"
         touched.reflex.setFields([f for f in touched.reflex.getFields() if f.name == name])
         field, geometry = touched.field(name), touched.robot.geometry
@@ -73,8 +73,8 @@ def test_the_nearer_to_the_centre_the_further(stage) -> None:
         mine = mine[np.linspace(0, len(mine) - 1, 20).astype(int)]
         far = []
         for taxel in mine:
-            one = np.arange(geometry.size) == taxel
-            far.append(np.abs(withdrawal(touched, one, 5.0)).max())
+            pressed = np.arange(geometry.size) == taxel
+            far.append(np.abs(withdrawal(touched, pressed, 5.0)).max())
         outside = away[mine] >= field.radius
         assert outside.any()
         assert not outside.all()
@@ -89,8 +89,8 @@ def test_below_the_threshold_and_outside_all_fields_nothing_moves(touched) -> No
     touched.run(1.0)
     assert touched.robot.moves == []
     inside = np.zeros(geometry.size, bool)
-    for one in touched.robot.part.fields:
-        inside |= touched.near(one, one.radius + 0.02)
+    for field in touched.robot.part.fields:
+        inside |= touched.near(field, field.radius + 0.02)
     other = np.array([geometry.limbs[i].startswith(touched.robot.side) for i in geometry.limb])
     touched.robot.forces = np.where(other & inside, 0.0, 50.0)
     touched.run(1.0)
@@ -109,25 +109,25 @@ def test_a_touch_of_the_other_arm_moves_nothing(touched) -> None:
 
 def test_two_touches_at_once_add_up(touched) -> None:
     a, b = touched.field("lower_arm_under"), touched.field("upper_arm_front")
-    one = withdrawal(touched, touched.near(a, 0.01), 5.0)
+    first = withdrawal(touched, touched.near(a, 0.01), 5.0)
     touched.run(1.0)
     other = withdrawal(touched, touched.near(b, 0.01), 5.0)
     touched.run(1.0)
     both = withdrawal(touched, touched.near(a, 0.01) | touched.near(b, 0.01), 5.0)
-    assert np.abs(one).max() > 0.1
+    assert np.abs(first).max() > 0.1
     assert np.abs(other).max() > 0.1
-    assert both == pytest.approx(one + other, abs=1e-9)
+    assert both == pytest.approx(first + other, abs=1e-9)
 
 
 def test_touches_on_both_sides_of_a_limb_are_two(touched) -> None:
     """One mean of both would lie inside the limb, where no field is."""
     a, b = touched.field("lower_arm_outer"), touched.field("lower_arm_inner")
-    one = withdrawal(touched, touched.near(a, 0.01), 5.0)
+    first = withdrawal(touched, touched.near(a, 0.01), 5.0)
     touched.run(1.0)
     other = withdrawal(touched, touched.near(b, 0.01), 5.0)
     touched.run(1.0)
     both = withdrawal(touched, touched.near(a, 0.01) | touched.near(b, 0.01), 5.0)
-    assert both == pytest.approx(one + other, abs=1e-9)
+    assert both == pytest.approx(first + other, abs=1e-9)
 
 
 def test_a_touch_during_a_withdrawal_adds_to_it(touched) -> None:
@@ -172,8 +172,8 @@ def test_a_touch_while_it_stays_away_sends_it_further(touched) -> None:
     assert len(touched.robot.moves) == moves + 1
 
 
-def test_a_touch_on_the_way_back_withdraws_from_there(stage) -> None:
-    touched = stage("icub_v2", "left_arm", Central, refractory=0.5, hold=0.1)
+def test_a_touch_on_the_way_back_withdraws_from_there(start_reflex) -> None:
+    touched = start_reflex("icub_v2", "left_arm", CentredRobot, refractory=0.5, hold=0.1)
     touched.press("lower_arm_under", 5.0)
     touched.run(0.04)
     touched.release()
@@ -269,7 +269,7 @@ def test_forces_and_fields_change_while_it_runs(touched) -> None:
     field = touched.field("lower_arm_under")
     motion = np.array([0.0, 0.0, 0.2, 0.0, 0.0])
     limb = f"{touched.robot.side}/{field.limb}"
-    mine = words.Field("mine", limb, *field.centre.tolist(), 0.04, motion)
+    mine = interfaces.Field("mine", limb, *field.centre.tolist(), 0.04, motion)
     touched.reflex.setFields([mine])
     assert [(f.name, f.limb, f.radius) for f in touched.reflex.getFields()] == [
         ("mine", limb, 0.04)
@@ -283,7 +283,9 @@ def test_forces_and_fields_change_while_it_runs(touched) -> None:
 
 def test_parameters_of_the_machine_change_while_it_runs(touched) -> None:
     params = touched.worker().params
-    with pytest.raises(Refused, match=r"`threshold`, 0.6 N, must be less than `full`, 0.5 N"):
+    with pytest.raises(
+        ParameterRejected, match=r"`threshold`, 0.6 N, must be less than `full`, 0.5 N"
+    ):
         params.set({"threshold": 0.6})
     params.set({"threshold": 0.6, "full": 3.0, "hold": 0.2, "withdraw_speed": 0.5})
     touched.press("lower_arm_under", 5.0)
@@ -304,11 +306,11 @@ def test_taxels_within_reach_are_one_touch(touched) -> None:
     touched.robot.forces[first] = 0.5
     touched.robot.forces[near[np.argsort(apart)[1]]] = 0.06
     touched.run(0.02)
-    (one,) = [e for e in touched.robot.heard if isinstance(e, words.Event)]
-    assert 0.2 < one.force < 0.35
+    (response,) = [e for e in touched.robot.heard if isinstance(e, interfaces.Event)]
+    assert 0.2 < response.force < 0.35
     touched.worker().params.set({"reach": 0.002})
     touched.run(0.02)
-    events = [e for e in touched.robot.heard if isinstance(e, words.Event)]
+    events = [e for e in touched.robot.heard if isinstance(e, interfaces.Event)]
     assert max(e.force for e in events) == pytest.approx(0.5)
 
 
@@ -318,15 +320,15 @@ def test_events_tell_what_was_answered_and_what_it_does(touched) -> None:
     touched.release()
     touched.until("Watching")
     heard = touched.robot.heard
-    states = [one for one in heard if isinstance(one, words.ReflexState)]
-    assert [one.name for one in states] == [
+    states = [message for message in heard if isinstance(message, interfaces.ReflexState)]
+    assert [state.name for state in states] == [
         "Watching",
         "Withdrawing",
         "Holding",
         "Returning",
         "Watching",
     ]
-    event = next(one for one in heard if isinstance(one, words.Event))
+    event = next(message for message in heard if isinstance(message, interfaces.Event))
     field = touched.field("lower_arm_under")
     assert (event.field, event.limb) == (field.name, f"{touched.robot.side}/{field.limb}")
     assert event.force == pytest.approx(5.0)
@@ -344,8 +346,8 @@ TOUCHES = st.lists(
 
 @pytest.mark.parametrize(("robot", "side"), ARMS)
 def test_whatever_touches_it_no_limit_and_no_speed_is_left(robot: str, side: str) -> None:
-    touched = Touched(robot, side, refractory=0.1, hold=0.05, full=1.0).awake()
-    names = [one.name for one in touched.robot.part.fields]
+    touched = ReflexHarness(robot, side, refractory=0.1, hold=0.05, full=1.0).awake()
+    names = [field.name for field in touched.robot.part.fields]
 
     @settings(max_examples=25)
     @given(TOUCHES)

@@ -1,4 +1,4 @@
-"""The page of a component, and those of parameters and state machines that stand alone.
+"""The page of a component, and pages of parameters and state machines without a component.
 
 In: model and site. Out: pages.
 """
@@ -7,28 +7,29 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from robocomp_dsl.generate import literals, params
+from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.doc.graphs import component_figure
-from robocomp_dsl.generate.doc.interface_page import badge, operations
+from robocomp_dsl.generate.doc.interface_page import operation_links, pattern_badge
 from robocomp_dsl.generate.doc.machine_blocks import machine_blocks
-from robocomp_dsl.generate.doc.prose import inline_doc, prose
-from robocomp_dsl.generate.doc.site import Names, Site
-from robocomp_dsl.generate.doc.words import (
-    BLANK,
+from robocomp_dsl.generate.doc.nodes import (
+    SPACE,
     Badge,
     Block,
-    Code,
-    Facts,
+    DocumentationPage,
+    FactTable,
     Heading,
-    Page,
-    Row,
-    Text,
-    Words,
-    code,
-    joined,
-    table,
-    text,
+    InlineCode,
+    Inlines,
+    PlainText,
+    TableRow,
+    data_table,
+    inline_code,
+    join_inlines,
+    plain_text,
 )
+from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
+from robocomp_dsl.generate.doc.site import AnchorNames, DocumentationSite
+from robocomp_dsl.generate.python import params
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.interface import Pattern
 from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
@@ -42,131 +43,165 @@ ROLES = {
 }
 
 
-def component_page(component: Component, site: Site) -> Page:
+def component_page(component: Component, site: DocumentationSite) -> DocumentationPage:
     """Ports, parameters, settings and states of a component."""
-    return Page(site.page(component), component.name, "Component", tuple(_blocks(component, site)))
+    return DocumentationPage(
+        site.page(component), component.name, "Component", tuple(_blocks(component, site))
+    )
 
 
-def machine_page(one: StateMachine, site: Site) -> Page:
-    """A state machine that no documented component names."""
-    blocks = (Facts((("File", code(one.path.name)),)), *machine_blocks(one, site.page(one)))
-    return Page(site.page(one), one.name, "State machine", blocks)
+def machine_page(machine: StateMachine, site: DocumentationSite) -> DocumentationPage:
+    """The page of a state machine that no documented component uses."""
+    blocks = (
+        FactTable((("File", inline_code(machine.path.name)),)),
+        *machine_blocks(machine, site.page(machine)),
+    )
+    return DocumentationPage(site.page(machine), machine.name, "State machine", blocks)
 
 
-def parameters_page(one: ParameterSet, site: Site) -> Page:
-    """Parameters of a file that no documented component names."""
-    blocks = (Facts((("File", code(one.path.name)),)), *prose(one.doc), *parameter_table(one))
-    return Page(site.page(one), one.name, "Parameters", blocks)
+def parameters_page(parameters: ParameterSet, site: DocumentationSite) -> DocumentationPage:
+    """The page of parameters that no documented component uses."""
+    blocks = (
+        FactTable((("File", inline_code(parameters.path.name)),)),
+        *parse_prose(parameters.doc),
+        *parameter_table(parameters),
+    )
+    return DocumentationPage(site.page(parameters), parameters.name, "Parameters", blocks)
 
 
-def _blocks(component: Component, site: Site) -> Iterator[Block]:
-    yield Facts(tuple(_facts(component, site)))
-    yield from prose(component.doc)
+def _blocks(component: Component, site: DocumentationSite) -> Iterator[Block]:
+    yield FactTable(tuple(_facts(component, site)))
+    yield from parse_prose(component.doc)
     if component.ports:
-        yield Heading(2, text("Ports"), "ports")
+        yield Heading(2, plain_text("Ports"), "ports")
         yield component_figure(component, site)
     head = ("port", "how", "interface", "operations", "middleware")
-    yield from table(f"Ports of {component.name}", head, [_port(p, site) for p in component.ports])
+    yield from data_table(
+        f"Ports of {component.name}", head, [_port(p, site) for p in component.ports]
+    )
     if component.parameters and component.parameters.parameters:
-        yield Heading(2, text("Parameters"), "parameters")
-        yield from prose(component.parameters.doc)
+        yield Heading(2, plain_text("Parameters"), "parameters")
+        yield from parse_prose(component.parameters.doc)
         yield from parameter_table(component.parameters)
     machine = component.statemachine.machine if component.statemachine else None
     if machine is not None:
-        yield Heading(2, text("States"), "states")
+        yield Heading(2, plain_text("States"), "states")
         yield from machine_blocks(machine, site.page(component))
 
 
-def _facts(component: Component, site: Site) -> Iterator[tuple[str, Words]]:
+def _facts(component: Component, site: DocumentationSite) -> Iterator[tuple[str, Inlines]]:
     period = f"every {component.period} ms" if component.period else "only on events"
-    yield "File", code(component.path.name)
-    yield "Language", text(component.language)
-    yield "Middleware", code(component.middleware)
-    yield "Computes", text(period)
+    yield "File", inline_code(component.path.name)
+    yield "Language", plain_text(component.language)
+    yield "Middleware", inline_code(component.middleware)
+    yield "Computes", plain_text(period)
     if component.threads != 1:
-        yield "Threads", text(str(component.threads))
+        yield "Threads", plain_text(str(component.threads))
     if component.gui:
-        yield "Window", code(component.gui)
+        yield "Window", inline_code(component.gui)
     if component.statemachine:
-        yield "State machine", code(component.statemachine.path.name)
+        yield "State machine", inline_code(component.statemachine.path.name)
     if component.options:
-        yield "Options", joined(map(code, component.options))
+        yield "Options", join_inlines(map(inline_code, component.options))
     homes = [
-        one
-        for one in site.subject.deployments
-        if any(site.page(part.component) == site.page(component) for part in one.instances)
+        deployment
+        for deployment in site.subject.deployments
+        if any(site.page(part.component) == site.page(component) for part in deployment.instances)
     ]
     if homes:
-        yield "Deployed in", joined(map(site.link, homes))
+        yield "Deployed in", join_inlines(map(site.link, homes))
 
 
-def _port(port: Port, site: Site) -> Row:
-    groups: dict[Pattern, list[Words]] = {}
-    for one, words in operations(port.interface, site):
-        groups.setdefault(port.pattern(one), []).append(words)
-    spoken = joined(
-        ((*badge(pattern), BLANK, *joined(ones)) for pattern, ones in groups.items()), BLANK
+def _port(port: Port, site: DocumentationSite) -> TableRow:
+    groups: dict[Pattern, list[Inlines]] = {}
+    for operation, words in operation_links(port.interface, site):
+        groups.setdefault(port.pattern(operation), []).append(words)
+    spoken = join_inlines(
+        (
+            (*pattern_badge(pattern), SPACE, *join_inlines(names))
+            for pattern, names in groups.items()
+        ),
+        SPACE,
     )
     how = f"{ROLES[port.role]}, optional" if port.optional else ROLES[port.role]
-    front = (code(port.name), text(how), site.declared(port.interface))
-    return Row((*front, spoken, code(port.middleware)))
+    front = (inline_code(port.name), plain_text(how), site.declaration_link(port.interface))
+    return TableRow((*front, spoken, inline_code(port.middleware)))
 
 
-def parameter_table(one: ParameterSet) -> Iterator[Block]:
-    """All parameters, those inside groups with the names of the groups before theirs."""
+def parameter_table(parameters: ParameterSet) -> Iterator[Block]:
+    """A table of all parameters; parameters of groups have the path of the group."""
     head = ("parameter", "type", "default", "range", "unit", "what it is")
-    names = Names()
+    names = AnchorNames()
     rows = [
-        Row(_parameter(path, p), names.claim(f"parameter.{path}"))
-        for path, p in _flat(one.parameters)
+        TableRow(_parameter(path, p), names.claim(f"parameter.{path}"))
+        for path, p in _walk_parameters(parameters.parameters)
     ]
-    yield from table(f"Parameters of {one.name}", head, rows)
+    yield from data_table(f"Parameters of {parameters.name}", head, rows)
 
 
-def _flat(parameters: Iterable[Parameter], before: str = "") -> Iterator[tuple[str, Parameter]]:
-    for one in parameters:
-        listed = "" if one.single or one.kind is not Kind.GROUP else "[]"
-        path = f"{before}{one.name}{listed}"
-        yield path, one
-        yield from _flat(one.members, f"{path}.")
+def _walk_parameters(
+    parameters: Iterable[Parameter], before: str = ""
+) -> Iterator[tuple[str, Parameter]]:
+    for parameter in parameters:
+        listed = "" if parameter.single or parameter.kind is not Kind.GROUP else "[]"
+        path = f"{before}{parameter.name}{listed}"
+        yield path, parameter
+        yield from _walk_parameters(parameter.members, f"{path}.")
 
 
-def _parameter(path: str, one: Parameter) -> tuple[Words, ...]:
-    group = one.kind is Kind.GROUP
-    default = text("must be given") if one.default is None and not group else _default(one)
-    live = (BLANK, Badge("live", "live")) if one.live else ()
-    name = (Code(path), *live)
-    return name, _type(one), default, _range(one), code(one.unit), inline_doc(one.doc)
-
-
-def _type(one: Parameter) -> Words:
-    if one.kind is Kind.CHOICE:
-        return (Text("one of "), *joined(map(code, one.choices)))
-    if one.kind is Kind.GROUP:
-        return text(params.takes(one).removeprefix("a "))
-    return code(one.kind.value)
-
-
-def _default(one: Parameter) -> Words:
-    if one.default is None:
-        return ()
-    if one.kind is Kind.FLOAT and not isinstance(one.default, str):
-        return code(f"{float(one.default):g}")
-    return code(str(one.default) if one.kind is Kind.CHOICE else literals.yaml_value(one.default))
-
-
-def _range(one: Parameter) -> Words:
-    if one.kind is Kind.GROUP or (one.low is None and one.high is None):
-        return ()
-    low, high = (None if bound is None else _number(bound) for bound in (one.low, one.high))
-    if low is None:
-        return (Text("≤\u00a0"), Code(high or ""))
+def _parameter(path: str, parameter: Parameter) -> tuple[Inlines, ...]:
+    group = parameter.kind is Kind.GROUP
+    default = (
+        plain_text("must be given")
+        if parameter.default is None and not group
+        else _default(parameter)
+    )
+    live = (SPACE, Badge("live", "live")) if parameter.live else ()
+    name = (InlineCode(path), *live)
     return (
-        (Text("≥\u00a0"), Code(low))
-        if high is None
-        else (Code(low), Text("\u00a0…\u00a0"), Code(high))
+        name,
+        _type(parameter),
+        default,
+        _range(parameter),
+        inline_code(parameter.unit),
+        flatten_doc(parameter.doc),
     )
 
 
-def _number(bound: float) -> str:
+def _type(parameter: Parameter) -> Inlines:
+    if parameter.kind is Kind.CHOICE:
+        return (PlainText("one of "), *join_inlines(map(inline_code, parameter.choices)))
+    if parameter.kind is Kind.GROUP:
+        return plain_text(params.takes(parameter).removeprefix("a "))
+    return inline_code(parameter.kind.value)
+
+
+def _default(parameter: Parameter) -> Inlines:
+    if parameter.default is None:
+        return ()
+    if parameter.kind is Kind.FLOAT and not isinstance(parameter.default, str):
+        return inline_code(f"{float(parameter.default):g}")
+    return inline_code(
+        str(parameter.default)
+        if parameter.kind is Kind.CHOICE
+        else literals.yaml_value(parameter.default)
+    )
+
+
+def _range(parameter: Parameter) -> Inlines:
+    if parameter.kind is Kind.GROUP or (parameter.low is None and parameter.high is None):
+        return ()
+    low, high = (
+        None if bound is None else _format_bound(bound) for bound in (parameter.low, parameter.high)
+    )
+    if low is None:
+        return (PlainText("≤\u00a0"), InlineCode(high or ""))
+    return (
+        (PlainText("≥\u00a0"), InlineCode(low))
+        if high is None
+        else (InlineCode(low), PlainText("\u00a0…\u00a0"), InlineCode(high))
+    )
+
+
+def _format_bound(bound: float) -> str:
     return str(int(bound)) if float(bound).is_integer() and abs(bound) < 1e15 else f"{bound:.12g}"

@@ -6,118 +6,129 @@ from collections.abc import Iterator
 
 from robocomp_dsl.generate import literals
 from robocomp_dsl.generate.doc.graphs import deployment_figure
-from robocomp_dsl.generate.doc.interface_page import badge
-from robocomp_dsl.generate.doc.prose import inline_doc, prose
-from robocomp_dsl.generate.doc.site import Names, Site
-from robocomp_dsl.generate.doc.words import (
-    BLANK,
+from robocomp_dsl.generate.doc.interface_page import pattern_badge
+from robocomp_dsl.generate.doc.nodes import (
+    SPACE,
     Badge,
     Block,
-    Code,
-    Facts,
+    DocumentationPage,
+    FactTable,
     Heading,
-    Page,
-    Row,
-    Text,
-    Words,
-    code,
-    joined,
-    table,
-    text,
+    InlineCode,
+    Inlines,
+    PlainText,
+    TableRow,
+    data_table,
+    inline_code,
+    join_inlines,
+    plain_text,
 )
+from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
+from robocomp_dsl.generate.doc.site import AnchorNames, DocumentationSite
 from robocomp_dsl.model.deployment import Connection, Deployment, Export, Group, Host, Instance, Qos
 
 
-def deployment_page(deployment: Deployment, site: Site) -> Page:
-    """Instances and wires of a deployment, and the graph of both."""
+def deployment_page(deployment: Deployment, site: DocumentationSite) -> DocumentationPage:
+    """Instances and connections of a deployment, and their graph."""
     blocks = tuple(_blocks(deployment, site))
-    return Page(site.page(deployment), deployment.name, "Deployment", blocks)
+    return DocumentationPage(site.page(deployment), deployment.name, "Deployment", blocks)
 
 
-def _blocks(deployment: Deployment, site: Site) -> Iterator[Block]:
-    file = ("File", code(deployment.path.name))
-    yield Facts((file, ("Middleware", code(deployment.middleware))))
-    yield from prose(deployment.doc)
+def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
+    file = ("File", inline_code(deployment.path.name))
+    yield FactTable((file, ("Middleware", inline_code(deployment.middleware))))
+    yield from parse_prose(deployment.doc)
     if deployment.instances:
         yield deployment_figure(deployment, site)
-    names = Names()
-    anchors = {id(one): names.claim(f"instance.{one.name}") for one in deployment.instances}
-    yield Heading(2, text("Instances"), "instances")
+    names = AnchorNames()
+    anchors = {
+        id(instance): names.claim(f"instance.{instance.name}") for instance in deployment.instances
+    }
+    yield Heading(2, plain_text("Instances"), "instances")
     head = ("instance", "component", "host", "settings", "starts", "restarts", "what it is")
-    rows = [Row(_instance(one, site), anchors[id(one)]) for one in deployment.instances]
-    yield from table(f"Instances of {deployment.name}", head, rows)
+    rows = [
+        TableRow(_instance(instance, site), anchors[id(instance)])
+        for instance in deployment.instances
+    ]
+    yield from data_table(f"Instances of {deployment.name}", head, rows)
     if deployment.connections:
-        yield Heading(2, text("Wires"), "wires")
+        yield Heading(2, plain_text("Connections"), "connections")
     ends = ("from", "to", "interface", "pattern", "quality")
-    wires = [Row(_wire(one, site)) for one in deployment.connections]
-    yield from table(f"Wires of {deployment.name}", ends, wires)
-    groups = [Row(_group(one)) for one in deployment.groups]
+    wires = [TableRow(_connection(connection, site)) for connection in deployment.connections]
+    yield from data_table(f"Connections of {deployment.name}", ends, wires)
+    groups = [TableRow(_group(group)) for group in deployment.groups]
     if groups:
-        yield Heading(2, text("Groups"), "groups")
-    yield from table("Groups", ("group", "instances", "exports", "what it is"), groups)
-    hosts = [Row(_host(one)) for one in deployment.hosts]
+        yield Heading(2, plain_text("Groups"), "groups")
+    yield from data_table("Groups", ("group", "instances", "exports", "what it is"), groups)
+    hosts = [TableRow(_host(host)) for host in deployment.hosts]
     if hosts:
-        yield Heading(2, text("Hosts"), "hosts")
-    yield from table("Hosts", ("host", "address", "user", "labels"), hosts)
+        yield Heading(2, plain_text("Hosts"), "hosts")
+    yield from data_table("Hosts", ("host", "address", "user", "labels"), hosts)
 
 
-def _instance(one: Instance, site: Site) -> tuple[Words, ...]:
+def _instance(instance: Instance, site: DocumentationSite) -> tuple[Inlines, ...]:
     return (
-        code(one.name),
-        site.link(one.component),
-        code(one.host.name),
-        joined(_settings(one)),
-        _start(one),
-        _restart(one),
-        inline_doc(one.doc or one.component.doc),
+        inline_code(instance.name),
+        site.link(instance.component),
+        inline_code(instance.host.name),
+        join_inlines(_settings(instance)),
+        _start(instance),
+        _restart(instance),
+        flatten_doc(instance.doc or instance.component.doc),
     )
 
 
-def _settings(one: Instance) -> Iterator[Words]:
-    if one.prefix:
-        yield (Text("runs as "), Code(one.whole_name))
-    if one.config:
-        yield (Text("configuration "), Code(one.config.name))
-    if one.context:
-        yield (Text("context "), Code(one.context))
-    if one.searched:
-        yield (Text("configuration "), Code(one.searched))
-    for key, value in one.settings:
-        yield code(f"{key} = {literals.yaml_value(value)}")
-    for key, said in one.environment:
-        yield code(f"${key} = {literals.quoted(said)}")
-    if one.executable != "python3 main.py":
-        yield (Text("runs "), Code(one.executable))
-    if one.port:
-        yield (Text("port "), Code(str(one.port)))
+def _settings(instance: Instance) -> Iterator[Inlines]:
+    if instance.prefix:
+        yield (PlainText("runs as "), InlineCode(instance.full_name))
+    if instance.config:
+        yield (PlainText("configuration "), InlineCode(instance.config.name))
+    if instance.context:
+        yield (PlainText("context "), InlineCode(instance.context))
+    if instance.config_name:
+        yield (PlainText("configuration "), InlineCode(instance.config_name))
+    for key, value in instance.settings:
+        yield inline_code(f"{key} = {literals.yaml_value(value)}")
+    for key, text in instance.environment:
+        yield inline_code(f"${key} = {literals.quoted(text)}")
+    if instance.executable != "python3 main.py":
+        yield (PlainText("runs "), InlineCode(instance.executable))
+    if instance.port:
+        yield (PlainText("port "), InlineCode(str(instance.port)))
 
 
-def _start(one: Instance) -> Words:
-    after = (Text("after "), *joined(map(code, one.after)), Text(", ")) if one.after else ()
-    return (*after, Text(f"ready within {one.ready_within_s:g} s"))
+def _start(instance: Instance) -> Inlines:
+    after = (
+        (PlainText("after "), *join_inlines(map(inline_code, instance.after)), PlainText(", "))
+        if instance.after
+        else ()
+    )
+    return (*after, PlainText(f"ready within {instance.start_timeout_s:g} s"))
 
 
-def _restart(one: Instance) -> Words:
-    if one.restart.policy == "never":
-        return text("never")
-    most = f" (≤\u00a0{one.restart.max} in {one.restart.window_s:g}\u00a0s)"
-    return text(f"{one.restart.policy.replace('-', ' ')}{most}")
+def _restart(instance: Instance) -> Inlines:
+    if instance.restart.policy == "never":
+        return plain_text("never")
+    most = f" (≤\u00a0{instance.restart.max} in {instance.restart.window_s:g}\u00a0s)"
+    return plain_text(f"{instance.restart.policy.replace('-', ' ')}{most}")
 
 
-def _wire(one: Connection, site: Site) -> tuple[Words, ...]:
-    used = dict.fromkeys(one.source_port.pattern(o) for o in one.source_port.interface.operations)
-    implied = (Badge("implied", "plain"),) if one.implied else ()
+def _connection(connection: Connection, site: DocumentationSite) -> tuple[Inlines, ...]:
+    used = dict.fromkeys(
+        connection.source_port.pattern(o) for o in connection.source_port.interface.operations
+    )
+    implied = (Badge("implied", "plain"),) if connection.implied else ()
     return (
-        code(f"{one.source.name}.{one.source_port.name}"),
-        code(f"{one.target.name}.{one.target_port.name}"),
-        site.declared(one.source_port.interface),
-        joined((*map(badge, used), implied), BLANK),
-        text(quality(one.qos)),
+        inline_code(f"{connection.source.name}.{connection.source_port.name}"),
+        inline_code(f"{connection.target.name}.{connection.target_port.name}"),
+        site.declaration_link(connection.source_port.interface),
+        join_inlines((*map(pattern_badge, used), implied), SPACE),
+        plain_text(format_qos(connection.qos)),
     )
 
 
-def quality(qos: Qos) -> str:
-    """What was written about the quality of service; empty for nothing."""
+def format_qos(qos: Qos) -> str:
+    """The explicit QoS settings; empty for none."""
     reliable = {True: "reliable", False: "best effort", None: ""}[qos.reliable]
     priority = f"priority {qos.priority}" if qos.priority else ""
     depth = "" if qos.depth is None else f"depth {qos.depth}"
@@ -125,17 +136,27 @@ def quality(qos: Qos) -> str:
     return ", ".join(part for part in (reliable, priority, depth, deadline) if part)
 
 
-def _group(one: Group) -> tuple[Words, ...]:
+def _group(group: Group) -> tuple[Inlines, ...]:
     exports = (
-        (Code(f"{export.instance.name}.{export.port.name}"), *_renamed(export))
-        for export in one.exports
+        (InlineCode(f"{export.instance.name}.{export.port.name}"), *_export_alias(export))
+        for export in group.exports
     )
-    return code(one.name), joined(map(code, one.instances)), joined(exports), inline_doc(one.doc)
+    return (
+        inline_code(group.name),
+        join_inlines(map(inline_code, group.instances)),
+        join_inlines(exports),
+        flatten_doc(group.doc),
+    )
 
 
-def _renamed(export: Export) -> Words:
-    return () if export.name == export.port.name else (Text(" as "), Code(export.name))
+def _export_alias(export: Export) -> Inlines:
+    return () if export.name == export.port.name else (PlainText(" as "), InlineCode(export.name))
 
 
-def _host(one: Host) -> tuple[Words, ...]:
-    return code(one.name), code(one.address), code(one.user), joined(map(code, one.labels))
+def _host(host: Host) -> tuple[Inlines, ...]:
+    return (
+        inline_code(host.name),
+        inline_code(host.address),
+        inline_code(host.user),
+        join_inlines(map(inline_code, host.labels)),
+    )

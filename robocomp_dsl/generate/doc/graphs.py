@@ -1,14 +1,15 @@
-"""The graphs of pages: a deployment with its wires, a component with its ports.
+"""The graphs of pages: a deployment with its connections, a component with its ports.
 
-In: model and site. Out: figures. A call goes from the one that requires to the one that implements,
-a topic from the one that publishes to those that subscribe.
+In: model and site. Out: figures. Calls go from client to server, topics from publisher to
+subscriber.
 """
 
 from __future__ import annotations
 
-from robocomp_dsl.generate.doc.graph import GraphEdge, GraphNode, drawn
-from robocomp_dsl.generate.doc.site import Site
-from robocomp_dsl.generate.doc.words import Figure, Target
+from robocomp_dsl.generate.doc.graph import GraphEdge, GraphNode, draw_graph
+from robocomp_dsl.generate.doc.nodes import Figure
+from robocomp_dsl.generate.doc.site import DocumentationSite
+from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.model.component import Component, Port, Role
 from robocomp_dsl.model.deployment import Connection, Deployment, Instance
 
@@ -16,40 +17,45 @@ CALL, TOPIC = "call", "topic"
 LEGEND = ((CALL, "calls"), (TOPIC, "publishes to"))
 
 
-def deployment_figure(deployment: Deployment, site: Site) -> Figure:
-    """Instances, and what is wired between them; wires between the same two are one line."""
-    at = {id(one): i for i, one in enumerate(deployment.instances)}
-    nodes = [_instance(one, site) for one in deployment.instances]
+def deployment_figure(deployment: Deployment, site: DocumentationSite) -> Figure:
+    """Instances and their connections; connections between the same two instances are one line."""
+    index = {id(instance): i for i, instance in enumerate(deployment.instances)}
+    nodes = [_instance(instance, site) for instance in deployment.instances]
     bundles: dict[tuple[int, int, str], list[Connection]] = {}
-    for one in deployment.connections:
-        kind = TOPIC if one.source_port.role.is_topic else CALL
-        ends = at[id(one.source)], at[id(one.target)]
-        bundles.setdefault((*ends, kind), []).append(one)
+    for connection in deployment.connections:
+        kind = TOPIC if connection.source_port.role.is_topic else CALL
+        ends = index[id(connection.source)], index[id(connection.target)]
+        bundles.setdefault((*ends, kind), []).append(connection)
     edges = [
-        GraphEdge(source, target, kind, _labels(wires, site), _about(wires))
+        GraphEdge(source, target, kind, _labels(wires, site), _tooltip(wires))
         for (source, target, kind), wires in bundles.items()
     ]
-    title = f"Components of {deployment.name} and how they are wired"
-    count = f"{len(nodes)} components, {len(deployment.connections)} wires"
-    drawing = drawn(title, count, nodes, edges)
+    title = f"Components of {deployment.name} and their connections"
+    count = f"{len(nodes)} components, {len(deployment.connections)} connections"
+    drawing = draw_graph(title, count, nodes, edges)
     return Figure(f"{site.page(deployment)}.graph", drawing, _legend(edges))
 
 
-def _instance(one: Instance, site: Site) -> GraphNode:
-    host = f" on {one.host.name}" if one.host.name else ""
-    below = f"{one.component.name if one.component.name != one.name else ''}{host}".strip()
-    about = f"{one.name}: component {one.component.name}{host}"
-    return GraphNode(one.name, "component", Target(site.page(one.component)), below, about)
+def _instance(instance: Instance, site: DocumentationSite) -> GraphNode:
+    host = f" on {instance.host.name}" if instance.host.name else ""
+    component = instance.component.name
+    subtitle = f"{component if component != instance.name else ''}{host}".strip()
+    tooltip = f"{instance.name}: component {component}{host}"
+    return GraphNode(
+        instance.name, "component", Target(site.page(instance.component)), subtitle, tooltip
+    )
 
 
-def _labels(wires: list[Connection], site: Site) -> tuple[tuple[str, Target | None], ...]:
+def _labels(
+    wires: list[Connection], site: DocumentationSite
+) -> tuple[tuple[str, Target | None], ...]:
     shown: dict[str, Target | None] = {}
-    for one in wires:
-        shown.setdefault(one.source_port.name, site.target(one.source_port.interface))
+    for wire in wires:
+        shown.setdefault(wire.source_port.name, site.target(wire.source_port.interface))
     return tuple(shown.items())
 
 
-def _about(wires: list[Connection]) -> str:
+def _tooltip(wires: list[Connection]) -> str:
     return "; ".join(
         f"{w.source.name}.{w.source_port.name} to {w.target.name}.{w.target_port.name}"
         for w in wires
@@ -58,11 +64,11 @@ def _about(wires: list[Connection]) -> str:
 
 def _legend(edges: list[GraphEdge]) -> tuple[tuple[str, str], ...]:
     used = {edge.kind for edge in edges}
-    return tuple((kind, said) for kind, said in LEGEND if kind in used)
+    return tuple((kind, label) for kind, label in LEGEND if kind in used)
 
 
-def component_figure(component: Component, site: Site) -> Figure:
-    """The component between what it serves and hears, and what it calls and tells."""
+def component_figure(component: Component, site: DocumentationSite) -> Figure:
+    """The component with its ports: inputs on the left, outputs on the right."""
     nodes = [GraphNode(component.name, "component", None, "", component.name)]
     edges = []
     for port in component.ports:
@@ -70,36 +76,36 @@ def component_figure(component: Component, site: Site) -> Figure:
         kind = TOPIC if port.role.is_topic else CALL
         inward = port.role in (Role.IMPLEMENTS, Role.SUBSCRIBES)
         ends = (len(nodes) - 1, 0) if inward else (0, len(nodes) - 1)
-        edges.append(GraphEdge(*ends, kind, ((_WORDS[port.role], None),)))
+        edges.append(GraphEdge(*ends, kind, ((_ROLE_LABELS[port.role], None),)))
     title = f"Ports of {component.name}"
-    drawing = drawn(title, f"{len(component.ports)} ports", nodes, edges)
+    drawing = draw_graph(title, f"{len(component.ports)} ports", nodes, edges)
     return Figure(f"{site.page(component)}.ports", drawing)
 
 
-def fitting_figure(site: Site) -> Figure | None:
-    """Which components could work together; None where no two have an interface in common."""
+def compatibility_figure(site: DocumentationSite) -> Figure | None:
+    """Components with matching interfaces; None if there are none."""
     components = site.subject.components
-    found: dict[tuple[int, int, str], dict[str, Target | None]] = {}
+    matches: dict[tuple[int, int, str], dict[str, Target | None]] = {}
     for i, client in enumerate(components):
         for port in (*client.with_role(Role.REQUIRES), *client.with_role(Role.PUBLISHES)):
-            wanted = Role.SUBSCRIBES if port.role.is_topic else Role.IMPLEMENTS
+            role = Role.SUBSCRIBES if port.role.is_topic else Role.IMPLEMENTS
             target = site.target(port.interface)
             for j, server in enumerate(components):
-                if any(site.target(p.interface) == target for p in server.with_role(wanted)):
+                if any(site.target(p.interface) == target for p in server.with_role(role)):
                     kind = TOPIC if port.role.is_topic else CALL
-                    found.setdefault((i, j, kind), {})[port.interface.name] = target
-    if not found:
+                    matches.setdefault((i, j, kind), {})[port.interface.name] = target
+    if not matches:
         return None
     nodes = [GraphNode(c.name, "component", Target(site.page(c)), "", c.name) for c in components]
     edges = [
-        GraphEdge(*key, tuple(names.items()), ", ".join(names)) for key, names in found.items()
+        GraphEdge(*key, tuple(names.items()), ", ".join(names)) for key, names in matches.items()
     ]
-    title = "Components and what they can use of each other"
-    drawing = drawn(title, f"{len(nodes)} components", nodes, edges)
+    title = "Components with matching interfaces"
+    drawing = draw_graph(title, f"{len(nodes)} components", nodes, edges)
     return Figure("components/all.graph", drawing, _legend(edges))
 
 
-_WORDS = {
+_ROLE_LABELS = {
     Role.IMPLEMENTS: "implements",
     Role.REQUIRES: "requires",
     Role.PUBLISHES: "publishes",
@@ -107,7 +113,7 @@ _WORDS = {
 }
 
 
-def _port(port: Port, site: Site) -> GraphNode:
+def _port(port: Port, site: DocumentationSite) -> GraphNode:
     below = port.interface.name if port.name != port.interface.name else ""
     about = f"{port.name}: interface {port.interface.qualified}"
     target = site.target(port.interface)

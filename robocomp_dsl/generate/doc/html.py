@@ -1,7 +1,7 @@
-"""Pages as HTML. In: pages as data. Out: texts.
+"""Write pages as HTML. In: pages as data. Out: texts.
 
-Templates ending in `.html.jinja` and `.svg.jinja` escape whatever is not `Markup`, and `Markup`
-is made only here, from parts that are escaped.
+Templates ending in `.html.jinja` and `.svg.jinja` escape everything that is not `Markup`; `Markup`
+is created only here, from escaped parts.
 """
 
 from __future__ import annotations
@@ -11,76 +11,84 @@ from dataclasses import dataclass
 
 from markupsafe import Markup, escape
 
-from robocomp_dsl.generate.doc.drawing import Drawing, number
-from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Words
+from robocomp_dsl.generate.doc.drawing import Drawing, format_length
+from robocomp_dsl.generate.doc.nodes import Badge, DocumentationPage, InlineCode, Inlines
+from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.generate.templates import render
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class NavigationEntry:
     """A page in the list of all pages."""
 
     title: str
-    address: str
-    here: bool
+    url: str
+    is_current: bool
 
 
 @dataclass(frozen=True, slots=True)
-class Html:
+class HtmlWriter:
     """Writes the parts of one page."""
 
     page: str
 
-    def address(self, target: Target) -> str:
-        """Where a link leads to, seen from this page."""
-        return address(self.page, target, ".html")
+    def url(self, target: Target) -> str:
+        """The URL of a target, relative to this page."""
+        return relative_url(self.page, target, ".html")
 
-    def words(self, words: Words) -> Markup:
-        """A line of words."""
-        return Markup().join(map(self._word, words))
+    def inlines(self, words: Inlines) -> Markup:
+        """Inline content as HTML."""
+        return Markup().join(map(self._inline, words))
 
-    def _word(self, one: object) -> Markup:
-        match one:
+    def _inline(self, node: object) -> Markup:
+        match node:
             case Badge(text, kind):
                 return Markup('<span class="badge {}">{}</span>').format(kind, text)
-            case Code(text, None):
+            case InlineCode(text, None):
                 return Markup("<code>{}</code>").format(text)
-            case Code(text, Target() as target):
+            case InlineCode(text, Target() as target):
                 link = Markup('<a href="{}"><code>{}</code></a>')
-                return link.format(self.address(target), text)
-        return escape(getattr(one, "text", ""))
+                return link.format(self.url(target), text)
+        return escape(getattr(node, "text", ""))
 
     def drawing(self, drawing: Drawing) -> Markup:
-        """A drawing inside the page; its parts are links."""
-        return Markup(svg(drawing, self.address))  # noqa: S704 - its template escapes
+        """A drawing in the page; its parts are links."""
+        return Markup(render_svg(drawing, self.url))  # noqa: S704 - its template escapes
 
 
-def svg(drawing: Drawing, link: Callable[[Target], str] | None = None) -> str:
-    """A drawing as part of a page or, without addresses of links, as a file of its own."""
-    context = {"drawing": drawing, "address": link, "number": number, "alone": link is None}
+def render_svg(drawing: Drawing, link: Callable[[Target], str] | None = None) -> str:
+    """A drawing as part of a page; without `link`, as a separate file."""
+    context = {
+        "drawing": drawing,
+        "url": link,
+        "format_length": format_length,
+        "alone": link is None,
+    }
     return render("doc/drawing.svg.jinja", **context)
 
 
-def address(page: str, target: Target, suffix: str) -> str:
-    """The way from one page to a place in another one."""
+def relative_url(page: str, target: Target, suffix: str) -> str:
+    """The URL from one page to a target."""
     anchor = f"#{target.anchor}" if target.anchor else ""
     if not target.page or (target.page == page and anchor):
         return anchor
     folder, name = page.rpartition("/")[0], target.page
     if name.rpartition("/")[0] == folder:
-        way = name.rpartition("/")[2]
+        path = name.rpartition("/")[2]
     else:
-        way = "../" * page.count("/") + name
-    return f"{way}{suffix}{anchor}"
+        path = "../" * page.count("/") + name
+    return f"{path}{suffix}{anchor}"
 
 
-def html_page(page: Page, pages: Sequence[Page], title: str) -> str:
-    """The whole text of a page; `pages` are all there are, `title` is that of the first one."""
-    html = Html(page.path)
-    groups: dict[str, list[Entry]] = {}
-    for one in pages[1:]:
-        entry = Entry(one.title, html.address(Target(one.path)), one is page)
-        plural = one.group if one.group.endswith("s") else f"{one.group}s"
+def render_html_page(
+    page: DocumentationPage, pages: Sequence[DocumentationPage], title: str
+) -> str:
+    """The text of a page; `pages` are all pages, `title` is the title of the first one."""
+    html = HtmlWriter(page.path)
+    groups: dict[str, list[NavigationEntry]] = {}
+    for other in pages[1:]:
+        entry = NavigationEntry(other.title, html.url(Target(other.path)), other is page)
+        plural = other.group if other.group.endswith("s") else f"{other.group}s"
         groups.setdefault(plural, []).append(entry)
     return render(
         "doc/page.html.jinja",
@@ -88,6 +96,6 @@ def html_page(page: Page, pages: Sequence[Page], title: str) -> str:
         html=html,
         groups=groups,
         title=title,
-        index=html.address(Target(pages[0].path)),
+        index=html.url(Target(pages[0].path)),
         style="../" * page.path.count("/") + "style.css",
     )

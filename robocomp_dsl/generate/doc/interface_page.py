@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from robocomp_dsl.generate.doc.prose import prose, sentence
-from robocomp_dsl.generate.doc.site import Names, Site, type_anchor
-from robocomp_dsl.generate.doc.types_shown import type_blocks, types_behind
-from robocomp_dsl.generate.doc.words import (
-    BLANK,
+from robocomp_dsl.generate.doc.nodes import (
+    SPACE,
     Badge,
     Block,
-    Code,
-    Facts,
+    DeclarationBlock,
+    DocumentationPage,
+    FactTable,
     Heading,
-    Page,
-    Row,
-    Signature,
-    Target,
-    Words,
-    code,
-    joined,
-    table,
-    text,
+    InlineCode,
+    Inlines,
+    TableRow,
+    data_table,
+    inline_code,
+    join_inlines,
+    plain_text,
 )
+from robocomp_dsl.generate.doc.prose import first_sentence, parse_prose
+from robocomp_dsl.generate.doc.site import AnchorNames, DocumentationSite, type_anchor
+from robocomp_dsl.generate.doc.target import Target
+from robocomp_dsl.generate.doc.types_shown import referenced_types, type_blocks
 from robocomp_dsl.model.component import Role
 from robocomp_dsl.model.interface import Interface, Module, Operation, Param, Pattern
 
-LONGEST_SIGNATURE = 84
+MAX_SIGNATURE_LENGTH = 84
 """Characters of an operation on one line."""
 
 ROLES = {
@@ -38,122 +38,145 @@ ROLES = {
 }
 
 
-def interface_page(interface: Interface, module: Module, site: Site) -> Page:
-    """Operations, the types that they speak of, and the components that speak them."""
+def interface_page(
+    interface: Interface, module: Module, site: DocumentationSite
+) -> DocumentationPage:
+    """Operations, the types that they use, and the components that use the interface."""
     path = site.target(interface).page
-    return Page(path, interface.name, "Interface", tuple(_interface(interface, module, site)))
+    return DocumentationPage(
+        path, interface.name, "Interface", tuple(_interface(interface, module, site))
+    )
 
 
-def module_page(module: Module, site: Site) -> Page:
+def module_page(module: Module, site: DocumentationSite) -> DocumentationPage:
     """Interfaces, types and exceptions of one module."""
-    return Page(site.page(module), module.name, "Module", tuple(_module(module, site)))
+    return DocumentationPage(site.page(module), module.name, "Module", tuple(_module(module, site)))
 
 
-def _interface(interface: Interface, module: Module, site: Site) -> Iterator[Block]:
-    used = types_behind(interface)
-    names = Names()
-    anchors = {id(one): names.claim(type_anchor(one)) for one in used}
-    here = site.showing(anchors)
-    yield Facts((("Module", site.link(module)), ("File", code(module.path.name))))
-    yield from prose(interface.doc or module.doc)
+def _interface(interface: Interface, module: Module, site: DocumentationSite) -> Iterator[Block]:
+    used = referenced_types(interface)
+    names = AnchorNames()
+    anchors = {id(declaration): names.claim(type_anchor(declaration)) for declaration in used}
+    here = site.with_local_anchors(anchors)
+    yield FactTable((("Module", site.link(module)), ("File", inline_code(module.path.name))))
+    yield from parse_prose(interface.doc or module.doc)
     if interface.operations:
-        yield Heading(2, text("Operations"), "operations")
-    for one, anchor in zip(interface.operations, operation_anchors(interface), strict=True):
-        yield from _operation(one, anchor, here)
+        yield Heading(2, plain_text("Operations"), "operations")
+    for operation, anchor in zip(interface.operations, operation_anchors(interface), strict=True):
+        yield from _operation(operation, anchor, here)
     if used:
-        yield Heading(2, text("Types"), "types")
+        yield Heading(2, plain_text("Types"), "types")
     for type_ in used:
         yield from type_blocks(type_, anchors[id(type_)], here)
-    yield Heading(2, text("Who uses it"), "users")
+    yield Heading(2, plain_text("Used by"), "users")
     yield from _users(interface, site)
 
 
-def _users(interface: Interface, site: Site) -> Iterator[Block]:
+def _users(interface: Interface, site: DocumentationSite) -> Iterator[Block]:
     rows = [
-        Row((site.link(one), text(ROLES[port.role]), code(port.name), sentence(one.doc)))
-        for one, port in site.users(interface)
+        TableRow(
+            (
+                site.link(component),
+                plain_text(ROLES[port.role]),
+                inline_code(port.name),
+                first_sentence(component.doc),
+            )
+        )
+        for component, port in site.users(interface)
     ]
     head = ("component", "how", "port", "what it is")
-    yield from table(f"Components that use {interface.name}", head, rows)
+    yield from data_table(f"Components that use {interface.name}", head, rows)
     if not rows:
-        yield from prose("No component that is documented here.")
+        yield from parse_prose("No documented component uses it.")
 
 
-def _operation(one: Operation, anchor: str, site: Site) -> Iterator[Block]:
-    again = (Badge("idempotent", "plain"),) if one.idempotent else ()
-    marks = (badge(pattern) for pattern in patterns(one))
-    yield Heading(3, joined(((Code(one.name),), *marks, again), BLANK), anchor)
-    yield Signature(tuple(_signature(one, site)))
-    yield from prose(one.doc)
+def _operation(operation: Operation, anchor: str, site: DocumentationSite) -> Iterator[Block]:
+    again = (Badge("idempotent", "plain"),) if operation.idempotent else ()
+    marks = (pattern_badge(pattern) for pattern in patterns(operation))
+    yield Heading(3, join_inlines(((InlineCode(operation.name),), *marks, again), SPACE), anchor)
+    yield DeclarationBlock(tuple(_signature(operation, site)))
+    yield from parse_prose(operation.doc)
 
 
-def _signature(one: Operation, site: Site) -> Iterator[Words]:
-    """On one line where it is short, else with a line for each parameter."""
-    result = site.type(one.result) if one.result else code("void")
-    params = [_param(p, site) for p in one.inputs]
-    params += [(Code("out "), *_param(p, site)) for p in one.outputs]
-    throws = joined(map(site.declared, one.throws), Code(", "))
-    tail = (Code(" throws "), *throws, Code(";")) if throws else (Code(";"),)
-    head = (*result, Code(f" {one.name}("))
-    whole = (*head, *joined(params, Code(", ")), Code(")"), *tail)
-    if sum(len(part.text) for part in whole) <= LONGEST_SIGNATURE:
+def _signature(operation: Operation, site: DocumentationSite) -> Iterator[Inlines]:
+    """One line if it is short, else one line per parameter."""
+    result = site.type_link(operation.result) if operation.result else inline_code("void")
+    params = [_param(p, site) for p in operation.inputs]
+    params += [(InlineCode("out "), *_param(p, site)) for p in operation.outputs]
+    throws = join_inlines(map(site.declaration_link, operation.throws), InlineCode(", "))
+    tail = (InlineCode(" throws "), *throws, InlineCode(";")) if throws else (InlineCode(";"),)
+    head = (*result, InlineCode(f" {operation.name}("))
+    whole = (*head, *join_inlines(params, InlineCode(", ")), InlineCode(")"), *tail)
+    if sum(len(part.text) for part in whole) <= MAX_SIGNATURE_LENGTH:
         yield whole
         return
     yield head
     for i, words in enumerate(params, 1):
-        yield (Code("    "), *words, *((Code(","),) if i < len(params) else ()))
-    yield (Code(")"), *tail)
+        yield (InlineCode("    "), *words, *((InlineCode(","),) if i < len(params) else ()))
+    yield (InlineCode(")"), *tail)
 
 
-def _param(one: Param, site: Site) -> Words:
-    unit = f" [{one.unit}]" if one.unit else ""
-    return (*site.type(one.type), Code(f" {one.name}{unit}"))
+def _param(param: Param, site: DocumentationSite) -> Inlines:
+    unit = f" [{param.unit}]" if param.unit else ""
+    return (*site.type_link(param.type), InlineCode(f" {param.name}{unit}"))
 
 
-def operations(interface: Interface, site: Site) -> list[tuple[Operation, Words]]:
-    """Its operations, and their names as links."""
+def operation_links(
+    interface: Interface, site: DocumentationSite
+) -> list[tuple[Operation, Inlines]]:
+    """The operations of an interface, and their names as links."""
     page = site.target(interface).page
     anchors = operation_anchors(interface)
     return [
-        (one, code(one.name, Target(page, anchor)))
-        for one, anchor in zip(interface.operations, anchors, strict=True)
+        (operation, inline_code(operation.name, Target(page, anchor)))
+        for operation, anchor in zip(interface.operations, anchors, strict=True)
     ]
 
 
 def operation_anchors(interface: Interface) -> list[str]:
-    """The places of its operations in its page."""
-    names = Names()
-    return [names.claim(f"operation.{one.name}") for one in interface.operations]
+    """The anchors of the operations in the interface's page."""
+    names = AnchorNames()
+    return [names.claim(f"operation.{operation.name}") for operation in interface.operations]
 
 
-def patterns(one: Operation) -> tuple[Pattern, ...]:
-    """Its pattern, or both that an unmarked operation may have."""
-    if one.pattern is Pattern.UNMARKED:
-        return (one.as_service(), one.as_topic())
-    return (one.pattern,)
+def patterns(operation: Operation) -> tuple[Pattern, ...]:
+    """The pattern of an operation, or both patterns of an unmarked one."""
+    if operation.pattern is Pattern.UNMARKED:
+        return (operation.as_service(), operation.as_topic())
+    return (operation.pattern,)
 
 
-def badge(pattern: Pattern) -> Words:
-    """The mark of a pattern."""
+def pattern_badge(pattern: Pattern) -> Inlines:
+    """The badge of a pattern."""
     return (Badge(pattern.value, pattern.value),)
 
 
-def _module(module: Module, site: Site) -> Iterator[Block]:
-    imports = joined(map(site.link, module.imports))
-    yield Facts((("File", code(module.path.name)), *((("Imports", imports),) if imports else ())))
-    yield from prose(module.doc)
+def _module(module: Module, site: DocumentationSite) -> Iterator[Block]:
+    imports = join_inlines(map(site.link, module.imports))
+    yield FactTable(
+        (("File", inline_code(module.path.name)), *((("Imports", imports),) if imports else ()))
+    )
+    yield from parse_prose(module.doc)
     rows = [
-        Row((site.declared(one), joined(w for _, w in operations(one, site)), sentence(one.doc)))
-        for one in module.interfaces
+        TableRow(
+            (
+                site.declaration_link(interface),
+                join_inlines(w for _, w in operation_links(interface, site)),
+                first_sentence(interface.doc),
+            )
+        )
+        for interface in module.interfaces
     ]
     if rows:
-        yield Heading(2, text("Interfaces"), "interfaces")
-        yield from table(
+        yield Heading(2, plain_text("Interfaces"), "interfaces")
+        yield from data_table(
             f"Interfaces of {module.name}", ("interface", "operations", "what it is"), rows
         )
-    types = [one for one in module.declarations if not isinstance(one, Interface)]
+    types = [
+        declaration for declaration in module.declarations if not isinstance(declaration, Interface)
+    ]
     if types:
-        yield Heading(2, text("Types"), "types")
-    here = site.showing({id(one): type_anchor(one) for one in types})
-    for one in types:
-        yield from type_blocks(one, type_anchor(one), here)
+        yield Heading(2, plain_text("Types"), "types")
+    here = site.with_local_anchors({id(member): type_anchor(member) for member in types})
+    for member in types:
+        yield from type_blocks(member, type_anchor(member), here)

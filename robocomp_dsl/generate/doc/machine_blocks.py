@@ -5,63 +5,69 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals
-from robocomp_dsl.generate.doc.prose import inline_doc, prose
-from robocomp_dsl.generate.doc.state_figure import state_figure
-from robocomp_dsl.generate.doc.words import (
+from robocomp_dsl.generate.doc.nodes import (
     Block,
     Heading,
-    Row,
-    Words,
-    code,
-    joined,
-    table,
-    text,
+    Inlines,
+    TableRow,
+    data_table,
+    inline_code,
+    join_inlines,
+    plain_text,
 )
+from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
+from robocomp_dsl.generate.doc.state_figure import state_figure
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 
 
 def machine_blocks(machine: StateMachine, page: str) -> Iterator[Block]:
-    """Everything about a machine, as part of the page at this path."""
-    yield from prose(machine.doc)
+    """The blocks of a state machine in the page at the path `page`."""
+    yield from parse_prose(machine.doc)
     yield state_figure(machine, f"{page}.states")
     head = ("state", "inside", "kind", "on entry", "on exit", "what it is")
-    rows = [Row(_state(one, around)) for one, around in _flat(machine.states)]
+    rows = [TableRow(_state(state, parent)) for state, parent in _walk_states(machine.states)]
     if rows:
-        yield Heading(3, text("All states"), "all-states")
-    yield from table(f"States of {machine.name}", head, rows)
+        yield Heading(3, plain_text("All states"), "all-states")
+    yield from data_table(f"States of {machine.name}", head, rows)
     if machine.transitions:
-        yield Heading(3, text("Transitions"), "transitions")
-    moves = [Row(_transition(one)) for one in machine.transitions]
+        yield Heading(3, plain_text("Transitions"), "transitions")
+    moves = [TableRow(_transition(transition)) for transition in machine.transitions]
     head = ("from", "to", "event", "if", "does", "what it is")
-    yield from table(f"Transitions of {machine.name}", head, moves)
+    yield from data_table(f"Transitions of {machine.name}", head, moves)
 
 
-def _flat(states: Iterable[State], around: str = "") -> Iterator[tuple[State, str]]:
-    for one in states:
-        yield one, around
-        yield from _flat(one.inside, one.name)
+def _walk_states(states: Iterable[State], parent: str = "") -> Iterator[tuple[State, str]]:
+    for state in states:
+        yield state, parent
+        yield from _walk_states(state.substates, state.name)
 
 
-def _state(one: State, around: str) -> tuple[Words, ...]:
+def _state(state: State, parent: str) -> tuple[Inlines, ...]:
     marks = {
-        "initial": one.initial,
-        "end": one.final,
-        "all inside it at once": one.parallel,
-        f"{one.history} history": bool(one.history),
+        "initial": state.initial,
+        "end": state.final,
+        "parallel": state.parallel,
+        f"{state.history} history": bool(state.history),
     }
-    said = ", ".join(word for word, given in marks.items() if given)
-    acts = (_script(one.entry), _script(one.exit))
-    return code(one.name), code(around), text(said), *acts, inline_doc(one.doc)
+    message = ", ".join(word for word, applies in marks.items() if applies)
+    acts = (_script(state.entry), _script(state.exit))
+    return (
+        inline_code(state.name),
+        inline_code(parent),
+        plain_text(message),
+        *acts,
+        flatten_doc(state.doc),
+    )
 
 
-def _transition(one: Transition) -> tuple[Words, ...]:
-    after = "" if one.after_s is None else f"after {one.after_s:g} s"
-    between = " or " if one.event and after else ""
-    fired = (*code(one.event), *text(f"{between}{after}"))
-    targets = joined(map(code, one.targets)) or text("stays")
-    acts = (_script(one.cond), _script(one.action))
-    return code(one.source), targets, fired, *acts, inline_doc(one.doc)
+def _transition(transition: Transition) -> tuple[Inlines, ...]:
+    after = "" if transition.after_s is None else f"after {transition.after_s:g} s"
+    between = " or " if transition.event and after else ""
+    fired = (*inline_code(transition.event), *plain_text(f"{between}{after}"))
+    targets = join_inlines(map(inline_code, transition.targets)) or plain_text("stays")
+    acts = (_script(transition.cond), _script(transition.action))
+    return inline_code(transition.source), targets, fired, *acts, flatten_doc(transition.doc)
 
 
-def _script(written: str) -> Words:
-    return code(literals.printable(" ".join(written.split())))
+def _script(written: str) -> Inlines:
+    return inline_code(literals.printable(" ".join(written.split())))

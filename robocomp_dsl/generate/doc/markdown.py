@@ -1,6 +1,6 @@
-"""Pages as Markdown (GitHub's). In: pages as data. Out: texts.
+"""Write pages as GitHub Markdown. In: pages as data. Out: texts.
 
-Every sign that Markdown or HTML knows is written so that it stands for itself.
+All special characters of Markdown and HTML are escaped.
 """
 
 from __future__ import annotations
@@ -8,89 +8,99 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from robocomp_dsl.generate.doc.html import address
-from robocomp_dsl.generate.doc.words import Badge, Code, Page, Target, Text, Words
+from robocomp_dsl.generate.doc.html import relative_url
+from robocomp_dsl.generate.doc.nodes import Badge, DocumentationPage, InlineCode, Inlines, PlainText
+from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.generate.templates import render
 
-_SIGNS = re.compile(r"[\\`*_\[\]<>#|~&$@]|:(?=//)")
-_BEGINS = re.compile(r"[-+=]|\d+(?=[.)])")
-"""What could begin a list or underline a heading where a line begins."""
+_SPECIAL_CHARACTERS = re.compile(r"[\\`*_\[\]<>#|~&$@]|:(?=//)")
+_BLOCK_START = re.compile(r"[-+=]|\d+(?=[.)])")
+"""Text that begins a list or underlines a heading at the start of a line."""
 
 
 _ENTITIES = {c: f"&#{ord(c)};" for c in "\\`*_[]<>#|~&$@:!^"}
 
 
 @dataclass(frozen=True, slots=True)
-class Markdown:
+class MarkdownWriter:
     """Writes the parts of one page."""
 
     page: str
 
-    def address(self, target: Target) -> str:
-        """Where a link leads to, seen from this page."""
-        return address(self.page, target, ".md")
+    def url(self, target: Target) -> str:
+        """The URL of a target, relative to this page."""
+        return relative_url(self.page, target, ".md")
 
     def figure(self, name: str) -> str:
-        """Where the file of a drawing is."""
-        return address(self.page, Target(name), ".svg")
+        """The URL of a drawing's file."""
+        return relative_url(self.page, Target(name), ".svg")
 
-    def words(self, words: Words) -> str:
-        """A line of words."""
-        return "".join(map(self._word, _merged(words)))
+    def inlines(self, words: Inlines) -> str:
+        """Inline content as Markdown."""
+        return "".join(map(self._inline, _merge_adjacent_code(words)))
 
-    def line(self, words: Words) -> str:
-        """Words at the beginning of a line."""
-        return begin(self.words(words))
+    def line(self, words: Inlines) -> str:
+        """Inline content at the start of a line."""
+        return escape_line_start(self.inlines(words))
 
-    def fenced(self, lines: tuple[Words, ...]) -> str:
-        """A block of code, in which there are no links."""
-        said = "\n".join("".join(one.text for one in words) for words in lines)
-        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", said)), default=0))
-        return f"{fence}idsl\n{said}\n{fence}"
+    def fenced(self, lines: tuple[Inlines, ...]) -> str:
+        """A block of code without links."""
+        message = "\n".join("".join(word.text for word in words) for words in lines)
+        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", message)), default=0))
+        return f"{fence}idsl\n{message}\n{fence}"
 
-    def links(self, lines: tuple[Words, ...]) -> str:
-        """The names in a block of code that lead somewhere, each once."""
-        found = [one for words in lines for one in words if isinstance(one, Code) and one.target]
-        return ", ".join(self._word(one) for one in dict.fromkeys(found))
+    def links(self, lines: tuple[Inlines, ...]) -> str:
+        """The links of a block of code, each once."""
+        linked = [
+            word
+            for words in lines
+            for word in words
+            if isinstance(word, InlineCode) and word.target
+        ]
+        return ", ".join(self._inline(entry) for entry in dict.fromkeys(linked))
 
-    def _word(self, one: object) -> str:
-        match one:
+    def _inline(self, node: object) -> str:
+        match node:
             case Badge(text, _):
-                return f"*{plain(text)}*"
-            case Code(text, None):
-                return code(text)
-            case Code(text, Target() as target):
-                return f"[{code(text)}]({self.address(target)})"
-        return plain(getattr(one, "text", ""))
+                return f"*{escape_text(text)}*"
+            case InlineCode(text, None):
+                return code_span(text)
+            case InlineCode(text, Target() as target):
+                return f"[{code_span(text)}]({self.url(target)})"
+        return escape_text(getattr(node, "text", ""))
 
 
-def _merged(words: Words) -> Words:
-    """Code that follows code as one, because their ticks would be taken together."""
-    made: list[Text | Code | Badge] = []
-    for one in words:
-        last = made[-1] if made else None
-        if isinstance(one, Code) and isinstance(last, Code) and not (one.target or last.target):
-            made[-1] = Code(last.text + one.text)
+def _merge_adjacent_code(words: Inlines) -> Inlines:
+    """Merge adjacent code spans, whose backticks would be read as one."""
+    merged: list[PlainText | InlineCode | Badge] = []
+    for word in words:
+        last = merged[-1] if merged else None
+        if (
+            isinstance(word, InlineCode)
+            and isinstance(last, InlineCode)
+            and not (word.target or last.target)
+        ):
+            merged[-1] = InlineCode(last.text + word.text)
         else:
-            made.append(one)
-    return tuple(made)
+            merged.append(word)
+    return tuple(merged)
 
 
-def plain(text: str) -> str:
-    """Words that stand for themselves."""
-    return _SIGNS.sub(r"\\\g<0>", text)
+def escape_text(text: str) -> str:
+    """Text with all special characters escaped."""
+    return _SPECIAL_CHARACTERS.sub(r"\\\g<0>", text)
 
 
-def begin(line: str) -> str:
-    """A line that begins no list and underlines no heading."""
-    found = _BEGINS.match(line)
-    if not found:
+def escape_line_start(line: str) -> str:
+    """A line escaped so that it starts no list and underlines no heading."""
+    match = _BLOCK_START.match(line)
+    if not match:
         return line
-    return f"{found[0]}\\{line[found.end() :]}" if found[0].isdigit() else f"\\{line}"
+    return f"{match[0]}\\{line[match.end() :]}" if match[0].isdigit() else f"\\{line}"
 
 
-def code(text: str) -> str:
-    """Code between ticks, or as an element of HTML where ticks would not hold it."""
+def code_span(text: str) -> str:
+    """Code in backticks, or as an HTML element if backticks do not work."""
     if text == text.strip() and "|" not in text and "`" not in text:
         return f"`{text}`"
     blank = not text.strip()
@@ -98,14 +108,14 @@ def code(text: str) -> str:
     return f"<code>{inner}</code>"
 
 
-def markdown_page(page: Page, title: str) -> str:
-    """The whole text of a page; `title` is that of the first one."""
-    made = Markdown(page.path)
+def render_markdown_page(page: DocumentationPage, title: str) -> str:
+    """The text of a page; `title` is the title of the first page."""
+    writer = MarkdownWriter(page.path)
     return render(
         "doc/page.md.jinja",
         page=page,
-        md=made,
-        plain=plain,
+        md=writer,
+        escape_text=escape_text,
         title=title,
-        index=made.address(Target("index")),
+        index=writer.url(Target("index")),
     )

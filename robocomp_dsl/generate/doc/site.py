@@ -1,7 +1,7 @@
-"""Which page everything is on, and who uses an interface.
+"""The pages of all models, and the users of interfaces.
 
-In: a `Subject`. Out: `Site`: targets of links, the same for the same subject. Two copies of one
-file, which deployments of several folders often see, are one page.
+In: a `DocumentationSubject`. Out: `DocumentationSite` with the targets of links, deterministic.
+Copies of a file, which deployments of several folders often have, are one page.
 """
 
 from __future__ import annotations
@@ -11,8 +11,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from robocomp_dsl.generate.doc.subject import Subject
-from robocomp_dsl.generate.doc.words import Code, Target, Words
+from robocomp_dsl.generate.doc.nodes import InlineCode, Inlines
+from robocomp_dsl.generate.doc.subject import DocumentationSubject
+from robocomp_dsl.generate.doc.target import Target
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.deployment import Deployment
 from robocomp_dsl.model.interface import Interface, Module
@@ -20,20 +21,20 @@ from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.model.statemachine import StateMachine
 from robocomp_dsl.model.types import Declaration, Primitive, Type
 
-LONGEST_NAME = 80
+MAX_NAME_LENGTH = 80
 
-Paged: TypeAlias = Component | Deployment | ParameterSet | StateMachine
+PagedModel: TypeAlias = Component | Deployment | ParameterSet | StateMachine
 
 
-class Names:
-    """Names that differ from each other, whatever the case, and hold only `A-Za-z0-9_.-`."""
+class AnchorNames:
+    """Unique names of anchors and pages, regardless of case, with characters `A-Za-z0-9_.-`."""
 
     def __init__(self) -> None:
         self._taken: set[str] = set()
 
-    def claim(self, wanted: str) -> str:
-        """`wanted`, or the next name like it that is free."""
-        plain = re.sub(r"[^A-Za-z0-9_.-]", "_", wanted)[:LONGEST_NAME].lstrip(".") or "_"
+    def claim(self, name: str) -> str:
+        """`name`, or `name` with a number if it is taken."""
+        plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name)[:MAX_NAME_LENGTH].lstrip(".") or "_"
         name, count = plain, 1
         while name.lower() in self._taken:
             count += 1
@@ -43,90 +44,100 @@ class Names:
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
-    """Targets of links, by the identity of what they lead to. `modules` have no copies."""
+class DocumentationSite:
+    """Targets of links, by the identity of their models. `modules` have no copies."""
 
-    subject: Subject
+    subject: DocumentationSubject
     modules: tuple[Module, ...]
     _pages: Mapping[int, str]
-    _declared: Mapping[int, Target]
+    _declaration_targets: Mapping[int, Target]
 
-    def page(self, one: Paged | Module) -> str:
-        """The path of its page, without suffix."""
-        return self._pages[id(one)]
+    def page(self, model: PagedModel | Module) -> str:
+        """The path of the model's page, without suffix."""
+        return self._pages[id(model)]
 
-    def target(self, one: Declaration) -> Target:
+    def target(self, declaration: Declaration) -> Target:
         """Where an interface, a type or an exception is described."""
-        return self._declared[id(one)]
+        return self._declaration_targets[id(declaration)]
 
-    def showing(self, anchors: Mapping[int, str]) -> Site:
-        """As seen from a page that describes some types itself; their anchors by identity."""
-        local = {one: Target("", anchor) for one, anchor in anchors.items()}
-        return replace(self, _declared={**self._declared, **local})
+    def with_local_anchors(self, anchors: Mapping[int, str]) -> DocumentationSite:
+        """The site for a page that describes types itself; `anchors` are by identity of a type."""
+        local = {identity: Target("", anchor) for identity, anchor in anchors.items()}
+        return replace(self, _declaration_targets={**self._declaration_targets, **local})
 
     def users(self, interface: Interface) -> list[tuple[Component, Port]]:
-        """Components and their ports that speak of this interface."""
+        """Components and their ports that use this interface."""
         page = self.target(interface)
-        ports = ((one, port) for one in self.subject.components for port in one.ports)
-        return [(one, port) for one, port in ports if self.target(port.interface) == page]
+        ports = (
+            (component, port) for component in self.subject.components for port in component.ports
+        )
+        return [(user, port) for user, port in ports if self.target(port.interface) == page]
 
-    def link(self, one: Paged | Module) -> Words:
-        """Its name, leading to its page."""
-        return (Code(one.name, Target(self.page(one))),)
+    def link(self, model: PagedModel | Module) -> Inlines:
+        """The model's name as a link to its page."""
+        return (InlineCode(model.name, Target(self.page(model))),)
 
-    def declared(self, one: Declaration) -> Words:
-        """The name of an interface, type or exception, leading to where it is described."""
-        return (Code(one.name, self.target(one)),)
+    def declaration_link(self, declaration: Declaration) -> Inlines:
+        """The name of an interface, type or exception as a link to its description."""
+        return (InlineCode(declaration.name, self.target(declaration)),)
 
-    def type(self, type_: Type) -> Words:
+    def type_link(self, type_: Type) -> Inlines:
         """The name of a type, as a link unless it is built in."""
-        return (Code(type_.name),) if isinstance(type_, Primitive) else self.declared(type_)
+        return (
+            (InlineCode(type_.name),)
+            if isinstance(type_, Primitive)
+            else self.declaration_link(type_)
+        )
 
 
-def site_of(subject: Subject) -> Site:
+def build_site(subject: DocumentationSubject) -> DocumentationSite:
     """The pages of everything in `subject`."""
     pages: dict[int, str] = {}
-    _place(pages, "components", subject.components)
-    pages |= {copy: pages[id(one)] for copy, one in subject.same.items()}
-    _place(pages, "deployments", subject.deployments)
-    _place(pages, "parameters", subject.parameters)
-    _place(pages, "statemachines", subject.machines)
+    _assign_pages(pages, "components", subject.components)
+    pages |= {copy: pages[id(model)] for copy, model in subject.canonical_components.items()}
+    _assign_pages(pages, "deployments", subject.deployments)
+    _assign_pages(pages, "parameters", subject.parameters)
+    _assign_pages(pages, "statemachines", subject.machines)
     first: dict[tuple[str, str, int], Module] = {}
-    for one in subject.modules:
-        first.setdefault(_key(one), one)
+    for module in subject.modules:
+        first.setdefault(_module_key(module), module)
     modules = tuple(first.values())
-    _place(pages, "modules", modules)
-    declared = _declarations(modules, pages)
-    for one in subject.modules:
-        pages[id(one)] = pages[id(first[_key(one)])]
-        for copy, original in zip(one.declarations, first[_key(one)].declarations, strict=True):
+    _assign_pages(pages, "modules", modules)
+    declared = _declaration_targets(modules, pages)
+    for module in subject.modules:
+        pages[id(module)] = pages[id(first[_module_key(module)])]
+        for copy, original in zip(
+            module.declarations, first[_module_key(module)].declarations, strict=True
+        ):
             declared[id(copy)] = declared[id(original)]
-    return Site(subject, modules, pages, declared)
+    return DocumentationSite(subject, modules, pages, declared)
 
 
-def type_anchor(one: Declaration) -> str:
-    """The place of a type or exception in its module's page."""
-    return f"type.{one.name}"
+def type_anchor(declaration: Declaration) -> str:
+    """The anchor of a type or exception in its module's page."""
+    return f"type.{declaration.name}"
 
 
-def _key(module: Module) -> tuple[str, str, int]:
+def _module_key(module: Module) -> tuple[str, str, int]:
     return module.name, module.span.source.text, module.span.start
 
 
-def _place(pages: dict[int, str], folder: str, ones: Iterable[Paged | Module]) -> None:
-    names = Names()
-    for one in ones:
-        pages[id(one)] = f"{folder}/{names.claim(one.name)}"
+def _assign_pages(
+    pages: dict[int, str], folder: str, models: Iterable[PagedModel | Module]
+) -> None:
+    names = AnchorNames()
+    for model in models:
+        pages[id(model)] = f"{folder}/{names.claim(model.name)}"
 
 
-def _declarations(modules: Iterable[Module], pages: Mapping[int, str]) -> dict[int, Target]:
-    names = Names()
-    made: dict[int, Target] = {}
+def _declaration_targets(modules: Iterable[Module], pages: Mapping[int, str]) -> dict[int, Target]:
+    names = AnchorNames()
+    targets: dict[int, Target] = {}
     for module in modules:
-        for one in module.declarations:
-            if isinstance(one, Interface):
-                page = f"interfaces/{names.claim(f'{module.name}.{one.name}')}"
-                made[id(one)] = Target(page)
+        for declaration in module.declarations:
+            if isinstance(declaration, Interface):
+                page = f"interfaces/{names.claim(f'{module.name}.{declaration.name}')}"
+                targets[id(declaration)] = Target(page)
             else:
-                made[id(one)] = Target(pages[id(module)], type_anchor(one))
-    return made
+                targets[id(declaration)] = Target(pages[id(module)], type_anchor(declaration))
+    return targets

@@ -1,4 +1,4 @@
-"""The boxes of a state diagram and what is in each of them, laid out.
+"""Lay out the nested boxes of a state diagram.
 
 In: a state machine. Out: `Level`s within levels. Each is a graph of its own. A transition that
 leads out of a box, or into one, goes to a point on its border inside and from there on outside;
@@ -11,16 +11,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from robocomp_dsl.generate.doc import layered
-from robocomp_dsl.generate.doc.drawing import LINE, text_width
+from robocomp_dsl.generate.doc.drawing import LINE_HEIGHT, text_width
 from robocomp_dsl.generate.doc.graph import label_size
-from robocomp_dsl.generate.doc.state_words import Pair, lines_of, shown
+from robocomp_dsl.generate.doc.layered import layout as layered
+from robocomp_dsl.generate.doc.state_words import StatePair, state_label, transition_labels
 from robocomp_dsl.model.statemachine import State, StateMachine
 
-LEAST = 72.0
-DOT = 12.0
+MIN_STATE_WIDTH = 72.0
+INITIAL_DOT_SIZE = 12.0
 INSET = 18.0
-HEAD = LINE + 10.0
+HEADER_HEIGHT = LINE_HEIGHT + 10.0
 """Height of the head of a box with states in it."""
 
 
@@ -31,20 +31,20 @@ class Crossing:
     `out` tells its direction, `right` the side of the box; one that `ends` goes no further.
     """
 
-    pair: Pair
+    pair: StatePair
     inside: str
-    out: bool
+    outgoing: bool
     right: bool
-    ends: bool = False
+    ends_here: bool = False
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class LevelEdge:
     """A line between two nodes of a level; `arrow` where it ends at its target."""
 
     source: int
     target: int
-    pair: Pair
+    pair: StatePair
     labels: tuple[str, ...] = ()
     arrow: bool = True
 
@@ -58,152 +58,178 @@ class Level:
 
     states: tuple[State, ...]
     crossings: list[Crossing]
-    ways: list[Way]
-    nodes: list[layered.Node] = field(default_factory=list)
-    inner: dict[int, Level] = field(default_factory=dict)
-    made: layered.Layout = field(default_factory=lambda: layered.layout((), ()))
+    edges: list[LevelEdge]
+    nodes: list[layered.LayoutNode] = field(default_factory=list)
+    sublevels: dict[int, Level] = field(default_factory=dict)
+    layout: layered.GraphLayout = field(default_factory=lambda: layered.layout((), ()))
     width: float = 0.0
     height: float = 0.0
     left: float = 0.0
     top: float = 0.0
 
-    def crosses_at(self, pair: Pair) -> float | None:
+    def crossing_offset(self, pair: StatePair) -> float | None:
         """How far from the top of the box a line crosses its border; None for one that does not."""
-        for i, one in enumerate(self.crossings, len(self.states)):
-            if one.pair == pair:
-                return self.top + self.made.nodes[i][1]
+        for i, crossing in enumerate(self.crossings, len(self.states)):
+            if crossing.pair == pair:
+                return self.top + self.layout.nodes[i][1]
         return None
 
 
 @dataclass(frozen=True, slots=True)
-class Levels:
-    """Lays out the boxes of one machine. `home` is the box of each state, "" the outermost one."""
+class LevelBuilder:
+    """Lays out the boxes of a machine. `parents` has the box of each state, "" is the outermost."""
 
-    home: Mapping[str, str]
-    lines: Mapping[Pair, tuple[str, ...]]
+    parents: Mapping[str, str]
+    labels: Mapping[StatePair, tuple[str, ...]]
 
     def level(self, name: str, states: tuple[State, ...], passing: Sequence[Crossing]) -> Level:
         """The box `name`, through whose border lines are `passing`; its size is left to do."""
-        crossings = [*passing, *self._own_crossings(name)]
-        made = Level(states, crossings, [])
-        at = {state.name: i for i, state in enumerate(states)}
-        made.ways = [*self._ways(name, at), *_crossing_ways(crossings, at, self.lines)]
-        nodes = [_node(state) for state in states]
-        nodes += [layered.Node(0, 0, "last" if one.right else "first") for one in crossings]
+        crossings = [*passing, *self._boundary_crossings(name)]
+        level = Level(states, crossings, [])
+        index = {state.name: i for i, state in enumerate(states)}
+        level.edges = [
+            *self._inner_edges(name, index),
+            *_crossing_edges(crossings, index, self.labels),
+        ]
+        nodes = [_layout_node(state) for state in states]
+        nodes += [
+            layered.LayoutNode(0, 0, "last" if crossing.right else "first")
+            for crossing in crossings
+        ]
         begins = [i for i, state in enumerate(states) if state.initial and not state.history]
         if begins:
-            made.ways += [Way(len(nodes), i, ("", states[i].name)) for i in begins]
-            nodes.append(layered.Node(DOT, DOT))
-        bare = [layered.Edge(way.source, way.target) for way in made.ways]
-        ranks = layered.ranks_of(nodes, bare)
-        made.nodes = layered.roomy(nodes, bare, ranks)
+            level.edges += [LevelEdge(len(nodes), i, ("", states[i].name)) for i in begins]
+            nodes.append(layered.LayoutNode(INITIAL_DOT_SIZE, INITIAL_DOT_SIZE))
+        bare = [layered.LayoutEdge(edge.source, edge.target) for edge in level.edges]
+        ranks = layered.assign_ranks(nodes, bare)
+        level.nodes = layered.fit_ports(nodes, bare, ranks)
         for i, state in enumerate(states):
-            if state.inside:
-                inside = self._passing(i, state.name, made.ways, ranks)
-                inner = _measured(self.level(state.name, state.inside, inside), shown(state))
-                made.inner[i] = inner
-                made.nodes[i] = layered.Node(inner.width, inner.height)
-        made.made = layered.layout(made.nodes, [_edge(way, made) for way in made.ways], ranks)
-        return made
+            if state.substates:
+                inside = self._passing_crossings(i, state.name, level.edges, ranks)
+                inner = _set_size(
+                    self.level(state.name, state.substates, inside), state_label(state)
+                )
+                level.sublevels[i] = inner
+                level.nodes[i] = layered.LayoutNode(inner.width, inner.height)
+        level.layout = layered.layout(
+            level.nodes, [_layout_edge(edge, level) for edge in level.edges], ranks
+        )
+        return level
 
-    def _own_crossings(self, name: str) -> list[Crossing]:
+    def _boundary_crossings(self, name: str) -> list[Crossing]:
         """Lines between this state itself and what is inside it: they end at its border inside."""
-        made = []
-        for pair in self.lines:
+        crossings = []
+        for pair in self.labels:
             source, target = pair
-            if target == name and source != name and name in self._around(source):
-                made.append(Crossing(pair, self._child(source, name), True, True, True))
-            elif source == name and target != name and name in self._around(target):
-                made.append(Crossing(pair, self._child(target, name), False, False, True))
-        return made
+            if target == name and source != name and name in self._ancestors(source):
+                crossings.append(Crossing(pair, self._ancestor_in(source, name), True, True, True))
+            elif source == name and target != name and name in self._ancestors(target):
+                crossings.append(
+                    Crossing(pair, self._ancestor_in(target, name), False, False, True)
+                )
+        return crossings
 
-    def _ways(self, name: str, at: Mapping[str, int]) -> list[Way]:
+    def _inner_edges(self, name: str, index: Mapping[str, int]) -> list[LevelEdge]:
         """Lines between two states of this box, or between what is inside them."""
-        made = []
-        for pair, labels in self.lines.items():
-            source, target = (self._child(one, name) for one in pair)
-            if source in at and target in at and (source != target or pair[0] == pair[1] == source):
+        edges = []
+        for pair, labels in self.labels.items():
+            source, target = (self._ancestor_in(state, name) for state in pair)
+            if (
+                source in index
+                and target in index
+                and (source != target or pair[0] == pair[1] == source)
+            ):
                 arrow = target == pair[1]
-                made.append(Way(at[source], at[target], pair, labels, arrow))
-        return made
+                edges.append(LevelEdge(index[source], index[target], pair, labels, arrow))
+        return edges
 
-    def _passing(
-        self, node: int, name: str, ways: Sequence[Way], ranks: layered.Ranks
+    def _passing_crossings(
+        self, node: int, name: str, edges: Sequence[LevelEdge], ranks: layered.Ranks
     ) -> list[Crossing]:
-        """The lines that pass the border of one of the states of a level."""
-        made = []
-        for i, way in enumerate(ways):
-            if way.source == way.target:
+        """The lines that cross the border of a state of the level."""
+        crossings = []
+        for i, edge in enumerate(edges):
+            if edge.source == edge.target:
                 continue
-            turned = i in ranks.turned
-            if way.source == node and way.pair[0] not in ("", name):
-                made.append(Crossing(way.pair, self._child(way.pair[0], name), True, not turned))
-            if way.target == node and way.pair[1] != name:
-                made.append(Crossing(way.pair, self._child(way.pair[1], name), False, turned))
-        return made
+            turned = i in ranks.reversed_edges
+            if edge.source == node and edge.pair[0] not in ("", name):
+                crossings.append(
+                    Crossing(edge.pair, self._ancestor_in(edge.pair[0], name), True, not turned)
+                )
+            if edge.target == node and edge.pair[1] != name:
+                crossings.append(
+                    Crossing(edge.pair, self._ancestor_in(edge.pair[1], name), False, turned)
+                )
+        return crossings
 
-    def _around(self, state: str) -> list[str]:
-        """The boxes around a state, the innermost first."""
-        made = []
+    def _ancestors(self, state: str) -> list[str]:
+        """The boxes that contain a state, the innermost first."""
+        ancestors = []
         while state:
-            state = self.home.get(state, "")
-            made.append(state)
-        return made
+            state = self.parents.get(state, "")
+            ancestors.append(state)
+        return ancestors
 
-    def _child(self, state: str, box: str) -> str:
-        """The state in `box` that is `state` or around it; "" if there is none."""
-        while state and self.home.get(state, "") != box:
-            state = self.home.get(state, "")
+    def _ancestor_in(self, state: str, box: str) -> str:
+        """The state in `box` that is `state` or contains it; "" if there is none."""
+        while state and self.parents.get(state, "") != box:
+            state = self.parents.get(state, "")
         return state
 
 
-def _crossing_ways(
-    crossings: Sequence[Crossing], at: Mapping[str, int], lines: Mapping[Pair, tuple[str, ...]]
-) -> list[Way]:
+def _crossing_edges(
+    crossings: Sequence[Crossing],
+    index: Mapping[str, int],
+    lines: Mapping[StatePair, tuple[str, ...]],
+) -> list[LevelEdge]:
     """The lines between the border and what is inside; the label is where the line ends or begins.
 
     Of a line that goes on outside, it is there.
     """
-    made = []
-    for i, one in enumerate(crossings, len(at)):
-        labels = lines[one.pair] if one.ends else ()
-        inside = at[one.inside]
-        if one.out:
-            made.append(Way(inside, i, one.pair, labels, one.ends))
+    edges = []
+    for i, crossing in enumerate(crossings, len(index)):
+        labels = lines[crossing.pair] if crossing.ends_here else ()
+        inside = index[crossing.inside]
+        if crossing.outgoing:
+            edges.append(LevelEdge(inside, i, crossing.pair, labels, crossing.ends_here))
         else:
-            made.append(Way(i, inside, one.pair, labels, one.inside == one.pair[1]))
-    return made
+            edges.append(
+                LevelEdge(i, inside, crossing.pair, labels, crossing.inside == crossing.pair[1])
+            )
+    return edges
 
 
-def _edge(way: Way, level: Level) -> layered.Edge:
-    source, target = level.inner.get(way.source), level.inner.get(way.target)
-    leaves = source.crosses_at(way.pair) if source else None
-    enters = target.crosses_at(way.pair) if target else None
-    size = label_size([(one, None) for one in way.labels])
-    return layered.Edge(way.source, way.target, *size, leaves, enters)
+def _layout_edge(edge: LevelEdge, level: Level) -> layered.LayoutEdge:
+    source, target = level.sublevels.get(edge.source), level.sublevels.get(edge.target)
+    leaves = source.crossing_offset(edge.pair) if source else None
+    enters = target.crossing_offset(edge.pair) if target else None
+    size = label_size([(label, None) for label in edge.labels])
+    return layered.LayoutEdge(edge.source, edge.target, *size, leaves, enters)
 
 
-def _node(state: State) -> layered.Node:
-    return layered.Node(max(LEAST, text_width(shown(state)) + 28), LINE + 17)
+def _layout_node(state: State) -> layered.LayoutNode:
+    return layered.LayoutNode(
+        max(MIN_STATE_WIDTH, text_width(state_label(state)) + 28), LINE_HEIGHT + 17
+    )
 
 
-def _measured(level: Level, title: str = "") -> Level:
-    """The size of a box with its head; the outermost one has neither head nor border."""
-    inner = level.made
+def _set_size(level: Level, title: str = "") -> Level:
+    """Set the size of a box with its header; the outermost box has no header and no border."""
+    inner = level.layout
     room = INSET if title else 0.0
     level.width = max(inner.width, text_width(title)) + 2 * room
     level.left = (level.width - inner.width) / 2
-    level.top = HEAD + room * 0.8 if title else 0.0
+    level.top = HEADER_HEIGHT + room * 0.8 if title else 0.0
     level.height = level.top + inner.height + room
     return level
 
 
-def levels_of(machine: StateMachine) -> Level:
+def build_levels(machine: StateMachine) -> Level:
     """The outermost box of a machine, with all others in it."""
     home: dict[str, str] = {}
-    todo = [("", one) for one in machine.states]
+    todo = [("", child) for child in machine.states]
     while todo:
         box, state = todo.pop()
         home[state.name] = box
-        todo += [(state.name, one) for one in state.inside]
-    return _measured(Levels(home, lines_of(machine)).level("", machine.states, ()))
+        todo += [(state.name, substate) for substate in state.substates]
+    return _set_size(LevelBuilder(home, transition_labels(machine)).level("", machine.states, ()))

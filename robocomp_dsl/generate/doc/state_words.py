@@ -1,4 +1,4 @@
-"""What a state diagram says: the names in its boxes and the words beside its lines.
+"""The labels of a state diagram: names of states and labels of transitions.
 
 In: a state machine. Out: texts.
 """
@@ -9,42 +9,42 @@ from typing import TypeAlias
 
 from robocomp_dsl.model.statemachine import State, StateMachine, Transition
 
-Pair: TypeAlias = tuple[str, str]
-"""Source and target of transitions; those that share both are one line."""
+StatePair: TypeAlias = tuple[str, str]
+"""Source and target of transitions; transitions with the same pair are one line."""
 
-LONGEST_LABEL = 40
-"""Characters beside a line; the table below the diagram has all of them."""
+MAX_LABEL_LENGTH = 40
+"""Characters of a label; the table below the diagram has the full text."""
 
 
-def shown(state: State) -> str:
-    """The name of a state in its box; a history has the sign that it has in UML before it."""
+def state_label(state: State) -> str:
+    """The label of a state; a history state has UML's prefix H or H*."""
     sign = {"shallow": "H ", "deep": "H* "}.get(state.history, "")
-    mark = " (parallel)" if state.parallel and state.inside else ""
+    mark = " (parallel)" if state.parallel and state.substates else ""
     return f"{sign}{state.name}{mark}"
 
 
-def lines_of(machine: StateMachine) -> dict[Pair, tuple[str, ...]]:
-    """What is said beside each line; also of those from a history to where it leads at first."""
-    found: dict[Pair, list[str]] = {}
-    for one in machine.transitions:
-        words = label(one)
-        for target in one.targets or (one.source,):
-            found.setdefault((one.source, target), []).extend([words] if words else [])
+def transition_labels(machine: StateMachine) -> dict[StatePair, tuple[str, ...]]:
+    """The labels of each line, including lines from history states to their defaults."""
+    labels: dict[StatePair, list[str]] = {}
+    for transition in machine.transitions:
+        words = transition_label(transition)
+        for target in transition.targets or (transition.source,):
+            labels.setdefault((transition.source, target), []).extend([words] if words else [])
     todo = list(machine.states)
     while todo:
         state = todo.pop()
-        todo += state.inside
+        todo += state.substates
         if state.history:
-            found |= {(state.name, target): [] for target in state.start}
-    return {pair: tuple(said) for pair, said in found.items()}
+            labels |= {(state.name, target): [] for target in state.start}
+    return {pair: tuple(lines) for pair, lines in labels.items()}
 
 
-def label(one: Transition) -> str:
-    """What fires a transition; nothing for the event that has its name from the two states."""
-    default = one.event.removeprefix("t_") == f"{one.source}_to_{one.target}"
-    after = "" if one.after_s is None else f"after {one.after_s:g} s"
-    fired = " or ".join(part for part in ("" if default else one.event, after) if part)
-    cond = f"[{' '.join(one.cond.split())}]" if one.cond else ""
-    stays = "" if one.targets else "(stays)"
-    said = " ".join(part for part in (fired, cond, stays) if part)
-    return said if len(said) <= LONGEST_LABEL else f"{said[: LONGEST_LABEL - 1]}…"
+def transition_label(transition: Transition) -> str:
+    """The trigger and condition of a transition; default event names are left out."""
+    default = transition.event.removeprefix("t_") == f"{transition.source}_to_{transition.target}"
+    after = "" if transition.after_s is None else f"after {transition.after_s:g} s"
+    fired = " or ".join(part for part in ("" if default else transition.event, after) if part)
+    cond = f"[{' '.join(transition.cond.split())}]" if transition.cond else ""
+    stays = "" if transition.targets else "(stays)"
+    message = " ".join(part for part in (fired, cond, stays) if part)
+    return message if len(message) <= MAX_LABEL_LENGTH else f"{message[: MAX_LABEL_LENGTH - 1]}…"

@@ -1,6 +1,6 @@
-"""What is documented.
+"""The subject of a documentation.
 
-In: models, as the checks give them. Out: the same, sorted, with everything behind them.
+In: checked models. Out: the models in sorted order, with all imports.
 """
 
 from __future__ import annotations
@@ -17,11 +17,12 @@ from robocomp_dsl.model.statemachine import StateMachine
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
-    """Everything that gets a page, each sort in the order of names.
+class DocumentationSubject:
+    """All models that get a page, sorted by name.
 
-    `parameters` and `machines` are those that no component here names. A component that several
-    deployments import was read once for each: `same` leads from each to the one in `components`.
+    `parameters` and `machines` are those that no component uses. A component that several
+    deployments import is read once for each: `canonical_components` maps the identity of each copy
+    to the one in `components`.
     """
 
     title: str
@@ -30,18 +31,20 @@ class Subject:
     deployments: tuple[Deployment, ...] = ()
     parameters: tuple[ParameterSet, ...] = ()
     machines: tuple[StateMachine, ...] = ()
-    same: Mapping[int, Component] = field(default_factory=dict)
+    canonical_components: Mapping[int, Component] = field(default_factory=dict)
 
 
-def natural(name: str) -> tuple[list[tuple[int, str]], str]:
-    """What names are sorted by: whatever the case, and 9 before 10."""
+def natural_sort_key(name: str) -> tuple[list[tuple[int, str]], str]:
+    """Sort key of a name: regardless of case, and 9 before 10."""
     parts = re.findall(r"[0-9]+|[^0-9]+", name.lower())
     numbers = [(len(part.lstrip("0")), part.lstrip("0")) for part in parts]
     keys = zip(parts, numbers, strict=True)
     return [number if part.isdecimal() else (-1, part) for part, number in keys], name
 
 
-def modules_behind(modules: Iterable[Module]) -> tuple[Module, ...]:
-    """These modules and all that they import, in the order of names; copies of a file, too."""
-    found = {id(one): one for module in modules for one in module.closure()}
-    return tuple(sorted(found.values(), key=lambda m: (natural(m.name), str(m.path))))
+def transitive_modules(modules: Iterable[Module]) -> tuple[Module, ...]:
+    """These modules and all their imports, sorted by name, including copies of files."""
+    by_identity = {id(imported): imported for module in modules for imported in module.closure()}
+    return tuple(
+        sorted(by_identity.values(), key=lambda m: (natural_sort_key(m.name), str(m.path)))
+    )

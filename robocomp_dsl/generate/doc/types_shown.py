@@ -1,6 +1,6 @@
 """Types and exceptions as blocks of a page.
 
-In: declarations of a module. Out: blocks; every name of a type leads to where it is described.
+In: declarations of a module. Out: blocks; the name of a type is a link to its description.
 """
 
 from __future__ import annotations
@@ -8,19 +8,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from robocomp_dsl.generate import literals
-from robocomp_dsl.generate.doc.prose import inline_doc, prose
-from robocomp_dsl.generate.doc.site import Site
-from robocomp_dsl.generate.doc.words import (
+from robocomp_dsl.generate.doc.nodes import (
     Block,
-    Code,
+    DeclarationBlock,
     Heading,
-    Row,
-    Signature,
-    Text,
-    Words,
-    code,
-    table,
+    InlineCode,
+    Inlines,
+    PlainText,
+    TableRow,
+    data_table,
+    inline_code,
 )
+from robocomp_dsl.generate.doc.prose import flatten_doc, parse_prose
+from robocomp_dsl.generate.doc.site import DocumentationSite
 from robocomp_dsl.model.interface import Interface, Operation
 from robocomp_dsl.model.types import (
     Declaration,
@@ -44,32 +44,49 @@ KINDS: dict[type[Declaration], str] = {
 }
 
 
-def type_blocks(one: Declaration, anchor: str, site: Site) -> Iterator[Block]:
+def type_blocks(declaration: Declaration, anchor: str, site: DocumentationSite) -> Iterator[Block]:
     """A heading, what it is, its doc comment and its parts. An interface gives nothing."""
-    yield Heading(3, (Text(f"{KINDS[type(one)]} "), Code(one.name)), anchor)
-    if isinstance(one, Sequence | Dictionary):
-        yield Signature((container(one, site),))
-    yield from prose(one.doc)
-    if isinstance(one, Struct | ExceptionType):
+    yield Heading(
+        3, (PlainText(f"{KINDS[type(declaration)]} "), InlineCode(declaration.name)), anchor
+    )
+    if isinstance(declaration, Sequence | Dictionary):
+        yield DeclarationBlock((container_declaration(declaration, site),))
+    yield from parse_prose(declaration.doc)
+    if isinstance(declaration, Struct | ExceptionType):
         head = ("field", "type", "unit", "default", "what it is")
-        yield from table(f"Fields of {one.name}", head, [_field(f, site) for f in one.fields])
-    elif isinstance(one, Enum):
-        rows = [Row((code(e.name), code(str(e.value)), inline_doc(e.doc))) for e in one.enumerators]
-        yield from table(f"Values of {one.name}", ("name", "value", "what it is"), rows)
+        yield from data_table(
+            f"Fields of {declaration.name}", head, [_field(f, site) for f in declaration.fields]
+        )
+    elif isinstance(declaration, Enum):
+        rows = [
+            TableRow((inline_code(e.name), inline_code(str(e.value)), flatten_doc(e.doc)))
+            for e in declaration.enumerators
+        ]
+        yield from data_table(
+            f"Values of {declaration.name}", ("name", "value", "what it is"), rows
+        )
 
 
-def container(one: Sequence | Dictionary, site: Site) -> Words:
+def container_declaration(declaration: Sequence | Dictionary, site: DocumentationSite) -> Inlines:
     """`sequence<T> name;`."""
     inner = (
-        site.type(one.element)
-        if isinstance(one, Sequence)
-        else (*site.type(one.key), Code(", "), *site.type(one.value))
+        site.type_link(declaration.element)
+        if isinstance(declaration, Sequence)
+        else (
+            *site.type_link(declaration.key),
+            InlineCode(", "),
+            *site.type_link(declaration.value),
+        )
     )
-    return (Code(f"{KINDS[type(one)]}<"), *inner, Code(f"> {one.name};"))
+    return (
+        InlineCode(f"{KINDS[type(declaration)]}<"),
+        *inner,
+        InlineCode(f"> {declaration.name};"),
+    )
 
 
-def literal(value: Literal | None, type_: Type) -> str:
-    """A default as IDSL has it; empty for none."""
+def format_default(value: Literal | None, type_: Type) -> str:
+    """A default in IDSL syntax; empty for none."""
     if value is None:
         return ""
     if isinstance(value, str):
@@ -77,37 +94,41 @@ def literal(value: Literal | None, type_: Type) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value)
 
 
-def _field(one: Field, site: Site) -> Row:
-    default = code(literal(one.default, one.type))
-    doc = inline_doc(one.doc)
-    return Row((code(one.name), site.type(one.type), code(one.unit), default, doc))
+def _field(field: Field, site: DocumentationSite) -> TableRow:
+    default = inline_code(format_default(field.default, field.type))
+    doc = flatten_doc(field.doc)
+    return TableRow(
+        (inline_code(field.name), site.type_link(field.type), inline_code(field.unit), default, doc)
+    )
 
 
-def types_behind(interface: Interface) -> tuple[Declaration, ...]:
-    """Types and exceptions that its operations speak of, directly or not, as first met."""
-    found: dict[int, Declaration] = {}
+def referenced_types(interface: Interface) -> tuple[Declaration, ...]:
+    """All types and exceptions of the operations, direct and indirect, in order of first use."""
+    types: dict[int, Declaration] = {}
     todo: list[Type | ExceptionType] = [
-        type_ for one in reversed(interface.operations) for type_ in reversed(_spoken_of(one))
+        type_
+        for operation in reversed(interface.operations)
+        for type_ in reversed(_operation_types(operation))
     ]
     while todo:
-        one = todo.pop()
-        if not isinstance(one, Primitive) and id(one) not in found:
-            found[id(one)] = one
-            todo.extend(reversed(list(_parts(one))))
-    return tuple(found.values())
+        referenced = todo.pop()
+        if not isinstance(referenced, Primitive) and id(referenced) not in types:
+            types[id(referenced)] = referenced
+            todo.extend(reversed(list(_member_types(referenced))))
+    return tuple(types.values())
 
 
-def _spoken_of(one: Operation) -> list[Type | ExceptionType]:
-    result = [one.result] if one.result else []
-    return [*result, *(p.type for p in (*one.inputs, *one.outputs)), *one.throws]
+def _operation_types(operation: Operation) -> list[Type | ExceptionType]:
+    result = [operation.result] if operation.result else []
+    return [*result, *(p.type for p in (*operation.inputs, *operation.outputs)), *operation.throws]
 
 
-def _parts(one: Type | ExceptionType) -> Iterable[Type]:
-    match one:
+def _member_types(type_: Type | ExceptionType) -> Iterable[Type]:
+    match type_:
         case Struct() | ExceptionType():
-            return [f.type for f in one.fields]
+            return [f.type for f in type_.fields]
         case Sequence():
-            return [one.element]
+            return [type_.element]
         case Dictionary():
-            return [one.key, one.value]
+            return [type_.key, type_.value]
     return []

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import robocomp_dsl
-from robocomp_dsl.generate.layout import BODY, INNER, WIDTH
+from robocomp_dsl.generate.python.layout import BODY, INNER, WIDTH
 
 PACKAGE = "robocomp_dsl.hardware"
 _HARDWARE = Path(robocomp_dsl.__file__).parent / "hardware"
@@ -29,12 +29,16 @@ class Skeleton:
 
 
 def skeleton(module: str, protocol: str, known: Mapping[str, object]) -> Skeleton:
-    """A class that keeps to `protocol`; properties in `known` have these values already."""
-    tree = ast.parse((_HARDWARE / f"{module}.py").read_text(encoding="utf-8"))
+    """A class that keeps to `protocol`; properties in `known` have these values already.
+
+    `module` is that of the protocol in `robocomp_dsl.hardware`, as `devices.laser`.
+    """
+    path = _HARDWARE.joinpath(*module.split(".")).with_suffix(".py")
+    tree = ast.parse(path.read_text(encoding="utf-8"))
     found = next(n for n in tree.body if isinstance(n, ast.ClassDef) and n.name == protocol)
     methods = [node for node in found.body if isinstance(node, ast.FunctionDef)]
     lines: list[str] = []
-    needed: set[tuple[str, str]] = {(f"{PACKAGE}.errors", "NotWritten")}
+    needed: set[tuple[str, str]] = {(f"{PACKAGE}.devices.errors", "DriverMethodMissing")}
     homes = _homes(tree, f"{PACKAGE}.{module}")
     for method in methods:
         value = known.get(method.name)
@@ -46,13 +50,13 @@ def skeleton(module: str, protocol: str, known: Mapping[str, object]) -> Skeleto
 
 def _method(method: ast.FunctionDef, value: object) -> Iterator[str]:
     """Its decorators, head and docstring, and a body that returns the value, or raises."""
-    for one in method.decorator_list:
-        yield f"{INNER}@{ast.unparse(one)}"
+    for decorator in method.decorator_list:
+        yield f"{INNER}@{ast.unparse(decorator)}"
     returns = ast.unparse(method.returns) if method.returns else "None"
     yield f"{INNER}def {method.name}({ast.unparse(method.args)}) -> {returns}:"
     yield from (f"{BODY}{line}".rstrip() for line in _docstring(method))
     if value is None:
-        yield f'{BODY}raise NotWritten("{method.name}")'
+        yield f'{BODY}raise DriverMethodMissing("{method.name}")'
     else:
         written = _written(value, BODY)
         yield f"{BODY}return {written}"
@@ -75,7 +79,7 @@ def _homes(tree: ast.Module, module: str) -> dict[str, str]:
 
 
 def _mentioned(method: ast.FunctionDef) -> set[str]:
-    arguments = [one.annotation for one in method.args.args if one.annotation]
+    arguments = [argument.annotation for argument in method.args.args if argument.annotation]
     notes = [*arguments, *([method.returns] if method.returns else [])]
     return {n.id for note in notes for n in ast.walk(note) if isinstance(n, ast.Name)}
 
@@ -83,42 +87,42 @@ def _mentioned(method: ast.FunctionDef) -> set[str]:
 def _written(value: Any, indent: str) -> str:
     """A value as source, as the formatter leaves it: an entry a line."""
     if is_dataclass(value) and not isinstance(value, type):
-        given = [
-            f"{one.name}={_written(getattr(value, one.name), indent + '    ')}"
-            for one in fields(value)
-            if not _usual(one, getattr(value, one.name))
+        arguments = [
+            f"{field.name}={_written(getattr(value, field.name), indent + '    ')}"
+            for field in fields(value)
+            if not _usual(field, getattr(value, field.name))
         ]
-        return _called(type(value).__name__, given, indent)
+        return _called(type(value).__name__, arguments, indent)
     if isinstance(value, tuple):
-        return _called("", [_written(one, f"{indent}    ") for one in value], indent)
+        return _called("", [_written(element, f"{indent}    ") for element in value], indent)
     if isinstance(value, float) and not math.isfinite(value):
         return ("-" if value < 0 else "") + "math.inf"
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-def _called(name: str, given: list[str], indent: str) -> str:
-    if not given:
+def _called(name: str, arguments: list[str], indent: str) -> str:
+    if not arguments:
         return f"{name}()"
-    inside = "".join(f"{indent}    {one},\n" for one in given)
+    inside = "".join(f"{indent}    {argument},\n" for argument in arguments)
     return f"{name}(\n{inside}{indent})"
 
 
-def _usual(one: Any, value: Any) -> bool:
+def _usual(field: Any, value: Any) -> bool:
     """Whether a field need not be told: it has its default, or is an array, which is worked out."""
     if hasattr(value, "shape"):
         return True
-    return one.default is not MISSING and bool(one.default == value)
+    return field.default is not MISSING and bool(field.default == value)
 
 
 def _types(value: Any) -> Iterator[tuple[str, str]]:
     if is_dataclass(value) and not isinstance(value, type):
         yield type(value).__module__, type(value).__name__
-        for one in fields(value):
-            if not _usual(one, getattr(value, one.name)):
-                yield from _types(getattr(value, one.name))
+        for field in fields(value):
+            if not _usual(field, getattr(value, field.name)):
+                yield from _types(getattr(value, field.name))
     elif isinstance(value, tuple):
-        for one in value:
-            yield from _types(one)
+        for element in value:
+            yield from _types(element)
 
 
 def _imports(needed: set[tuple[str, str]], body: str) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""What `generated/simulator.py` says: for every operation a method that asks the device behind it.
+"""What `simulator.py` says: for every operation a method that asks the device behind it.
 
 In: a component and its names. Out: plain data for the template.
 """
@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from robocomp_dsl.generate import docs, layout, literals, names
-from robocomp_dsl.generate.component_names import SERVED, Called
-from robocomp_dsl.generate.layout import BODY, INNER, STEP, definition
-from robocomp_dsl.generate.simulator.offers import Published, period_of
-from robocomp_dsl.generate.worker_imports import specific_imports
+from robocomp_dsl.generate import docs, literals, names
+from robocomp_dsl.generate.python import layout
+from robocomp_dsl.generate.python.component_names import SERVED_ROLES, PythonNames
+from robocomp_dsl.generate.python.layout import BODY, INNER, STEP
+from robocomp_dsl.generate.python.line_breaking import one_statement
+from robocomp_dsl.generate.python.worker_imports import specific_imports
+from robocomp_dsl.generate.simulator.served_interfaces import Published, period_of
 from robocomp_dsl.model.component import Component, Port
 from robocomp_dsl.model.interface import Operation
 from robocomp_dsl.model.parameter import Kind, Parameter
@@ -46,47 +48,51 @@ class SimulatorCode:
 
     title: str
     source: str
+    package: str
     doc: str
     imports: tuple[str, ...]
     methods: tuple[Delegation, ...]
     topics: tuple[str, ...]
     streams: tuple[str, ...]
     skin: tuple[tuple[str, str], ...]
-    pushed: bool
+    has_torque_timeout: bool
 
 
 def simulator_code(
     source: str,
     component: Component,
-    called: Called,
+    py_names: PythonNames,
     topics: Sequence[Published],
     *,
-    unheard: bool = False,
+    publish_always: bool = False,
 ) -> SimulatorCode:
     """Everything that the templates print; `unheard`: it is also published where nobody hears."""
-    proxies = {port.name: attribute for port, attribute in called.proxies.items()}
-    served = [p for p in component.ports if p.role in SERVED]
+    proxies = {port.name: attribute for port, attribute in py_names.proxies.items()}
+    served = [p for p in component.ports if p.role in SERVED_ROLES]
     return SimulatorCode(
         title=component.name,
         source=source,
+        package=py_names.package,
         doc=literals.docstring(component.doc, INNER, f"The simulator {component.name}."),
-        imports=tuple(specific_imports(called)),
-        methods=tuple(_method(p, o, called) for p in served for o in p.interface.operations),
+        imports=tuple(specific_imports(py_names)),
+        methods=tuple(_method(p, o, py_names) for p in served for o in p.interface.operations),
         topics=tuple(
-            _publications([one for one in topics if not one.topic.at_once], proxies, unheard)
+            _publications(
+                [topic for topic in topics if not topic.topic.immediate], proxies, publish_always
+            )
         ),
-        streams=tuple(_streams([one for one in topics if one.topic.at_once], proxies)),
+        streams=tuple(_streams([topic for topic in topics if topic.topic.immediate], proxies)),
         skin=_skin_parameters(component),
-        pushed=any(one.name == PUSHED for one in _parameters(component)),
+        has_torque_timeout=any(parameter.name == PUSHED for parameter in _parameters(component)),
     )
 
 
 def _streams(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
     """For each port the statement that lets it publish by itself."""
-    for source in dict.fromkeys(one.source for one in topics):
-        told = [f"self.{proxies[one.port]}" for one in topics if one.source == source]
+    for source in dict.fromkeys(topic.source for topic in topics):
+        proxy_names = [f"self.{proxies[topic.port]}" for topic in topics if topic.source == source]
         port = f"self.ports[{literals.quoted(source)}]"
-        yield layout.statement("", layout.call(f"{port}.publish", *told), BODY)
+        yield layout.statement("", layout.call(f"{port}.publish", *proxy_names), BODY)
 
 
 def _parameters(component: Component) -> Sequence[Parameter]:
@@ -95,64 +101,77 @@ def _parameters(component: Component) -> Sequence[Parameter]:
 
 def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
     """The live parameters of the group `skin` with their types; none without skin."""
-    given = _parameters(component)
-    found = next((one for one in given if one.name == SKIN and one.members), None)
-    return tuple((one.name, _TYPES[one.kind]) for one in found.members) if found else ()
+    parameters = _parameters(component)
+    found = next(
+        (parameter for parameter in parameters if parameter.name == SKIN and parameter.members),
+        None,
+    )
+    return tuple((member.name, _TYPES[member.kind]) for member in found.members) if found else ()
 
 
 def _publications(
-    topics: Sequence[Published], proxies: Mapping[str, str], unheard: bool
+    topics: Sequence[Published], proxies: Mapping[str, str], publish_always: bool
 ) -> Iterator[str]:
     """The lines that publish; topics of a longer period in every so many rounds."""
     usual = period_of(topics)
-    for every in sorted({one.topic.period // usual for one in topics}, reverse=True):
+    for every in sorted({topic.topic.period // usual for topic in topics}, reverse=True):
         if every > 1:
             yield f"if self.rounds % {every} == 0:"
-        for one in topics:
-            if one.topic.period == every * usual:
+        for topic in topics:
+            if topic.topic.period == every * usual:
                 indent = STEP if every > 1 else ""
-                yield from _publication(one, f"self.{proxies[one.port]}", indent, unheard)
+                yield from _publication(
+                    topic, f"self.{proxies[topic.port]}", indent, publish_always
+                )
 
 
-def _publication(one: Published, proxy: str, indent: str, unheard: bool) -> Iterator[str]:
+def _publication(
+    published: Published, proxy: str, indent: str, publish_always: bool
+) -> Iterator[str]:
     """Where it is heard, what a port answers or its servant has to tell is published."""
-    port = f"self.ports[{literals.quoted(one.source)}]"
-    asking = layout.call(f"{port}.current", literals.quoted(one.topic.asked), tail="):")
-    told = "told"
-    if one.topic.news:
-        asking, told = layout.call(f"{port}.news", tail="):"), "*told"
-    if not unheard:
-        yield f"{indent}if {proxy}.is_heard():"
+    port = f"self.ports[{literals.quoted(published.source)}]"
+    asking = layout.call(f"{port}.latest", literals.quoted(published.topic.query), tail="):")
+    argument = "message"
+    if published.topic.on_change:
+        asking, argument = layout.call(f"{port}.poll", tail="):"), "*message"
+    if not publish_always:
+        yield f"{indent}if {proxy}.has_subscribers():"
         indent += STEP
-    yield indent + layout.statement("for told in ", asking, BODY + indent)
+    yield indent + layout.statement("for message in ", asking, BODY + indent)
     indent += STEP
-    telling = layout.call(f"{proxy}.{one.topic.operation}", told)
+    telling = layout.call(f"{proxy}.{published.topic.operation}", argument)
     yield indent + layout.statement("", telling, BODY + indent)
 
 
-def _method(port: Port, one: Operation, called: Called) -> Delegation:
-    arguments = called.types.arguments(one)
-    returns = called.types.returns(one)
+def _method(port: Port, operation: Operation, py_names: PythonNames) -> Delegation:
+    arguments = py_names.types.arguments(operation)
+    returns = py_names.types.returns(operation)
+    parameters = ["self", *(f"{a}: {t}" for a, t in arguments)]
     return Delegation(
-        definition(
-            called.handlers[port, one], ("self", *(f"{a}: {t}" for a, t in arguments)), returns
+        one_statement(
+            f"def {py_names.handlers[port, operation]}({', '.join(parameters)}) -> {returns}:",
+            INNER,
         ),
-        literals.docstring(docs.of_operation(one, called.types, port.interface.qualified), BODY),
-        tuple(_lines(port, one, [a for a, _ in arguments], layout.flat(returns))),
+        literals.docstring(
+            docs.of_operation(operation, py_names.types, port.interface.qualified), BODY
+        ),
+        tuple(_lines(port, operation, [a for a, _ in arguments], returns)),
     )
 
 
-def _lines(port: Port, one: Operation, arguments: list[str], returns: str) -> Iterator[str]:
+def _lines(
+    port: Port, called_operation: Operation, arguments: list[str], returns: str
+) -> Iterator[str]:
     """Two steps for an answer, so that every line is one that the formatter leaves as it is."""
-    operation = f"self.ports[{literals.quoted(port.name)}].{one.name}"
+    operation = f"self.ports[{literals.quoted(port.name)}].{called_operation.name}"
     if returns == "None":
         yield layout.statement("", layout.call(operation, *arguments), BODY)
         return
     ask, answer = names.unique(("ask", "answer"), arguments)
     yield f"{ask} = {operation}"
-    told = f"{answer}: {returns}"
+    target = f"{answer}: {returns}"
     if arguments:
-        yield layout.statement(f"{told} = ", layout.call(ask, *arguments), BODY)
+        yield layout.statement(f"{target} = ", layout.call(ask, *arguments), BODY)
     else:
-        yield layout.assignment(told, f"{ask}()", BODY)
+        yield layout.assignment(target, f"{ask}()", BODY)
     yield f"return {answer}"

@@ -13,7 +13,7 @@ SMOOTHING = 0.02
 """Time constant [s]."""
 
 
-class Acceleration:
+class AccelerationFilter:
     """A first-order high-pass filter: the speed less a slow one that follows it, over time."""
 
     def __init__(self, velocity: Floats) -> None:

@@ -1,7 +1,7 @@
-"""A control board: from what the sensors of n joints say to the torques of their motors.
+"""A control board: from the sensors of n joints to the torques of their motors.
 
 In, at every step: joint angles and speeds (n,), the time since the last step. Out: torques (n,)
-that keep to all limits. `Commands` gives it orders, `Calibrator` and `Parking` lead it.
+within all limits. `Commands` sets references; `Calibrator` and `Parking` override motions.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from robocomp_dsl.hardware.control.acceleration import Acceleration
-from robocomp_dsl.hardware.control.ease import Ease
-from robocomp_dsl.hardware.control.faults import Fault, Faults, overloaded, too_hot
+from robocomp_dsl.hardware.control.acceleration import AccelerationFilter
+from robocomp_dsl.hardware.control.ease import BoundsCheck
+from robocomp_dsl.hardware.control.faults import FaultCode, Faults, overloaded, too_hot
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
-from robocomp_dsl.hardware.control.law import Law
-from robocomp_dsl.hardware.control.limits import Limits
-from robocomp_dsl.hardware.control.loops import Loops
+from robocomp_dsl.hardware.control.law import ControlLaw
+from robocomp_dsl.hardware.control.limits import JointLimits
+from robocomp_dsl.hardware.control.loops import ControlLoops
 from robocomp_dsl.hardware.control.mode_table import ModeTable
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
@@ -28,25 +28,25 @@ from robocomp_dsl.hardware.control.watchdog import Watchdog
 
 
 class Board:
-    """The parts of a board and what it measured last. One thread at a time."""
+    """The parts of a board and its last measurements. Not thread-safe."""
 
     def __init__(self, spec: BoardSpec) -> None:
         n = len(spec.joints)
         self.spec, self.select = spec, Selector(spec.names)
-        self.limits, self.motors, self.faults = Limits(spec), Motors(spec), Faults(n)
-        self.loops = Loops(spec)
+        self.limits, self.motors, self.faults = JointLimits(spec), Motors(spec), Faults(n)
+        self.loops = ControlLoops(spec)
         self.pid = self.loops.bank
         bounds = tuple(Bounds(20 * j.torque_limit, 2 * j.torque_limit) for j in spec.joints)
         self.impedance = Impedance(bounds)
         self.references = References(spec, self.limits)
-        self.law = Law(self.loops, self.impedance, self.motors)
-        self.ease = Ease(self.limits, self.pid)
+        self.law = ControlLaw(self.loops, self.impedance, self.motors)
+        self.bounds_check = BoundsCheck(self.limits, self.pid)
         self.table, self.watchdog = ModeTable(spec), Watchdog(spec)
-        self.leaders: list[Callable[[float], None]] = []
+        self.motion_overrides: list[Callable[[float], None]] = []
         self.time, self.dt = 0.0, 0.001
         self.offset = np.zeros(n)
         self.position, self.velocity = np.zeros(n), np.zeros(n)
-        self._acceleration = Acceleration(self.velocity)
+        self._acceleration = AccelerationFilter(self.velocity)
         self.torque = np.zeros(n)
         self._started = self._shifted = False
         self.refresh()
@@ -80,72 +80,72 @@ class Board:
         self.dt = dt
         self._sense(position, velocity, dt)
         if self.time >= self.watchdog.due:
-            self._hold(self.watchdog.silent(self.time))
-        for lead in self.leaders:
+            self._hold_expired(self.watchdog.expired(self.time))
+        for lead in self.motion_overrides:
             lead(dt)
         self.references.step(self.position, dt)
         error = self.references.position - self.position
         late = self.references.velocity - self.velocity
         torque = self.law.step(error, late, self.velocity, feedforward, dt)
-        if not self.ease.holds(self.position, self.velocity, torque):
+        if not self.bounds_check.within_bounds(self.position, self.velocity, torque):
             torque = self.law.bounded(error, late, self.velocity, feedforward)
             torque = self.limits.guard(self.position, self.velocity, torque)
-        self.torque = torque if self.law.all_driven else torque * self.law.driven
+        self.torque = torque if self.law.all_powered else torque * self.law.powered
         if self.motors.overloadable or self.motors.hot or self.pid.tracks:
-            self._watch(error)
+            self._detect_faults(error)
         return self.torque
 
     def set_modes(self, joints: Ints, modes: Sequence[Mode]) -> None:
         """Change control modes; raises `ModeRefused` and then changes none."""
         changed = self.table.request(joints, modes)
-        self.faults.clear(self.table.whole(joints))
+        self.faults.clear(self.table.coupled(joints))
         if len(changed):
-            self._begin(changed)
+            self._reset_joints(changed)
 
     def set_interactions(self, joints: Ints, modes: Sequence[Interaction]) -> None:
         """Change interaction modes; raises `NotEquipped` or `ModeRefused`."""
-        self.table.interact(joints, modes)
+        self.table.request_interaction(joints, modes)
         self.refresh()
 
-    def drive_as(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
-        """Put a joint into a state of its own, its motor driven as in the mode `acting`."""
+    def force_mode(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
+        """Force a joint into `mode`, with its motor driven as in the mode `acting`."""
         self.table.force(joint, mode, acting)
-        self._begin(np.array([joint]))
+        self._reset_joints(np.array([joint]))
 
-    def fault(self, joints: Ints, code: Fault, message: str) -> None:
+    def fault(self, joints: Ints, code: FaultCode, message: str) -> None:
         """Switch `joints`, and what is coupled with them, off until force-idle."""
         self.faults.raise_(joints, code, message)
-        whole = self.table.whole(joints)
+        whole = self.table.coupled(joints)
         for joint in whole.tolist():
             self.table.force(joint, Mode.HW_FAULT)
-        self._begin(whole)
-        self.torque = self.torque * self.law.driven
+        self._reset_joints(whole)
+        self.torque = self.torque * self.law.powered
 
-    def push(self, kind: Floats, joints: Ints, values: Floats) -> None:
+    def set_streamed_reference(self, kind: Floats, joints: Ints, values: Floats) -> None:
         """References of `kind`: the torques, duty cycles or currents of the law."""
         kind[joints] = values
         self.law.apply()
         self.watchdog.feed(joints, self.time)
 
     def set_encoders(self, joints: Ints, position: Floats) -> None:
-        """Let the encoders of `joints` stand at `position` now; references move along."""
+        """Set the encoders of `joints` to `position`; references move along."""
         self.offset[joints] += position - self.position[joints]
         self._shifted = True
         self.position = self.position.copy()
         self.position[joints] = position
         self.references.reset(joints, position)
 
-    def trusted(self, felt: Floats) -> Floats:
-        """What sensors of torque tell (n,); joints where that is no number have a fault."""
+    def check_torque(self, felt: Floats) -> Floats:
+        """Torque readings (n,), with 0 and a fault where one is not a number."""
         good = np.isfinite(felt)
         if not good.all():
-            self._trip(np.flatnonzero(~good), Fault.SENSOR, "the torque sensor reads no number")
+            self._trip(np.flatnonzero(~good), FaultCode.SENSOR, "the torque sensor reads NaN")
         return np.where(good, felt, 0.0)
 
     def refresh(self) -> None:
-        """Work out anew what depends on modes and calibration."""
+        """Update what depends on modes and calibration."""
         self.limits.trust(self.table.calibrated)
-        self.law.choose(self.table.effective, self.table.interactions)
+        self.law.configure(self.table.effective, self.table.interactions)
 
     def state(self) -> BoardState:
         """A copy of everything that was measured last."""
@@ -159,14 +159,14 @@ class Board:
             motor_counts=self.motors.encoder(self.position),
             motor_speed=self.motors.speed(self.velocity),
             current=self.current,
-            duty=self.motors.duty(self.torque, self.velocity) * self.law.driven,
+            duty=self.motors.duty(self.torque, self.velocity) * self.law.powered,
             temperature=self.motors.temperature.copy(),
             modes=tuple(self.table.modes),
             interactions=self.table.interactions,
             faults=self.faults.now.copy(),
         )
 
-    def _begin(self, joints: Ints) -> None:
+    def _reset_joints(self, joints: Ints) -> None:
         """A new mode starts from what is measured: no jump, no memory."""
         self.references.reset(joints, self.position[joints])
         self.pid.reset(joints)
@@ -178,43 +178,43 @@ class Board:
         self.watchdog.follow(joints, [self.table.modes[i] for i in joints.tolist()], self.time)
         self.refresh()
 
-    def _hold(self, joints: Ints) -> None:
-        """Nobody pushes `joints` any more: they hold their places, giving way like springs."""
-        said = f"no reference came for {self.watchdog.timeout:g} s: it holds its place"
-        self.faults.raise_(joints, Fault.SILENCE, said)
+    def _hold_expired(self, joints: Ints) -> None:
+        """References of `joints` timed out: hold their positions with compliance."""
+        message = f"no reference came for {self.watchdog.timeout:g} s: it holds its position"
+        self.faults.raise_(joints, FaultCode.REFERENCE_TIMEOUT, message)
         for joint in joints.tolist():
-            self.table.yield_(joint)
-        self._begin(joints)
+            self.table.make_compliant(joint)
+        self._reset_joints(joints)
 
     def _sense(self, position: Floats, velocity: Floats, dt: float) -> None:
         if not math.isfinite(float(position.dot(velocity))):
-            position, velocity = self._without_broken(position, velocity)
+            position, velocity = self._replace_invalid(position, velocity)
         self.position = position + self.offset if self._shifted else position
         if not self._started:
             self.begin(position, velocity)
         self._acceleration.add(velocity, dt)
         self.velocity = velocity
 
-    def _without_broken(self, position: Floats, velocity: Floats) -> tuple[Floats, Floats]:
-        """Fault joints whose encoders read no number, and go on with their last angle."""
+    def _replace_invalid(self, position: Floats, velocity: Floats) -> tuple[Floats, Floats]:
+        """Fault joints whose encoders read NaN, and keep their last angle."""
         good = np.isfinite(position) & np.isfinite(velocity)
-        self._trip(np.flatnonzero(~good), Fault.ENCODER, "the encoder reads no number")
+        self._trip(np.flatnonzero(~good), FaultCode.ENCODER, "the encoder reads NaN")
         last = self.position - self.offset
         return np.where(good, position, last), np.where(good, velocity, 0.0)
 
-    def _watch(self, error: Floats) -> None:
-        """Look for faults in what the step has led to."""
+    def _detect_faults(self, error: Floats) -> None:
+        """Detect faults after a step."""
         if self.motors.overloadable:
             over = np.flatnonzero(overloaded(self.motors, self.current))
-            self._trip(over, Fault.OVERCURRENT, "the motor current is too large")
+            self._trip(over, FaultCode.OVERCURRENT, "the motor current is too large")
         if self.motors.hot:
             hot = np.flatnonzero(too_hot(self.motors))
-            self._trip(hot, Fault.OVERTEMPERATURE, "the motor is too hot")
+            self._trip(hot, FaultCode.OVERTEMPERATURE, "the motor is too hot")
         if self.pid.tracks:
             held = np.flatnonzero((np.abs(error) > self.pid.error_limit) & self.law.positioned)
-            self._trip(held, Fault.TRACKING, "the position error is too large")
+            self._trip(held, FaultCode.TRACKING, "the position error is too large")
 
-    def _trip(self, joints: Ints, code: Fault, message: str) -> None:
+    def _trip(self, joints: Ints, code: FaultCode, message: str) -> None:
         """Fault those of `joints` that have none yet."""
         fresh = [i for i in joints.tolist() if self.table.modes[i] is not Mode.HW_FAULT]
         if fresh:

@@ -17,18 +17,18 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ModeRefused
-from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
 
 STILL = 0.01
-"""A joint slower than this stands at its stop [rad/s]."""
+"""A joint slower than this is at its stop [rad/s]."""
 
 SETTLE = 0.2
 """For so long it must stand there [s]."""
 
 
-class Kind(Enum):
+class CalibrationMethod(Enum):
     """How a joint finds its zero."""
 
     ABSOLUTE = "absolute"
@@ -43,7 +43,7 @@ class Procedure:
     `duty` [%] pushes it to; then it goes to `home` at `speed`, all within `timeout` seconds.
     """
 
-    kind: Kind = Kind.ABSOLUTE
+    kind: CalibrationMethod = CalibrationMethod.ABSOLUTE
     zero: float = 0.0
     duty: float = 0.0
     stop: float = 0.0
@@ -52,7 +52,7 @@ class Procedure:
     timeout: float = 20.0
 
     def __post_init__(self) -> None:
-        if self.kind is Kind.HARD_STOP and self.duty == 0.0:
+        if self.kind is CalibrationMethod.HARD_STOP and self.duty == 0.0:
             raise BadValue("a search for a hard stop needs a duty cycle")
         if self.speed <= 0.0 or self.timeout <= 0.0:
             raise BadValue("speed and timeout of a calibration must be positive")
@@ -76,7 +76,7 @@ class Calibrator:
             raise BadValue(f"{len(board.spec.joints)} joints need as many calibration procedures")
         self._board, self._procedures = board, procedures
         self._runs: dict[int, _Run] = {}
-        board.leaders.append(self.step)
+        board.motion_overrides.append(self.step)
 
     def calibrate(self, joints: Ints | None = None) -> None:
         """Begin with `joints`, or all. Raises `ModeRefused` for a joint with a fault."""
@@ -89,7 +89,7 @@ class Calibrator:
             self._begin(joint)
 
     def home(self, joints: Ints | None = None) -> None:
-        """Send calibrated joints to their home; raises `ModeRefused` for others."""
+        """Send calibrated joints to their home; raises `ModeRefused` for other joints."""
         chosen = self._board.select.indices(joints)
         self._board.set_modes(chosen, [Mode.POSITION] * len(chosen))
         for joint in chosen.tolist():
@@ -99,10 +99,10 @@ class Calibrator:
         """Stop calibrating; the joints stay without calibration, and idle."""
         for joint in self._runs.keys() & set(self._board.select.indices(joints).tolist()):
             self._board.table.calibrated[joint] = False
-            self._board.drive_as(joint, Mode.NOT_CONFIGURED)
+            self._board.force_mode(joint, Mode.NOT_CONFIGURED)
             del self._runs[joint]
 
-    def leads(self, joints: Ints) -> bool:
+    def leads_any(self, joints: Ints) -> bool:
         """Whether any of `joints` is still on its way."""
         return not self._runs.keys().isdisjoint(joints.tolist())
 
@@ -122,20 +122,22 @@ class Calibrator:
             run.elapsed += dt
             if run.elapsed > run.procedure.timeout:
                 del self._runs[joint]
-                self._board.fault(np.array([joint]), Fault.CALIBRATION, "calibration took too long")
+                self._board.fault(
+                    np.array([joint]), FaultCode.CALIBRATION, "calibration took too long"
+                )
             elif run.searching:
                 self._search(joint, run, dt)
             elif not self._board.references.trajectory.moving[joint]:
                 del self._runs[joint]
-                self._board.drive_as(joint, Mode.CALIB_DONE)
-                self._board.drive_as(joint, Mode.POSITION)
+                self._board.force_mode(joint, Mode.CALIB_DONE)
+                self._board.force_mode(joint, Mode.POSITION)
 
     def _begin(self, joint: int) -> None:
         procedure = self._procedures[joint]
         self._board.table.calibrated[joint] = False
-        self._runs[joint] = _Run(procedure, searching=procedure.kind is Kind.HARD_STOP)
-        if procedure.kind is Kind.HARD_STOP:
-            self._board.drive_as(joint, Mode.CALIBRATING, Mode.PWM)
+        self._runs[joint] = _Run(procedure, searching=procedure.kind is CalibrationMethod.HARD_STOP)
+        if procedure.kind is CalibrationMethod.HARD_STOP:
+            self._board.force_mode(joint, Mode.CALIBRATING, Mode.PWM)
             self._board.law.duty[joint] = procedure.duty
             self._board.law.apply()
         else:
@@ -150,14 +152,14 @@ class Calibrator:
             self._zero(joint, run.procedure, run.procedure.stop)
 
     def _zero(self, joint: int, procedure: Procedure, angle: float) -> None:
-        """From here on the encoder tells angles; the way home begins."""
+        """The encoder is zeroed; the motion to the home position starts."""
         self._board.set_encoders(np.array([joint]), np.array([angle]))
         self._board.table.calibrated[joint] = True
-        self._board.drive_as(joint, Mode.CALIBRATING, Mode.POSITION)
+        self._board.force_mode(joint, Mode.CALIBRATING, Mode.POSITION)
         self._go_home(joint, procedure)
 
     def _go_home(self, joint: int, procedure: Procedure) -> None:
-        one = np.array([joint])
-        goal, _ = self._board.limits.clip(one, np.array([procedure.home]))
+        index = np.array([joint])
+        goal, _ = self._board.limits.clip(index, np.array([procedure.home]))
         speed = np.array([procedure.speed])
-        self._board.references.move(one, goal, self._board.dt, speed)
+        self._board.references.move(index, goal, self._board.dt, speed)

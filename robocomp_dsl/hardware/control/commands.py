@@ -32,9 +32,9 @@ class Commands:
     def set_mode(self, joints: Joints, mode: Mode | Sequence[Mode]) -> None:
         """Ask for control modes, one for all joints or one for each."""
         chosen = self._board.select.indices(joints)
-        wanted = [mode] * len(chosen) if isinstance(mode, Mode) else list(mode)
-        numbers("modes", np.zeros(len(wanted)), len(chosen))
-        self._board.set_modes(chosen, wanted)
+        requested = [mode] * len(chosen) if isinstance(mode, Mode) else list(mode)
+        numbers("modes", np.zeros(len(requested)), len(chosen))
+        self._board.set_modes(chosen, requested)
 
     def set_interaction(self, joints: Joints, mode: Interaction) -> None:
         """Make joints stiff or compliant, whatever their control mode."""
@@ -53,11 +53,11 @@ class Commands:
         return self._move(chosen, here + numbers("way", way, len(chosen)))
 
     def set_position(self, joints: Joints, position: Values) -> Bools:
-        """Follow `position` [rad] at once; for streams of small steps."""
+        """Follow `position` [rad] without a trajectory; for streams of small steps."""
         chosen = self._in(joints, "set_position", Mode.POSITION_DIRECT)
         values = numbers("position", position, len(chosen))
-        kept, clipped = self._board.limits.clip(chosen, values)
-        self._board.references.direct(chosen, kept)
+        allowed, clipped = self._board.limits.clip(chosen, values)
+        self._board.references.set_position(chosen, allowed)
         return clipped
 
     def velocity_move(self, joints: Joints, velocity: Values, hold: float = np.inf) -> Bools:
@@ -65,19 +65,19 @@ class Commands:
         chosen = self._in(joints, "velocity_move", Mode.VELOCITY, Mode.MIXED)
         values = numbers("velocity", velocity, len(chosen))
         most = self._board.limits.speed[chosen]
-        kept = np.clip(values, -most, most)
-        self._board.references.drive(chosen, kept, hold)
-        clipped: Bools = kept != values
+        allowed = np.clip(values, -most, most)
+        self._board.references.set_velocity(chosen, allowed, hold)
+        clipped: Bools = allowed != values
         return clipped
 
     def set_velocity(self, joints: Joints, velocity: Values) -> Bools:
-        """Turn at `velocity` [rad/s] at once, without a ramp; where velocities were clipped."""
+        """Turn at `velocity` [rad/s] without a ramp; where velocities were clipped."""
         chosen = self._in(joints, "set_velocity", Mode.VELOCITY_DIRECT)
         values = numbers("velocity", velocity, len(chosen))
         most = self._board.limits.speed[chosen]
-        kept = np.clip(values, -most, most)
-        self._board.references.drive_at_once(chosen, kept)
-        clipped: Bools = kept != values
+        allowed = np.clip(values, -most, most)
+        self._board.references.set_velocity_direct(chosen, allowed)
+        clipped: Bools = allowed != values
         return clipped
 
     def set_torque(self, joints: Joints, torque: Values) -> Bools:
@@ -119,8 +119,8 @@ class Commands:
         if (speeds <= 0.0).any():
             name = self._board.spec.names[joints[int(np.argmin(speeds))]]
             raise NoSpeed(f"`{name}` has the reference speed 0: it would never arrive")
-        kept, clipped = self._board.limits.clip(joints, goal)
-        self._board.references.move(joints, kept, self._board.dt)
+        allowed, clipped = self._board.limits.clip(joints, goal)
+        self._board.references.move(joints, allowed, self._board.dt)
         return clipped
 
     def _in(self, joints: Joints, command: str, *modes: Mode) -> Ints:
@@ -134,7 +134,7 @@ class Commands:
         return chosen
 
     def _store(self, into: Floats, joints: Ints, values: Floats, most: Floats) -> Bools:
-        kept = np.minimum(np.maximum(values, -most), most)
-        self._board.push(into, joints, kept)
-        clipped: Bools = kept != values
+        allowed = np.minimum(np.maximum(values, -most), most)
+        self._board.set_streamed_reference(into, joints, allowed)
+        clipped: Bools = allowed != values
         return clipped

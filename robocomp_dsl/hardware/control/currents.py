@@ -1,7 +1,7 @@
-"""Regulators of motor currents, with the motors that they drive.
+"""Current controllers, together with the motors that they drive.
 
 In: references [A], speeds of the joints [rad/s]. Out: joint torques. A current settles much faster
-than a board steps, so that regulator and motor are solved together over each step. With a motor of
+than a board steps, so that controller and motor are solved together over each step. With a motor of
 resistance r and back EMF e, both in percent of its supply, and gains kp and ki,
 
     u = feedforward * reference + offset + kp * error + integral,    r * current = u - e
@@ -23,7 +23,7 @@ from robocomp_dsl.hardware.control.pid import Gains
 class Currents:
     """All arrays (n,) by motor: `output` and `integral` [%], `torque` [N m] by joint.
 
-    `active` tells whether any current is regulated.
+    `active` is True while any current is controlled.
     """
 
     def __init__(self, motors: Motors) -> None:
@@ -33,12 +33,12 @@ class Currents:
         self._resistance = 100.0 * motors.resistance / motors.supply
         self._dt = 0.0
 
-    def choose(self, gains: Sequence[Gains], here: Bools, enabled: Bools) -> None:
-        """Regulate `here`, as far as regulators are `enabled`; one that is not gives nothing."""
+    def configure(self, gains: Sequence[Gains], here: Bools, enabled: Bools) -> None:
+        """Control the currents in `here`; the output of a controller that is not `enabled` is 0."""
         self.active, self._here = bool(here.any()), here.astype(float)
         works = here & enabled
         self._kp, self._ki, self._offset, self._forward, self._most, self._most_integral = (
-            np.where(works, [getattr(one, name) for one in gains], 0.0)
+            np.where(works, [getattr(gains_of_motor, name) for gains_of_motor in gains], 0.0)
             for name in ("kp", "ki", "offset", "feedforward", "max_output", "max_integral")
         )
         self._dt = 0.0  # nothing is prepared for any step
@@ -52,32 +52,32 @@ class Currents:
 
     def feed(self, reference: Floats) -> None:
         """Bring these currents (n,) about."""
-        self._given = self._forward * reference + self._offset
-        self._wanted = self._resistance * reference - self._given
+        self._reference_given = self._forward * reference + self._offset
+        self._voltage = self._resistance * reference - self._reference_given
 
     def step(self, velocity: Floats, dt: float) -> None:
         """Let `dt` seconds pass at `velocity` (n,) of the joints."""
         if dt != self._dt:
             self._prepare(dt)
         emf = self._motors.duty_of_speed(velocity)
-        error = self._wanted - self.integral
+        error = self._voltage - self.integral
         error += emf
         grown = self._growth * error
         grown += self.integral
         grown = np.minimum(np.maximum(grown, -self._most_integral), self._most_integral)
-        wanted = self._gain * error
-        wanted += grown
-        wanted += self._given
-        self.output = np.minimum(np.maximum(wanted, -self._most), self._most)
-        if np.count_nonzero(wanted != self.output):
+        requested = self._gain * error
+        requested += grown
+        requested += self._reference_given
+        self.output = np.minimum(np.maximum(requested, -self._most), self._most)
+        if np.count_nonzero(requested != self.output):
             # an output at its bound must not wind the integral up
-            held = (wanted != self.output) & (grown * error > 0.0)
+            held = (requested != self.output) & (grown * error > 0.0)
             grown = np.where(held, self.integral, grown)
         self.integral = grown
         self.torque = self._to_torque @ (self.output - emf)
 
     def _prepare(self, dt: float) -> None:
-        """What a step of `dt` seconds makes of an error that began with 1 %."""
+        """Response to an error of 1 % over a step of `dt` seconds."""
         stiff = self._resistance + self._kp
         left = np.exp(-self._ki / stiff * dt)
         self._dt, self._growth, self._gain = dt, 1.0 - left, self._kp * left / stiff

@@ -1,7 +1,7 @@
-"""What each regulator of a board has to make good: one error a joint, by the loop that works.
+"""Control errors: one error per joint, by its active loop.
 
 In: errors of position and velocity, references and sensors of torque. Out: errors (n,) and their
-derivatives, in the units of the loops. What no regulator looks at is not worked out.
+derivatives, in the units of the loops. An error that no controller uses is not computed.
 """
 
 from __future__ import annotations
@@ -9,48 +9,53 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.loops import Loop, Loops
+from robocomp_dsl.hardware.control.loops import ControlLoops, Loop
 
 
-class Deviations:
-    """`felt` (n,) are the torques that joints feel [N m].
+class ControlErrors:
+    """`measured_torque` (n,) are the torques at the joints [N m].
 
-    Whoever steps the board tells them, where `feels` says that a regulator looks at them. `mixed`
-    tells whether any regulates something else than its position.
+    The caller of `Board.step` sets them while `needs_torque`: a controller uses them.
+    `beyond_position` is True while a loop other than position is active.
     """
 
     def __init__(self, size: int) -> None:
         none: Bools = np.zeros(size, bool)
-        self.felt = np.zeros(size)
-        self.mixed = self.feels = False
+        self.measured_torque = np.zeros(size)
+        self.beyond_position = self.needs_torque = False
         self._position = self._torque = none
         self._fast = self._all_fast = self._damped = False
         self._before: Floats | None = None
 
-    def choose(self, loops: Loops) -> None:
-        """Follow the loops that work now."""
+    def configure(self, loops: ControlLoops) -> None:
+        """Follow the active loops."""
         self._position, self._torque = loops.works(Loop.POSITION), loops.works(Loop.TORQUE)
         fast, gains = loops.works(Loop.VELOCITY), loops.bank.gains
         self._fast = bool(fast.any())
         self._all_fast = self._fast and not self._position.any()
-        self.mixed = self._fast or bool(self._torque.any())
-        looks = np.array([bool(one.kp or one.ki or one.kd) for one in gains])
-        self.feels = bool((self._torque & looks).any())
-        damps = np.array([bool(one.kd) for one in gains])
+        self.beyond_position = self._fast or bool(self._torque.any())
+        looks = np.array([bool(gain.kp or gain.ki or gain.kd) for gain in gains])
+        self.needs_torque = bool((self._torque & looks).any())
+        damps = np.array([bool(gain.kd) for gain in gains])
         self._damped = bool((damps & (fast | self._torque)).any())
         self._before = None
 
-    def of(self, error: Floats, late: Floats, torque: Floats, dt: float) -> tuple[Floats, Floats]:
+    def compute(
+        self, error: Floats, late: Floats, torque: Floats, dt: float
+    ) -> tuple[Floats, Floats]:
         """Errors and derivatives (n,); `error` and `late` are those of position and velocity.
 
-        `torque` are references. Where no gain looks at it, anything stands.
+        `torque` are references. A value that no gain uses is arbitrary.
         """
-        mixed = error
+        beyond_position = error
         if self._fast:
-            mixed = late if self._all_fast else np.where(self._position, error, late)
-        if self.feels:
-            mixed = np.where(self._torque, torque - self.felt, mixed)
+            beyond_position = late if self._all_fast else np.where(self._position, error, late)
+        if self.needs_torque:
+            beyond_position = np.where(self._torque, torque - self.measured_torque, beyond_position)
         if not self._damped:
-            return mixed, late  # a derivative that meets a gain is that of a position
-        before, self._before = mixed if self._before is None else self._before, mixed
-        return mixed, np.where(self._position, late, (mixed - before) / dt)
+            return beyond_position, late  # a derivative that meets a gain is that of a position
+        before, self._before = (
+            beyond_position if self._before is None else self._before,
+            beyond_position,
+        )
+        return beyond_position, np.where(self._position, late, (beyond_position - before) / dt)

@@ -1,7 +1,7 @@
-"""Whether all joints of a board are at ease: nowhere near a bound, so that none need be worked out.
+"""Checks whether a step of a board is within all bounds, so that no bound has to be applied.
 
-In: the limits and the regulators, and what a step has come to. Out: yes or no, by one look at all
-of it: numpy needs hardly longer for five rows than for one, and joints are at ease nearly always.
+In: the limits, the controllers and the results of a step. Out: a bool, by one comparison of all
+values: numpy takes hardly longer for five rows than for one, and steps are nearly always inside.
 """
 
 from __future__ import annotations
@@ -9,34 +9,34 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Floats
-from robocomp_dsl.hardware.control.limits import AHEAD, Limits
+from robocomp_dsl.hardware.control.limits import AHEAD, JointLimits
 from robocomp_dsl.hardware.control.pid import PidBank
 
 
-class Ease:
+class BoundsCheck:
     """The bounds of `limits` and `pid`, one after the other, as long as they do not change."""
 
-    def __init__(self, limits: Limits, pid: PidBank) -> None:
+    def __init__(self, limits: JointLimits, pid: PidBank) -> None:
         n = len(limits.speed)
         self._limits, self._pid = limits, pid
-        self._seen = (-1, -1)
+        self._versions = (-1, -1)
         self._ahead = np.full(n, AHEAD)
         # five rows and the same with the other sign, so that one comparison does for both sides
-        self._every, self._most = np.zeros((2, 5, n)), np.zeros((2, 5, n))
-        self._said = bytearray(10 * n)  # in bytes a search for any false is a matter of nothing
-        self._within = np.frombuffer(self._said, bool).reshape(2, 5, n)
-        self._plus, self._minus = self._every[0], self._every[1]
+        self._values, self._bounds = np.zeros((2, 5, n)), np.zeros((2, 5, n))
+        self._result = bytearray(10 * n)  # in bytes a search for any false is a matter of nothing
+        self._within = np.frombuffer(self._result, bool).reshape(2, 5, n)
+        self._plus, self._minus = self._values[0], self._values[1]
         self._rows = tuple(self._plus)
 
-    def __reduce__(self) -> tuple[type[Ease], tuple[Limits, PidBank]]:
+    def __reduce__(self) -> tuple[type[BoundsCheck], tuple[JointLimits, PidBank]]:
         """A copy writes to rows of its own."""
-        return Ease, (self._limits, self._pid)
+        return BoundsCheck, (self._limits, self._pid)
 
-    def holds(self, position: Floats, velocity: Floats, torque: Floats) -> bool:
-        """For all joints; `torque` (n,) is what is wished. Never where something is no number."""
+    def within_bounds(self, position: Floats, velocity: Floats, torque: Floats) -> bool:
+        """For all joints; `torque` (n,) is the requested torque. False where a value is NaN."""
         limits, pid = self._limits, self._pid
-        if self._seen != (limits.version, pid.version):
-            self._look()
+        if self._versions != (limits.version, pid.version):
+            self._read_bounds()
         ahead, speed, wished, output, integral = self._rows
         np.multiply(velocity, self._ahead, ahead)
         ahead += position
@@ -45,12 +45,12 @@ class Ease:
         output[:] = pid.output
         integral[:] = pid.integral
         np.negative(self._plus, self._minus)
-        np.less_equal(self._every, self._most, self._within)
-        return 0 not in self._said
+        np.less_equal(self._values, self._bounds, self._within)
+        return 0 not in self._result
 
-    def _look(self) -> None:
+    def _read_bounds(self) -> None:
         limits, pid = self._limits, self._pid
         low, high = limits.stops
-        self._most[:, 1:] = (limits.speed, limits.torque, *pid.bounds)
-        self._most[:, 0] = high, -low
-        self._seen = limits.version, pid.version
+        self._bounds[:, 1:] = (limits.speed, limits.torque, *pid.bounds)
+        self._bounds[:, 0] = high, -low
+        self._versions = limits.version, pid.version

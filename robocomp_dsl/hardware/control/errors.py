@@ -12,7 +12,7 @@ CommandRefused
 
 from __future__ import annotations
 
-from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.devices.errors import CommandRefused
 
 
 class ControlRefused(CommandRefused):

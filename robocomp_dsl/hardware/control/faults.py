@@ -14,7 +14,7 @@ from robocomp_dsl.hardware.control.motors import Motors
 Codes = NDArray[np.int32]
 
 
-class Fault(IntEnum):
+class FaultCode(IntEnum):
     """What a joint's fault is; the number is its code. `SILENCE` alone leaves the motor on."""
 
     NONE = 0
@@ -24,7 +24,7 @@ class Fault(IntEnum):
     TRACKING = 4
     CALIBRATION = 5
     EXTERNAL = 6
-    SILENCE = 7
+    REFERENCE_TIMEOUT = 7
     SENSOR = 8
 
 
@@ -32,32 +32,32 @@ class Fault(IntEnum):
 class FaultReport:
     """The last fault of a joint, in words."""
 
-    code: Fault
+    code: FaultCode
     message: str
 
 
-_NONE = FaultReport(Fault.NONE, "")
+_NONE = FaultReport(FaultCode.NONE, "")
 
 
 class Faults:
     """The last fault of each joint; kept after it is cleared, so that one can ask why.
 
-    `now` (n,) are the codes of faults that nobody has cleared by a change of mode.
+    `now` (n,) are the codes of faults that no change of mode has cleared.
     """
 
     def __init__(self, size: int) -> None:
         self.last = [_NONE] * size
         self.now: Codes = np.zeros(size, np.int32)
 
-    def raise_(self, joints: Ints, code: Fault, message: str) -> None:
+    def raise_(self, joints: Ints, code: FaultCode, message: str) -> None:
         """Note a fault of `joints`."""
         for joint in joints.tolist():
             self.last[joint] = FaultReport(code, message)
         self.now[joints] = code
 
     def clear(self, joints: Ints) -> None:
-        """Somebody has taken hold of `joints` again."""
-        self.now[joints] = Fault.NONE
+        """A mode change has cleared the faults of `joints`."""
+        self.now[joints] = FaultCode.NONE
 
 
 def overloaded(motors: Motors, current: Floats) -> Bools:

@@ -27,8 +27,8 @@ class Impedance:
 
     def __init__(self, bounds: tuple[Bounds, ...]) -> None:
         self.bounds = bounds
-        self.stiffness = np.array([0.2 * one.stiffness for one in bounds])
-        self.damping = np.array([0.2 * one.damping for one in bounds])
+        self.stiffness = np.array([0.2 * bound.stiffness for bound in bounds])
+        self.damping = np.array([0.2 * bound.damping for bound in bounds])
         self.offset = np.zeros(len(bounds))
 
     def set(self, joints: Ints, stiffness: Floats, damping: Floats) -> None:
@@ -36,8 +36,8 @@ class Impedance:
         for joint, k, d in zip(joints.tolist(), stiffness, damping, strict=True):
             most = self.bounds[joint]
             if not (0.0 <= k <= most.stiffness and 0.0 <= d <= most.damping):
-                said = f"stiffness 0 to {most.stiffness:g}, damping 0 to {most.damping:g}"
-                raise BadValue(f"joint {joint} takes {said}; {k:g} and {d:g} were given")
+                message = f"stiffness 0 to {most.stiffness:g}, damping 0 to {most.damping:g}"
+                raise BadValue(f"joint {joint} takes {message}; not {k:g} and {d:g}")
         self.stiffness[joints] = stiffness
         self.damping[joints] = damping
 

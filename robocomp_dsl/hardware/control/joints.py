@@ -1,4 +1,4 @@
-"""What a board is made of: joints, motors, and how motors are coupled to joints. Data only."""
+"""Specification of a board: joints, motors, and the coupling between them. Data only."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class JointSpec:
 
 @dataclass(frozen=True, slots=True)
 class MotorSpec:
-    """One motor behind its gear.
+    """One motor with its gear.
 
     `gear` is motor turns per joint turn, `counts` encoder counts per motor turn; `torque_constant`
     [N m/A], `resistance` [ohm], `supply` [V] and `max_current` [A] are those of the motor.
@@ -71,7 +71,7 @@ class BoardSpec:
             object.__setattr__(self, "coupling", np.eye(n))
         if len(self.motors) != n or self.coupling.shape != (n, n):
             raise BadValue(f"{n} joints need as many motors and a coupling of {n} x {n}")
-        if not _turns_round(self.coupling):
+        if not _reverses(self.coupling):
             raise BadValue("the coupling cannot be turned round: some joint has no motor")
 
     @cached_property
@@ -104,21 +104,21 @@ class BoardSpec:
 
     def coupled(self, joint: int) -> Ints:
         """All joints that share motors with `joint`, itself included, ascending."""
-        return self._together[joint]
+        return self._coupled_blocks[joint]
 
     @cached_property
-    def _together(self) -> list[Ints]:
+    def _coupled_blocks(self) -> list[Ints]:
         """The set of each joint; sets are merged along the entries off the diagonal."""
         sets = {i: [i] for i in range(len(self.joints))}
         for row, column in np.argwhere(self.coupling).tolist():
-            one, other = sets[row], sets[column]
-            if one is not other:
-                one += other
-                sets |= dict.fromkeys(other, one)
+            first, other = sets[row], sets[column]
+            if first is not other:
+                first += other
+                sets |= dict.fromkeys(other, first)
         return [np.array(sorted(sets[i])) for i in range(len(self.joints))]
 
 
-def _turns_round(coupling: Floats) -> bool:
+def _reverses(coupling: Floats) -> bool:
     """Whether every joint has a motor; most boards need no search for their rank."""
     own = np.diagonal(coupling)
     if np.count_nonzero(coupling) == np.count_nonzero(own):

@@ -11,52 +11,52 @@ from collections.abc import Sequence
 import numpy as np
 
 from robocomp_dsl.hardware.control.currents import Currents
-from robocomp_dsl.hardware.control.deviations import Deviations
+from robocomp_dsl.hardware.control.deviations import ControlErrors
 from robocomp_dsl.hardware.control.impedance import Impedance
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.loops import Loop, Loops, loop_of
+from robocomp_dsl.hardware.control.loops import ControlLoops, Loop, loop_of
 from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
 
 
-class Law:
+class ControlLaw:
     """`torque`, `duty` and `current` (n,) are the references of the modes of the same name.
 
-    Whoever changes one of them calls `apply`, and `regulate` after a change of gains. `positioned`
+    After a change to one of them call `apply`, and `regulate` after a change of gains. `positioned`
     (n,) tells which joints hold a position now, `driven` which motors are on (1, else 0).
     """
 
-    def __init__(self, loops: Loops, impedance: Impedance, motors: Motors) -> None:
+    def __init__(self, loops: ControlLoops, impedance: Impedance, motors: Motors) -> None:
         n = len(loops.active)
         self._loops, self._bank = loops, loops.bank
         self._impedance, self._motors = impedance, motors
-        self.deviations, self.currents = Deviations(n), Currents(motors)
+        self.errors, self.currents = ControlErrors(n), Currents(motors)
         self.torque, self.duty, self.current = np.zeros(n), np.zeros(n), np.zeros(n)
         self.positioned: Bools = np.zeros(n, bool)
-        self.driven = np.zeros(n)
+        self.powered = np.zeros(n)
         self._held, self._spring, self._direct = np.zeros(n), np.zeros(n), np.zeros(n)
         self._by_torque, self._by_duty = np.zeros(n), np.zeros(n)
         self._ahead: Floats | None = None
         self._back_emf: Floats | None = None
         self._commanded = self._alone = self._odd = False
-        self._regulated = self._comply = self.all_driven = False
+        self._regulated = self._comply = self.all_powered = False
 
-    def choose(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
+    def configure(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
         """Work out which terms each joint uses."""
-        self._loops.use([loop_of(*one) for one in zip(modes, interactions, strict=True)])
+        self._loops.use([loop_of(*pair) for pair in zip(modes, interactions, strict=True)])
         self.regulate()
-        comply = np.array([one is Interaction.COMPLIANT for one in interactions])
+        comply = np.array([pair is Interaction.COMPLIANT for pair in interactions])
         self.positioned = np.array([mode in POSITIONED for mode in modes])
         self._regulated = any(self._loops.active)
         self._held = self.positioned.astype(float)
         self._spring = (self.positioned & comply).astype(float)
         self._comply = bool(self._spring.any())
         self._by_torque, self._by_duty, by_current = (
-            np.array([float(one is mode) for one in modes])
+            np.array([float(pair is mode) for pair in modes])
             for mode in (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
         )
-        self.driven = self._held + self._by_torque + self._by_duty + by_current
-        self.all_driven = bool(self.driven.all())
+        self.powered = self._held + self._by_torque + self._by_duty + by_current
+        self.all_powered = bool(self.powered.all())
         duty = self._by_duty.any()
         self._back_emf = self._by_duty[:, None] * self._motors.back_emf if duty else None
         self._direct = np.zeros(len(modes))
@@ -65,14 +65,14 @@ class Law:
     def regulate(self) -> None:
         """Follow a change of gains."""
         loops = self._loops
-        self.deviations.choose(loops)
+        self.errors.configure(loops)
         flows = loops.works(Loop.CURRENT)
-        self.currents.choose(loops.gains[Loop.CURRENT], flows, loops.enabled[Loop.CURRENT])
+        self.currents.configure(loops.gains[Loop.CURRENT], flows, loops.enabled[Loop.CURRENT])
         self.currents.feed(self.current)
         moving = loops.works(Loop.POSITION) | loops.works(Loop.VELOCITY)
         ahead = moving * (self._bank.feedforward > 0.0)
         self._ahead = ahead if ahead.any() else None
-        self._odd = self.deviations.mixed or self._ahead is not None
+        self._odd = self.errors.beyond_position or self._ahead is not None
 
     def apply(self) -> None:
         """Take over torque, duty and current commands."""
@@ -94,7 +94,7 @@ class Law:
         feedforward: Floats | None,
         dt: float,
     ) -> Floats:
-        """Wished torques, as if regulators had no bounds; where they pass one, `bounded` is due.
+        """Torques without the bounds of the controllers; use `bounded` where one is passed.
 
         `feedforward` (n,) is added where a position is held: weight, mostly.
         """
@@ -112,16 +112,16 @@ class Law:
     def bounded(
         self, error: Floats, velocity_error: Floats, velocity: Floats, feedforward: Floats | None
     ) -> Floats:
-        """The torques that `step` gave last, with the bounds of all regulators."""
+        """The torques of the last `step`, with the bounds of all controllers."""
         held = self._bank.bounded() if self._regulated else None
         return self._sum(held, error, velocity_error, velocity, feedforward)
 
     def _propose(self, error: Floats, late: Floats, velocity: Floats, dt: float) -> Floats:
-        """What regulators give that not all regulate positions alone."""
+        """Outputs of the controllers when not all control positions."""
         derivative = late
         ahead = None if self._ahead is None else self._ahead * (late + velocity)
-        if self.deviations.mixed:
-            error, derivative = self.deviations.of(error, late, self.torque, dt)
+        if self.errors.beyond_position:
+            error, derivative = self.errors.compute(error, late, self.torque, dt)
         return self._bank.propose(error, derivative, dt, ahead)
 
     def _sum(

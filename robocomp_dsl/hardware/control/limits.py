@@ -22,7 +22,7 @@ _FAST = 0.5
 """A joint slower than this is not braked before it is at its limit [rad/s]."""
 
 
-class Limits:
+class JointLimits:
     """All arrays (n,): `low`, `high` [rad], `speed` [rad/s], `torque` [N m].
 
     `stops` are `low` and `high` where the encoders can be trusted; `version` counts changes.
@@ -59,8 +59,8 @@ class Limits:
 
     def clip(self, joints: Ints, position: Floats) -> tuple[Floats, Bools]:
         """Positions within the limits, and where they had to be moved."""
-        kept = np.clip(position, self.low[joints], self.high[joints])
-        return kept, kept != position
+        allowed = np.clip(position, self.low[joints], self.high[joints])
+        return allowed, allowed != position
 
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
         """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""

@@ -1,6 +1,6 @@
-"""The regulators of a board: of position, velocity, torque and current, one of each for a joint.
+"""The control loops of a board: position, velocity, torque and current for each joint.
 
-In: the modes of the joints, and gains. Out: a bank of regulators that holds, for each joint, the
+In: the modes of the joints, and gains. Out: a bank of controllers that holds, for each joint, the
 gains of the one that works now; those of currents are in `currents`. Gains are kept by kind,
 whatever works.
 
@@ -55,8 +55,8 @@ def loop_of(mode: Mode, interaction: Interaction) -> Loop | None:
 def default_gains(spec: BoardSpec) -> dict[Loop, list[Gains]]:
     """In proportion to the joint's torque t, all of it at 0.1 rad of error.
 
-    The integral of a speed is a way: the regulator of velocity is as stiff as that of position. A
-    torque is passed on as it is.
+    The integral of a speed is a way: the velocity controller is as stiff as the position
+    controller. A torque is passed on as it is.
     """
     torques = [joint.torque_limit for joint in spec.joints]
     percents = [100.0 * motor.resistance / motor.supply for motor in spec.motors]
@@ -79,7 +79,7 @@ def default_gains(spec: BoardSpec) -> dict[Loop, list[Gains]]:
     }
 
 
-class Loops:
+class ControlLoops:
     """`gains` and `enabled` by kind; `bank` regulates by those that `use` has chosen."""
 
     def __init__(self, spec: BoardSpec) -> None:
@@ -90,31 +90,33 @@ class Loops:
         self.bank = PidBank(self.gains[Loop.POSITION])
 
     def set(self, loop: Loop, joint: int, gains: Gains) -> None:
-        """Give one regulator other gains."""
+        """Set the gains of one controller."""
         self.gains[loop][joint] = gains
         self._load()
 
     def enable(self, loop: Loop, joints: Ints, *, on: bool) -> None:
-        """Switch regulators on or off; one that is off gives nothing."""
+        """Switch controllers on or off; the output of one that is off is 0."""
         self.enabled[loop][joints] = on
         self._load()
 
     def use(self, active: Sequence[Loop | None]) -> None:
-        """Which regulator of each joint works now, if any."""
+        """The active loop of each joint, if any."""
         self.active = list(active)
         self._load()
 
     def works(self, loop: Loop) -> Bools:
         """Where this kind is in use, (n,)."""
-        return np.array([one is loop for one in self.active], bool)
+        return np.array([active is loop for active in self.active], bool)
 
     def reset(self, loop: Loop, joints: Ints) -> None:
-        """Forget what regulators of this kind have summed up."""
+        """Reset the integrals of the controllers of this loop."""
         self.bank.reset(joints[self.works(loop)[joints]])
 
     def _load(self) -> None:
-        gains = [self.gains[one or Loop.POSITION][i] for i, one in enumerate(self.active)]
+        gains = [self.gains[active or Loop.POSITION][i] for i, active in enumerate(self.active)]
         # currents are regulated by motors, apart from the bank
-        banked = [None if one is Loop.CURRENT else one for one in self.active]
-        works = [one is not None and bool(self.enabled[one][i]) for i, one in enumerate(banked)]
-        self.bank.choose(gains, np.array(works, bool))
+        banked = [None if active is Loop.CURRENT else active for active in self.active]
+        works = [
+            active is not None and bool(self.enabled[active][i]) for i, active in enumerate(banked)
+        ]
+        self.bank.configure(gains, np.array(works, bool))

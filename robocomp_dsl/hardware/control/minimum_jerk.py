@@ -1,4 +1,4 @@
-"""Minimum-jerk trajectories of n joints at once.
+"""Minimum-jerk trajectories of n joints.
 
 In: goals and speeds. Out: reference positions and velocities, step by step. With d the way, v the
 speed at the start times the duration, and t from 0 to 1:
@@ -23,13 +23,13 @@ ROUNDING = 1.0 + 1e-9
 """Above a limit by no more than this is at the limit."""
 
 AHEAD = 24
-"""For so many steps references are worked out at once: numpy needs hardly longer than for one."""
+"""Steps whose references are computed together: numpy takes hardly longer than for one."""
 
 
 class MinimumJerk:
     """The trajectories; `position` and `velocity` (n,) are the references after the last step.
 
-    `active` tells whether any joint moves. A joint at rest is a trajectory of rate 0, so that a
+    `active` is True while a joint moves. A joint at rest is a trajectory of rate 0, so that a
     step treats all joints alike. The steps to come are worked out ahead, no further than to the
     next end; whatever changes a trajectory forgets them. They keep between `bounds` (n,), if given.
     """
@@ -133,21 +133,21 @@ class MinimumJerk:
 
     @staticmethod
     def _keep_within(rows: Floats, low: Floats, high: Floats) -> None:
-        """A reference that would pass a bound stands still there."""
-        kept = np.minimum(np.maximum(rows[:, 0], low), high)
-        outside = kept != rows[:, 0]
+        """A reference that would pass a bound stops there."""
+        allowed = np.minimum(np.maximum(rows[:, 0], low), high)
+        outside = allowed != rows[:, 0]
         if np.count_nonzero(outside):
-            rows[:, 0] = kept
+            rows[:, 0] = allowed
             rows[:, 1][outside] = 0.0
 
     def _forget(self) -> None:
-        """Be where the last step led to; what was worked out for later no longer holds."""
+        """Set the state of the last step, and discard the steps computed ahead."""
         self._time += self._next * self._dt * self._rate
         self._rows, self._next = self._rows[:0], 0
 
 
 def _long_enough(way: Floats, velocity: Floats, duration: Floats, most: Floats) -> Floats:
-    """The durations, made longer until no speed on the way is above `most` or that of the start."""
+    """The durations, made longer until no speed is above `most` or that of the start."""
     bound = ROUNDING * np.maximum(most, np.abs(velocity))
     for _ in range(40):
         mean = np.divide(way, duration, out=np.zeros(len(way)), where=duration > 0.0)
@@ -159,7 +159,7 @@ def _long_enough(way: Floats, velocity: Floats, duration: Floats, most: Floats) 
 
 
 def _top_speed(velocity: Floats, mean: Floats) -> Floats:
-    """The highest speed behind the start, from the speeds at the start and on average.
+    """The highest speed after the start, from the speeds at the start and on average.
 
     The acceleration vanishes at 0, at 1 and at one t besides, where the speed is highest.
     """

@@ -43,17 +43,17 @@ class ModeTable:
         """The modes by which the motors are driven: what calibration does under its own name."""
         return [self.acting.get(i, mode) for i, mode in enumerate(self.modes)]
 
-    def whole(self, joints: Ints) -> Ints:
+    def coupled(self, joints: Ints) -> Ints:
         """`joints` and all that are coupled with them, ascending."""
         return np.unique(np.concatenate([self._sets[i] for i in joints.tolist()] or [joints]))
 
-    def request(self, joints: Ints, wanted: Sequence[Mode]) -> Ints:
+    def request(self, joints: Ints, requested: Sequence[Mode]) -> Ints:
         """Change the control modes; the joints that really changed. `ModeRefused` changes none."""
         asked: dict[int, Mode] = {}
-        for joint, mode in zip(joints.tolist(), wanted, strict=True):
-            for one in self._sets[joint].tolist():
-                if asked.setdefault(one, mode) is not mode:
-                    name = self._spec.names[one]
+        for joint, mode in zip(joints.tolist(), requested, strict=True):
+            for coupled in self._sets[joint].tolist():
+                if asked.setdefault(coupled, mode) is not mode:
+                    name = self._spec.names[coupled]
                     raise ModeRefused(f"`{name}` is coupled with a joint that gets another mode")
         names, done = self._spec.names, self.calibrated
         found = {
@@ -70,27 +70,27 @@ class ModeTable:
         return np.array(sorted(changed), dtype=np.int64)
 
     def force(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
-        """Put a joint into a mode that it comes into by itself; driven as `acting`, if given."""
+        """Force a joint into a mode; its motor is driven as in `acting`, if set."""
         self.modes[joint] = mode
         self._yielding.discard(joint)
         self.acting.pop(joint, None)
         if acting is not None:
             self.acting[joint] = acting
 
-    def yield_(self, joint: int) -> None:
-        """Let a joint hold its place by itself, compliant if it can be, until it is told more."""
+    def make_compliant(self, joint: int) -> None:
+        """Let a joint hold its position, compliant if possible, until the next command."""
         self.force(joint, Mode.POSITION)
         if self._spec.joints[joint].torque_control:
             self._yielding.add(joint)
 
-    def interact(self, joints: Ints, wanted: Sequence[Interaction]) -> None:
+    def request_interaction(self, joints: Ints, requested: Sequence[Interaction]) -> None:
         """Change the interaction modes. Raises `NotEquipped`, `ModeRefused`; then none changes."""
-        for joint, interaction in zip(joints.tolist(), wanted, strict=True):
+        for joint, interaction in zip(joints.tolist(), requested, strict=True):
             spec = self._spec.joints[joint]
             if interaction is Interaction.COMPLIANT and not spec.torque_control:
                 raise NotEquipped(f"`{spec.name}` has no torque control and cannot be compliant")
             if self.modes[joint] is Mode.HW_FAULT:
                 raise ModeRefused(f"`{spec.name}` has a hardware fault; clear it first (`fidl`)")
-        for joint, interaction in zip(joints.tolist(), wanted, strict=True):
+        for joint, interaction in zip(joints.tolist(), requested, strict=True):
             self._interactions[joint] = interaction
             self._yielding.discard(joint)

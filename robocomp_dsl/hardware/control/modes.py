@@ -50,7 +50,7 @@ SELECTABLE = (
     Mode.PWM,
     Mode.CURRENT,
 )
-"""Modes that a command may ask for; the others are states that the joint comes into by itself."""
+"""Modes that a command may request; the other ones are states of the joint."""
 
 POSITIONED = (
     Mode.POSITION,
@@ -62,20 +62,20 @@ POSITIONED = (
 """Modes that hold a reference position."""
 
 
-def next_mode(name: str, present: Mode, wanted: Mode, *, calibrated: bool) -> Mode:
+def next_mode(name: str, present: Mode, requested: Mode, *, calibrated: bool) -> Mode:
     """The mode that joint `name` gets when `wanted` is asked for; raises `ModeRefused`.
 
     Force-idle always leads to idle and is the only way out of a hardware fault. A joint that is
     not calibrated may only rest.
     """
-    if wanted not in SELECTABLE:
-        raise ModeRefused(f"`{name}`: `{wanted}` is a state, it cannot be asked for")
-    if wanted is Mode.FORCE_IDLE:
+    if requested not in SELECTABLE:
+        raise ModeRefused(f"`{name}`: `{requested}` is a state, it cannot be asked for")
+    if requested is Mode.FORCE_IDLE:
         return Mode.IDLE
     if present is Mode.HW_FAULT:
         raise ModeRefused(f"`{name}` has a hardware fault; only force-idle (`fidl`) clears it")
     if present is Mode.CALIBRATING:
         raise ModeRefused(f"`{name}` is being calibrated; force-idle (`fidl`) stops that")
-    if not calibrated and wanted is not Mode.IDLE:
+    if not calibrated and requested is not Mode.IDLE:
         raise ModeRefused(f"`{name}` is not calibrated and may only be idle")
-    return wanted
+    return requested

@@ -1,4 +1,4 @@
-"""Motors behind gears and couplings, their amplifiers, and the encoders on both ends.
+"""Motors with gears and couplings, their amplifiers, and the encoders on both ends.
 
 In: joint angles and torques. Out: motor angles, encoder counts, currents, duty cycles. With M =
 diag(gear) @ coupling, motor angles are M @ joint angles and joint torques M^T @ motor torques.
@@ -17,7 +17,7 @@ ROOM_TEMPERATURE = 25.0
 class Motors:
     """All arrays (n,), by motor.
 
-    `overloadable` tells whether any can reach its largest current, `hot` whether any is too hot.
+    `overloadable` is True if any can reach its largest current, `hot` if any is too hot.
     """
 
     def __init__(self, spec: BoardSpec) -> None:
@@ -68,7 +68,7 @@ class Motors:
         return torque
 
     def duty(self, torque: Floats, joint_velocity: Floats) -> Floats:
-        """Duty cycles [%] behind joint torques at the joints' velocities, within +-100."""
+        """Duty cycles [%] that produce joint torques at the joints' velocities, within +-100."""
         duty: Floats = self._duty_of_torque.dot(torque) + self._duty_of_speed.dot(joint_velocity)
         return np.minimum(np.maximum(duty, -100.0), 100.0)
 

@@ -41,7 +41,7 @@ class Parking:
         self._board, self._speed, self._timeout = board, speed, timeout
         self._elapsed = np.zeros(n)
         self._leading = False
-        board.leaders.append(self.step)
+        board.motion_overrides.append(self.step)
 
     def park(self, joints: Ints | None = None) -> None:
         """Begin with `joints`, or all. Raises `ModeRefused` for faults and missing calibration."""
@@ -63,7 +63,7 @@ class Parking:
         for joint in away:
             self.states[joint] = ParkState.AWAY
 
-    def leads(self, joints: Ints) -> bool:
+    def leads_any(self, joints: Ints) -> bool:
         """Whether any of `joints` is still on its way."""
         return any(self.states[i] is ParkState.PARKING for i in joints.tolist())
 
@@ -89,6 +89,6 @@ class Parking:
             self.states[joint] = ParkState.FAILED
         elif not board.references.trajectory.moving[joint] and off < ARRIVED:
             self.states[joint] = ParkState.PARKED
-            whole = board.table.whole(np.array([joint]))
+            whole = board.table.coupled(np.array([joint]))
             if all(self.states[i] is not ParkState.PARKING for i in whole.tolist()):
                 board.set_modes(np.array([joint]), [Mode.IDLE])

@@ -1,4 +1,4 @@
-"""A bank of PID regulators, one per joint, computed together.
+"""A bank of PID controllers, one per joint, computed together.
 
 In: errors and their derivatives, (n,). Out: outputs within `max_output`. The integral is bounded
 by `max_integral` and stops growing while the output is at its bound. What is an error, and in which
@@ -18,7 +18,7 @@ from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Gains:
-    """Gains of one regulator: output per error, per its integral, derivative, and reference."""
+    """Gains of one controller: output per error, per its integral, derivative, and reference."""
 
     kp: float = 0.0
     ki: float = 0.0
@@ -36,13 +36,13 @@ class Gains:
             raise BadValue("gains and bounds must not be negative")
 
 
-_COLUMNS = tuple(one.name for one in fields(Gains))
+_COLUMNS = tuple(field.name for field in fields(Gains))
 
 
 class PidBank:
-    """The regulators; one that does not work gives 0.
+    """The controllers; the output of one that is not active is 0.
 
-    `feedforward` (n,) are the gains of what is fed forward. `tracks` tells whether any error counts
+    `feedforward` (n,) are the feedforward gains. `tracks` is True if any error counts
     as a fault; `bounds` are those of outputs and integrals, (n,) each, `version` counts changes.
     """
 
@@ -55,10 +55,10 @@ class PidBank:
         self._dt = 0.001
         self.version = 0
         self._fed = np.zeros(n)
-        self.choose(gains, np.ones(n, bool))
+        self.configure(gains, np.ones(n, bool))
 
-    def choose(self, gains: Sequence[Gains], works: Bools) -> None:
-        """Regulate by other gains from now on, where a regulator works."""
+    def configure(self, gains: Sequence[Gains], works: Bools) -> None:
+        """Set the gains, and which controllers are active."""
         self.gains = list(gains)
         table = np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
         table[:, ~works] = 0.0
@@ -88,7 +88,7 @@ class PidBank:
         self.integral[joints] = 0.0
 
     def step(self, error: Floats, derivative: Floats, dt: float) -> Floats:
-        """Outputs (n,); 0 where a regulator does not work."""
+        """Outputs (n,); 0 where a controller is not active."""
         self.propose(error, derivative, dt)
         return self.bounded()
 
@@ -104,24 +104,29 @@ class PidBank:
             self._dt, self._growth = dt, ki * dt
         grown = self._growth * error
         grown += self.integral
-        wanted: Floats = kp * error
-        wanted += kd * derivative
+        requested: Floats = kp * error
+        requested += kd * derivative
         if self._shifted:
-            wanted += self._constant
+            requested += self._constant
         if ahead is not None:
-            wanted += self.feedforward * ahead
-        wanted += grown
-        self._before, self.integral, self.output, self.error = self.integral, grown, wanted, error
-        return wanted
+            requested += self.feedforward * ahead
+        requested += grown
+        self._before, self.integral, self.output, self.error = (
+            self.integral,
+            grown,
+            requested,
+            error,
+        )
+        return requested
 
     def bounded(self) -> Floats:
         """The outputs just proposed, with all bounds."""
         bound, most = self.bounds
         grown = np.minimum(np.maximum(self.integral, -most), most)
-        wanted = self.output - self.integral + grown
-        output: Floats = np.minimum(np.maximum(wanted, -bound), bound)
+        requested = self.output - self.integral + grown
+        output: Floats = np.minimum(np.maximum(requested, -bound), bound)
         # an output at its bound must not wind the integral up
-        held = (wanted != output) & (grown * self.error > 0.0)
+        held = (requested != output) & (grown * self.error > 0.0)
         self.integral = np.where(held, self._before, grown)
         self.output = output
         return output

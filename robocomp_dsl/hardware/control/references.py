@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints
-from robocomp_dsl.hardware.control.limits import Limits
+from robocomp_dsl.hardware.control.limits import JointLimits
 from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
 from robocomp_dsl.hardware.control.velocity import VelocityRamp
 
@@ -21,9 +21,9 @@ STREAM_GAP = 0.1
 
 
 class References:
-    """`position` and `velocity` (n,) are what the regulators follow after `step`."""
+    """`position` and `velocity` (n,) are the references of the controllers after `step`."""
 
-    def __init__(self, spec: BoardSpec, limits: Limits) -> None:
+    def __init__(self, spec: BoardSpec, limits: JointLimits) -> None:
         n = len(spec.joints)
         self._limits = limits
         self.trajectory = MinimumJerk(np.zeros(n), (limits.low, limits.high))
@@ -44,8 +44,8 @@ class References:
         self.trajectory.move(joints, goal, np.minimum(wished, most / PEAK), dt, most)
         self._changed = True
 
-    def direct(self, joints: Ints, position: Floats) -> None:
-        """Follow `position` at once; a steady stream also tells how fast it goes."""
+    def set_position(self, joints: Ints, position: Floats) -> None:
+        """Follow `position` without a trajectory; a steady stream also gives the velocity."""
         age = np.maximum(self._age[joints], 1e-6)
         speed = (position - self.trajectory.position[joints]) / age
         most = self._limits.speed[joints]
@@ -55,11 +55,11 @@ class References:
         self._age[joints] = 0.0
         self._streaming = True
 
-    def drive(self, joints: Ints, velocity: Floats, hold: float) -> None:
+    def set_velocity(self, joints: Ints, velocity: Floats, hold: float) -> None:
         """Reference velocities, reached by the joints' acceleration, for `hold` seconds."""
         self.ramp.command(joints, velocity, hold)
 
-    def drive_at_once(self, joints: Ints, velocity: Floats) -> None:
+    def set_velocity_direct(self, joints: Ints, velocity: Floats) -> None:
         """Reference velocities without a ramp."""
         self.ramp.jump(joints, velocity)
 
@@ -87,7 +87,7 @@ class References:
         if alone and not self.trajectory.active:
             return
         self.trajectory.step(dt)
-        if alone and self.trajectory.active:  # which keeps to the limits by itself
+        if alone and self.trajectory.active:  # which respects the limits already
             self.position, self.velocity = self.trajectory.position, self.trajectory.velocity
             return
         velocity = self.trajectory.velocity.copy()
@@ -95,10 +95,10 @@ class References:
             velocity = velocity + self._driven(measured, dt)
         if self._streaming:
             velocity = velocity + self._streamed(dt)
-        wanted = self.trajectory.position
-        self.position = np.minimum(wanted, self._limits.high)
+        requested = self.trajectory.position
+        self.position = np.minimum(requested, self._limits.high)
         np.maximum(self.position, self._limits.low, out=self.position)
-        outside = self.position != wanted
+        outside = self.position != requested
         if np.count_nonzero(outside):
             velocity = np.where(outside, 0.0, velocity)
         self.velocity = velocity

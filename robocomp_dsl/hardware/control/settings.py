@@ -1,4 +1,4 @@
-"""Settings of a control board, by joint: speeds, springs, regulators, limits, encoders.
+"""Settings of a control board, by joint: speeds, springs, controllers, limits, encoders.
 
 In: joints by name or number, values in SI units. Nothing moves by a setting; what cannot be is
 refused with a typed error and changes nothing.
@@ -16,7 +16,7 @@ from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.pid import Gains
 
 
-class Settings:
+class ControlSettings:
     """What a client may adjust on a board."""
 
     def __init__(self, board: Board) -> None:
@@ -55,25 +55,25 @@ class Settings:
         self._board.impedance.offset[chosen] = numbers("torque", torque, len(chosen))
 
     def set_pid(self, joint: str | int, gains: Gains, loop: Loop = Loop.POSITION) -> None:
-        """A regulator of one joint."""
+        """The PID gains of one joint."""
         self._board.loops.set(loop, self._board.select.index(joint), gains)
         self._board.law.regulate()
 
     def pid(self, joint: str | int, loop: Loop = Loop.POSITION) -> Gains:
-        """A regulator of one joint."""
+        """The PID gains of one joint."""
         return self._board.loops.gains[loop][self._board.select.index(joint)]
 
     def enable_pid(self, joints: Joints, on: bool, loop: Loop = Loop.POSITION) -> None:
-        """Switch regulators on or off; one that is off gives nothing."""
+        """Switch controllers on or off; the output of one that is off is 0."""
         self._board.loops.enable(loop, self._board.select.indices(joints), on=on)
         self._board.law.regulate()
 
     def pid_enabled(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Bools:
-        """Which regulators are on."""
+        """Which controllers are on."""
         return self._board.loops.enabled[loop][self._board.select.indices(joints)]
 
     def reset_pid(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> None:
-        """Forget what the regulators have summed up."""
+        """Reset the integrals of the controllers."""
         chosen = self._board.select.indices(joints)
         if loop is Loop.CURRENT:
             self._board.law.currents.reset(chosen)
@@ -81,7 +81,7 @@ class Settings:
             self._board.loops.reset(loop, chosen)
 
     def pid_reference(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
-        """What regulators of this kind are to bring about, whether they work or not."""
+        """References of the controllers of this loop, whether they are active or not."""
         board, chosen = self._board, self._board.select.indices(joints)
         found = {
             Loop.POSITION: board.references.position,
@@ -94,17 +94,17 @@ class Settings:
     def pid_error(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
         """What is missing from the references."""
         board, chosen = self._board, self._board.select.indices(joints)
-        looks = board.law.deviations
+        looks = board.law.errors
         found = {
             Loop.POSITION: board.position,
             Loop.VELOCITY: board.velocity,
-            Loop.TORQUE: looks.felt if looks.feels else board.torque,
+            Loop.TORQUE: looks.measured_torque if looks.needs_torque else board.torque,
             Loop.CURRENT: board.current,
         }
         return self.pid_reference(joints, loop) - found[loop][chosen]
 
     def pid_output(self, joints: Joints = None, loop: Loop = Loop.POSITION) -> Floats:
-        """What regulators give, 0 where those of this kind do not work."""
+        """Outputs of the controllers, 0 where this loop is not active."""
         board, chosen = self._board, self._board.select.indices(joints)
         output = board.law.currents.output if loop is Loop.CURRENT else board.pid.output
         return np.where(board.loops.works(loop), output, 0.0)[chosen]
@@ -147,7 +147,7 @@ class Settings:
         self._board.motors.set_encoder(chosen, values, self._board.position)
 
     def set_reference_timeout(self, seconds: float) -> None:
-        """How long who pushes torques, duty cycles or currents may be silent [s]; 0: for ever."""
+        """Time-out of streamed torques, duty cycles and currents [s]; 0: none."""
         self._board.watchdog.set_timeout(seconds)
 
     def last_fault(self, joint: str | int) -> FaultReport:

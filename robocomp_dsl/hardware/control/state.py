@@ -1,4 +1,4 @@
-"""What a control board tells of itself, with the time at which it was so."""
+"""State of a control board, with its time."""
 
 from __future__ import annotations
 

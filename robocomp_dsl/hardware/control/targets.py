@@ -1,4 +1,4 @@
-"""What a board has been told last: its references, read back as they were accepted.
+"""The last references of a board, as they were accepted.
 
 In: joints. Out: numbers (n,), after clipping to the limits; a change of mode begins them anew.
 """
@@ -17,7 +17,7 @@ class Targets:
     """All arrays in the order asked for: rad, rad/s, N m, percent, A.
 
     `position` is the goal of a motion, or the last direct position; `velocity` the goal of the
-    ramp; the others belong to the modes of their names.
+    ramp; the other fields belong to the modes of their names.
     """
 
     position: Floats

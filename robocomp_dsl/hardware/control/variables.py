@@ -13,7 +13,7 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ControlRefused
 from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
-from robocomp_dsl.hardware.control.settings import Settings
+from robocomp_dsl.hardware.control.settings import ControlSettings
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +81,8 @@ class RemoteVariables:
 
 
 def _gains(board: Board, joint: int) -> Variable:
-    """The position regulator of one joint as kp, ki, kd, offset."""
-    settings = Settings(board)
+    """The position PID of one joint as kp, ki, kd, offset."""
+    settings = ControlSettings(board)
 
     def read() -> Floats:
         g = settings.pid(joint)
@@ -92,4 +92,4 @@ def _gains(board: Board, joint: int) -> Variable:
         kp, ki, kd, offset = (float(value) for value in values)
         settings.set_pid(joint, replace(settings.pid(joint), kp=kp, ki=ki, kd=kd, offset=offset))
 
-    return Variable(read, write, "position regulator: kp, ki, kd, offset")
+    return Variable(read, write, "position PID: kp, ki, kd, offset")

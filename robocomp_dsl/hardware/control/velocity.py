@@ -11,7 +11,7 @@ class VelocityRamp:
     """`target` is what was commanded, `velocity` where the ramp is, both (n,) [rad/s].
 
     A target may hold for a limited time, as velocity commands of a caller that may die do. `active`
-    tells whether anything turns or is about to.
+    is True while a joint moves or is about to.
     """
 
     def __init__(self, size: int) -> None:
@@ -31,12 +31,12 @@ class VelocityRamp:
         self.active, self._steady = True, False
 
     def jump(self, joints: Ints, velocity: Floats) -> None:
-        """Turn at `velocity` at once."""
+        """Turn at `velocity` without a ramp."""
         self.command(joints, velocity)
         self.velocity[joints] = velocity
 
     def halt(self, joints: Ints) -> None:
-        """At rest at once."""
+        """Stop without a ramp."""
         self.target[joints] = 0.0
         self.velocity[joints] = 0.0
         self._until[joints] = np.inf
@@ -62,7 +62,7 @@ class VelocityRamp:
         return self.velocity
 
     def _expire(self) -> None:
-        """Targets that were given for a time that is over become 0."""
+        """Targets whose hold time is over become 0."""
         over = self._until < self._clock
         self.target[over] = 0.0
         self._until[over] = np.inf

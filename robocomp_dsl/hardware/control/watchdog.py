@@ -1,7 +1,7 @@
-"""A watchdog on what is pushed: torques, duty cycles and currents that somebody sends in a stream.
+"""A watchdog on streamed references: torques, duty cycles and currents.
 
-In: when a reference came, and for which joints. Out: the joints whose pusher has been silent for
-too long. Joints that share motors are fed together, since they change their mode together.
+In: the time and the joints of each reference. Out: the joints whose references have timed out.
+Joints that share motors are fed together, since they change their mode together.
 """
 
 from __future__ import annotations
@@ -12,48 +12,48 @@ from robocomp_dsl.hardware.control.errors import BadValue
 from robocomp_dsl.hardware.control.joints import BoardSpec, Ints
 from robocomp_dsl.hardware.control.modes import Mode
 
-PUSHED = (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
-"""Modes that go on doing what they were told last, whatever comes of it."""
+STREAMED_MODES = (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
+"""Modes that need a stream of references: each keeps acting on the last one."""
 
 
 class Watchdog:
-    """`timeout` is how long a pusher may be silent [s], infinite: for ever.
+    """`timeout` is the longest time between references [s]; infinite: no limit.
 
-    `due` is the time [s] at which the first joint will have waited too long.
+    `due` is the time [s] at which the first joint times out.
     """
 
     def __init__(self, spec: BoardSpec) -> None:
         n = len(spec.joints)
         self.timeout = self.due = np.inf
-        self._since = np.full(n, np.inf)  # when the last reference came; infinite: none is awaited
+        self._since = np.full(n, np.inf)  # when the last reference came; infinite: none is expected
         self._together = np.zeros((n, n), bool)
         for joint in range(n):
             self._together[joint, spec.coupled(joint)] = True
         self._apart = int(self._together.sum()) == n
 
     def set_timeout(self, seconds: float) -> None:
-        """Be as patient from now on; 0: for ever. Raises `BadValue`."""
+        """Set the time-out; 0: none. Raises `BadValue`."""
         if not 0.0 <= seconds < np.inf:
-            raise BadValue(f"a time of silence is 0 s or longer, not {seconds:g}")
+            raise BadValue(f"a time-out is 0 s or longer, not {seconds:g}")
         self.timeout = seconds or np.inf
-        self._look()
+        self._update_due()
 
     def feed(self, joints: Ints, time: float) -> None:
         """References for `joints` came at `time`."""
         fed = joints if self._apart else self._together[joints].any(axis=0)
         self._since[fed] = time
-        self._look()
+        self._update_due()
 
     def follow(self, joints: Ints, modes: list[Mode], time: float) -> None:
-        """From `time` on `joints` are in these `modes`: references are awaited, or no longer."""
-        self._since[joints] = [time if mode in PUSHED else np.inf for mode in modes]
-        self._look()
+        """From `time` on `joints` are in these `modes`: references are expected, or not."""
+        self._since[joints] = [time if mode in STREAMED_MODES else np.inf for mode in modes]
+        self._update_due()
 
-    def silent(self, time: float) -> Ints:
-        """The joints that have waited too long at `time`."""
+    def expired(self, time: float) -> Ints:
+        """The joints that have timed out at `time`."""
         return np.flatnonzero(self._since + self.timeout <= time)
 
-    def _look(self) -> None:
+    def _update_due(self) -> None:
         if self.timeout < np.inf:
             self.due = float((self._since + self.timeout).min(initial=np.inf))
         else:

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_dsl.hardware.mobile_base import MobileBaseDevice
-from robocomp_dsl.hardware.planar import ORIGIN, Pose
+from robocomp_dsl.hardware.devices.mobile_base import MobileBaseDevice
+from robocomp_dsl.hardware.kinematics.planar import ORIGIN, Pose
 from robocomp_dsl.hardware.servants.servant import Servant
 
 
-def told_state(made: type[Any], state: Any) -> Any:
+def base_state_to_message(struct: type[Any], state: Any) -> Any:
     """A `BaseState` as the struct `made`."""
-    return made(
+    return struct(
         x=state.odometry.x,
         correctedX=state.corrected.x,
         z=state.odometry.z,
@@ -37,7 +37,7 @@ class GenericBaseServant(Servant):
 
     def getBaseState(self) -> Any:
         """The whole state."""
-        return told_state(self.types.TBaseState, self._base.state())
+        return base_state_to_message(self.types.TBaseState, self._base.state())
 
     def getBasePose(self) -> tuple[int, int, float]:
         """The odometry pose alone, in whole millimetres."""
@@ -72,10 +72,10 @@ class _BaseServant(GenericBaseServant):
 class DifferentialRobotServant(_BaseServant):
     """A base that goes ahead and turns."""
 
-    def news(self) -> list[tuple[Any, ...]]:
+    def poll(self) -> list[tuple[Any, ...]]:
         """The state and its time, as the topic has them."""
         state = self._base.state()
-        return [(told_state(self.types.TBaseState, state), state.time)]
+        return [(base_state_to_message(self.types.TBaseState, state), state.time)]
 
     def setSpeedBase(self, adv: float, rot: float) -> None:
         """Drive until the next command."""

@@ -10,11 +10,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from robocomp_dsl.hardware.camera import CameraDevice, Picture, points
-from robocomp_dsl.hardware.errors import CommandRefused, DeviceGone
+from robocomp_dsl.hardware.devices.camera import CameraDevice, Picture, points
+from robocomp_dsl.hardware.devices.errors import CommandRefused, DeviceGone, NoRendering
 from robocomp_dsl.hardware.servants.exposure import Exposure
 from robocomp_dsl.hardware.servants.servant import Servant
-from robocomp_dsl.hardware.view.screenless import NoRendering
 from robocomp_dsl.runtime import types as rt
 
 _MS = 1000.0
@@ -22,10 +21,10 @@ _MS = 1000.0
 log = logging.getLogger("robocomp.camera")
 
 
-class CameraServant(Servant):
+class CameraSimpleServant(Servant):
     """One camera; a picture is drawn while the world goes on."""
 
-    TAKES_TURNS: ClassVar[bool] = False
+    NEEDS_LOCK: ClassVar[bool] = False
 
     def getImage(self) -> Any:
         """The latest image."""
@@ -36,10 +35,10 @@ class CameraServant(Servant):
         )
 
 
-class RgbdServant(Servant):
+class RgbdSimpleServant(Servant):
     """All cameras of the port by their names; an empty name is the only one there is."""
 
-    TAKES_TURNS: ClassVar[bool] = False
+    NEEDS_LOCK: ClassVar[bool] = False
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
@@ -47,13 +46,13 @@ class RgbdServant(Servant):
         super().__init__(interface, port, ids, devices)
         self._exposures = {name: Exposure() for name in ids}
 
-    def news(self) -> list[tuple[Any, ...]]:
+    def poll(self) -> list[tuple[Any, ...]]:
         """Colour and depth of every camera that has a new picture."""
-        made = []
+        messages = []
         for name, exposure in tuple(self._exposures.items()):
             try:
                 camera = self._camera(name)
-                seen = exposure.next(camera, wait=self.in_step())
+                seen = exposure.next(camera, wait=self.on_deployment_clock())
             except DeviceGone:
                 continue
             except NoRendering as error:  # it will not be otherwise the next time
@@ -61,8 +60,8 @@ class RgbdServant(Servant):
                 del self._exposures[name]
                 continue
             if seen is not None:
-                made.append((self._image(name, camera, seen), self._depth(name, camera, seen)))
-        return made
+                messages.append((self._image(name, camera, seen), self._depth(name, camera, seen)))
+        return messages
 
     def getImage(self, camera: str) -> Any:
         """The latest colour image."""
@@ -115,8 +114,8 @@ class RgbdServant(Servant):
 
     def _points(self, camera: CameraDevice, seen: Picture) -> Any:
         x, y, z = points(camera.settings, seen.depth).T
-        made = self.types.PointsType.from_columns(x=x, y=y, z=z)
-        return self.types.TPoints(points=made, compressed=False, **self._time(camera, seen))
+        cloud = self.types.PointsType.from_columns(x=x, y=y, z=z)
+        return self.types.TPoints(points=cloud, compressed=False, **self._time(camera, seen))
 
     def _frame(
         self, name: str, camera: CameraDevice, seen: Picture, width: int, height: int

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from contextlib import nullcontext
 from typing import Any, ClassVar
 
-from robocomp_dsl.hardware.camera import CameraDevice
-from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.devices.camera import CameraDevice
+from robocomp_dsl.hardware.servants.base import base_state_to_message
 from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.runtime import types as rt
@@ -22,15 +22,15 @@ _ANY_TIME = nullcontext()
 class CarriedCameraServant(Servant):
     """`cameras` and `bases` are the ids of the devices that are such; there may be no base."""
 
-    TAKES_TURNS: ClassVar[bool] = False
+    NEEDS_LOCK: ClassVar[bool] = False
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
     ) -> None:
         super().__init__(interface, port, ids, devices)
         self._motors = JointMotorServant(interface, port, ids, devices)
-        self.cameras = [one for one in ids if hasattr(devices[one], "picture")]
-        self.bases = [one for one in ids if one not in self.cameras]
+        self.cameras = [device_id for device_id in ids if hasattr(devices[device_id], "picture")]
+        self.bases = [device_id for device_id in ids if device_id not in self.cameras]
 
     def camera(self, number: int = 0) -> CameraDevice:
         """The camera of that number, as it is now."""
@@ -39,12 +39,16 @@ class CarriedCameraServant(Servant):
 
     def has_joints(self) -> bool:
         """Whether anything in the world has a motor."""
-        return any(hasattr(one, "board") for one in tuple(self._devices.values()))
+        return any(hasattr(device, "board") for device in tuple(self._devices.values()))
 
-    def around(self) -> tuple[Any, Any]:
+    def robot_state(self) -> tuple[Any, Any]:
         """The states of the joints by name and of the base; empty and zero where there are none."""
         state = self.types.TBaseState
-        with getattr(self.camera(), "turns", _ANY_TIME):  # a driver's world does not wait
+        with getattr(self.camera(), "lock", _ANY_TIME):  # a driver's world does not wait
             joints = self._motors.getAllMotorState() if self.has_joints() else {}
-            base = told_state(state, self.device(self.bases[0]).state()) if self.bases else state()
+            base = (
+                base_state_to_message(state, self.device(self.bases[0]).state())
+                if self.bases
+                else state()
+            )
         return joints, base

@@ -11,16 +11,16 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.cartesian import Solution, rotation_vector
-from robocomp_dsl.hardware.cartesian_controller import (
+from robocomp_dsl.hardware.devices.errors import CommandRefused, HardwareError, require_finite
+from robocomp_dsl.hardware.kinematics.cartesian_controller import (
     CartesianController,
     CartesianState,
-    Unreachable,
+    UnreachableGoal,
 )
-from robocomp_dsl.hardware.cartesian_line import turn_about
-from robocomp_dsl.hardware.errors import CommandRefused, HardwareError, finite
-from robocomp_dsl.hardware.rotations import Matrix
+from robocomp_dsl.hardware.kinematics.cartesian_line import rotation_about
+from robocomp_dsl.hardware.kinematics.rotations import Matrix
 from robocomp_dsl.hardware.servants.servant import Servant
+from robocomp_dsl.tactile.arm.inverse import Solution, rotation_vector
 
 _STATES = tuple(CartesianState)  # in the order of the interface
 _MM = 1e-3
@@ -30,7 +30,7 @@ class CartesianControllerServant(Servant):
     """One hand."""
 
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
-        (Unreachable, "Unreachable"),
+        (UnreachableGoal, "Unreachable"),
         (HardwareError, "CartesianRefused"),
     )
 
@@ -45,12 +45,12 @@ class CartesianControllerServant(Servant):
 
     def getPose(self) -> Any:
         """Where the hand is."""
-        return self._told(self.device().pose())
+        return self._pose_to_message(self.device().pose())
 
     def getState(self) -> Any:
         """Where the hand is, and what the controller does."""
         return self.types.HandState(
-            time=self.device().stands_on.board.time,
+            time=self.device().joint_board.board.time,
             pose=self.getPose(),
             motion=self.types.MotionState(_STATES.index(self._led.state)),
         )
@@ -66,10 +66,10 @@ class CartesianControllerServant(Servant):
         return self._solution(self._led.go_to(self._goal(_point(place)), seconds or None))
 
     def getDesired(self) -> Any:
-        """What was solved for the last goal."""
+        """What was solution_pose for the last goal."""
         found = self._led.desired
         if found is None or len(found.q) != np.count_nonzero(self._led.free):
-            raise CommandRefused("no goal has been given since these joints are free to move")
+            raise CommandRefused("no goal has been set since the free joints were changed")
         return self._solution(found)
 
     def checkMotionDone(self) -> bool:
@@ -82,11 +82,11 @@ class CartesianControllerServant(Servant):
 
     def askForPose(self, pose: Any) -> Any:
         """Solve for a pose."""
-        return self._solution(self._led.reach(self._goal(_matrix(pose))))
+        return self._solution(self._led.solve(self._goal(_matrix(pose))))
 
     def askForPosition(self, place: Any) -> Any:
         """Solve for a place."""
-        return self._solution(self._led.reach(self._goal(_point(place))))
+        return self._solution(self._led.solve(self._goal(_point(place))))
 
     # -- settings -----------------------------------------------------------------------------
 
@@ -117,7 +117,7 @@ class CartesianControllerServant(Servant):
 
     def setDOF(self, free: Sequence[bool]) -> None:
         """Which joints may move."""
-        self._led.use(np.array(free, bool))
+        self._led.set_free_joints(np.array(free, bool))
 
     def getDOF(self) -> NDArray[np.bool_]:
         """Which joints may move."""
@@ -125,24 +125,24 @@ class CartesianControllerServant(Servant):
 
     # -- both ways ----------------------------------------------------------------------------
 
-    def failure(self, declared: type[Any], error: HardwareError) -> Exception:
+    def declared_error(self, declared: type[Any], error: HardwareError) -> Exception:
         """What is nearest goes along."""
-        if not isinstance(error, Unreachable):
-            return super().failure(declared, error)
-        made: Exception = declared(
+        if not isinstance(error, UnreachableGoal):
+            return super().declared_error(declared, error)
+        exception: Exception = declared(
             what=str(error), distance=error.nearest.distance * _MM, angle=error.nearest.angle
         )
-        return made
+        return exception
 
-    def _goal(self, given: Matrix) -> Matrix:
-        found: Matrix = self.device().goal(given)
+    def _goal(self, pose: Matrix) -> Matrix:
+        found: Matrix = self.device().goal(pose)
         return found
 
     def _solution(self, found: Solution) -> Any:
-        pose, joints = self.device().solved(found)
-        return self.types.HandSolution(pose=self._told(pose), joints=joints)
+        pose, joints = self.device().solution_pose(found)
+        return self.types.HandSolution(pose=self._pose_to_message(pose), joints=joints)
 
-    def _told(self, pose: Matrix) -> Any:
+    def _pose_to_message(self, pose: Matrix) -> Any:
         vector = rotation_vector(pose[:3, :3])
         angle = float(np.linalg.norm(vector))
         axis = vector / angle if angle else np.array([0.0, 0.0, 1.0])
@@ -163,16 +163,16 @@ def _matrix(pose: Any) -> Matrix:
         raise CommandRefused("the turn of the goal holds NaN or infinity")
     if length < 1e-9 and pose.angle:
         raise CommandRefused("a turn by an angle needs an axis that has a length")
-    made = np.eye(4)
+    matrix = np.eye(4)
     if pose.angle:
-        made[:3, :3] = turn_about(axis * (pose.angle / length))
-    made[:3, 3] = _point(pose.place)
-    return made
+        matrix[:3, :3] = rotation_about(axis * (pose.angle / length))
+    matrix[:3, 3] = _point(pose.place)
+    return matrix
 
 
-def _positive(**given: float) -> float:
-    finite(**given)
-    ((name, value),) = given.items()
+def _positive(**values: float) -> float:
+    require_finite(**values)
+    ((name, value),) = values.items()
     if value <= 0.0:
         raise CommandRefused(f"`{name}` is {value:g}, it must be above 0")
     return value

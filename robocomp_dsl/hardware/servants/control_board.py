@@ -16,24 +16,24 @@ from robocomp_dsl.hardware.control.errors import UnknownJoint, WrongMode
 from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.targets import targets
-from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.servants.control_board_settings import BoardSettings, Names
 
 _MODES, _INTERACTIONS = tuple(Mode), tuple(Interaction)  # in the order of the interface
 
 
-class _Told:
-    """Modes as values of the interface; made anew only when one has changed, hardly ever."""
+class _StateConverter:
+    """Converts modes to values of the interface; caches the list until a mode changes."""
 
     def __init__(self, order: Sequence[Any]) -> None:
         self._order = order
         self._modes: Sequence[Any] = ()
         self._values: list[Any] = []
 
-    def told(self, made: Callable[[int], Any], modes: Sequence[Any]) -> list[Any]:
+    def to_message(self, enum: Callable[[int], Any], modes: Sequence[Any]) -> list[Any]:
         """The `modes` as values of the enumeration `made`, in a list of the caller's own."""
         if modes != self._modes:
-            self._values = [made(self._order.index(one)) for one in modes]
+            self._values = [enum(self._order.index(mode)) for mode in modes]
             self._modes = modes
         return self._values.copy()
 
@@ -47,9 +47,9 @@ class ControlBoardServant(BoardSettings):
         (HardwareError, "Refused"),
     )
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
-        self._modes, self._interactions = _Told(_MODES), _Told(_INTERACTIONS)
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
+        self._modes, self._interactions = _StateConverter(_MODES), _StateConverter(_INTERACTIONS)
 
     def getJoints(self) -> list[Any]:
         """What joints there are."""
@@ -66,7 +66,7 @@ class ControlBoardServant(BoardSettings):
                 maxCurrent=float(board.motors.max_current[i]),
                 gear=float(board.motors.gear[i]),
                 counts=float(board.motors.counts[i]),
-                coupledSet=here.index(int(board.table.whole(np.array([i]))[0])),
+                coupledSet=here.index(int(board.table.coupled(np.array([i]))[0])),
             )
             for i in here
             for joint in [board.spec.joints[i]]
@@ -88,8 +88,8 @@ class ControlBoardServant(BoardSettings):
             current=it.current[here],
             duty=it.duty[here],
             temperature=it.temperature[here],
-            modes=self._modes.told(self.types.ControlMode, [it.modes[i] for i in listed]),
-            interactions=self._interactions.told(
+            modes=self._modes.to_message(self.types.ControlMode, [it.modes[i] for i in listed]),
+            interactions=self._interactions.to_message(
                 self.types.InteractionMode, [it.interactions[i] for i in listed]
             ),
             faults=it.faults[here],
@@ -137,7 +137,7 @@ class ControlBoardServant(BoardSettings):
         self._commands.stop(self._some(joints))
 
     def setPosition(self, joints: Names, position: Floats) -> Bools:
-        """Follow these positions at once."""
+        """Follow these positions without a trajectory."""
         return self._commands.set_position(self._some(joints), position)
 
     def velocityMove(self, joints: Names, velocity: Floats, hold: float) -> Bools:
@@ -145,7 +145,7 @@ class ControlBoardServant(BoardSettings):
         return self._commands.velocity_move(self._some(joints), velocity, hold or np.inf)
 
     def setVelocity(self, joints: Names, velocity: Floats) -> Bools:
-        """Turn at these speeds at once."""
+        """Turn at these speeds without a ramp."""
         return self._commands.set_velocity(self._some(joints), velocity)
 
     def setTorque(self, joints: Names, torque: Floats) -> Bools:
@@ -177,7 +177,7 @@ class ControlBoardServant(BoardSettings):
     def isBusy(self) -> bool:
         """Whether joints are being calibrated or parked."""
         device, here = self.board_device(), self._joints
-        return bool(device.calibrator.leads(here) or device.parking.leads(here))
+        return bool(device.calibrator.leads_any(here) or device.parking.leads_any(here))
 
     def quit(self) -> None:
         """Stop calibrating and parking."""

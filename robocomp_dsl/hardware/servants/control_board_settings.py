@@ -18,7 +18,7 @@ from robocomp_dsl.hardware.control.errors import UnknownJoint
 from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints, run
 from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.pid import Gains
-from robocomp_dsl.hardware.control.settings import Settings
+from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from robocomp_dsl.hardware.servants.servant import Servant
 
@@ -29,8 +29,8 @@ _LOOPS = tuple(Loop)  # in the order of the interface
 class BoardSettings(Servant):
     """The part of a `ControlBoard` servant that reads and writes settings."""
 
-    def __init__(self, *given: Any) -> None:
-        super().__init__(*given)
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)
         self._known: object = None
         self._here = np.empty(0, dtype=np.int64)
         self._rows: slice | Ints = self._here
@@ -76,7 +76,7 @@ class BoardSettings(Servant):
                 raise UnknownJoint(f"`{name}` is not on `{self.port}`: {listed}")
         return chosen
 
-    def _one(self, name: str) -> int:
+    def _joint_index(self, name: str) -> int:
         return int(self._some([name])[0])
 
     @property
@@ -88,8 +88,8 @@ class BoardSettings(Servant):
         return Commands(self._board)
 
     @property
-    def _settings(self) -> Settings:
-        return Settings(self._board)
+    def _settings(self) -> ControlSettings:
+        return ControlSettings(self._board)
 
     def setReferenceSpeed(self, joints: Names, speed: Floats) -> None:
         """Mean speeds of the next position moves."""
@@ -115,7 +115,7 @@ class BoardSettings(Servant):
     def getImpedance(self, joint: str) -> Any:
         """Spring, damper and offset."""
         board = self._board
-        at = self._one(joint)
+        at = self._joint_index(joint)
         return self.types.Impedance(
             stiffness=float(board.impedance.stiffness[at]),
             damping=float(board.impedance.damping[at]),
@@ -123,7 +123,7 @@ class BoardSettings(Servant):
         )
 
     def setPid(self, loop: int, joint: str, pid: Any) -> None:
-        """A regulator."""
+        """The gains of a PID controller."""
         gains = Gains(
             pid.kp,
             pid.ki,
@@ -133,11 +133,11 @@ class BoardSettings(Servant):
             pid.maxIntegral,
             pid.feedforward,
         )
-        self._settings.set_pid(self._one(joint), gains, _LOOPS[loop])
+        self._settings.set_pid(self._joint_index(joint), gains, _LOOPS[loop])
 
     def getPid(self, loop: int, joint: str) -> Any:
-        """A regulator."""
-        it = self._settings.pid(self._one(joint), _LOOPS[loop])
+        """The gains of a PID controller."""
+        it = self._settings.pid(self._joint_index(joint), _LOOPS[loop])
         return self.types.Pid(
             kp=it.kp,
             ki=it.ki,
@@ -149,19 +149,19 @@ class BoardSettings(Servant):
         )
 
     def enablePid(self, loop: int, joints: Names, on: bool) -> None:
-        """Switch regulators on or off."""
+        """Switch PID controllers on or off."""
         self._settings.enable_pid(self._some(joints), on, _LOOPS[loop])
 
     def isPidEnabled(self, loop: int, joints: Names) -> Bools:
-        """Which regulators are on."""
+        """Which PID controllers are on."""
         return self._settings.pid_enabled(self._some(joints), _LOOPS[loop])
 
     def resetPid(self, loop: int, joints: Names) -> None:
-        """Forget what the regulators have summed up."""
+        """Reset the integrals of the controllers."""
         self._settings.reset_pid(self._some(joints), _LOOPS[loop])
 
     def getPidReferences(self, loop: int, joints: Names) -> Floats:
-        """What regulators are to bring about."""
+        """The references of the controllers."""
         return self._settings.pid_reference(self._some(joints), _LOOPS[loop])
 
     def getPidErrors(self, loop: int, joints: Names) -> Floats:
@@ -169,7 +169,7 @@ class BoardSettings(Servant):
         return self._settings.pid_error(self._some(joints), _LOOPS[loop])
 
     def getPidOutputs(self, loop: int, joints: Names) -> Floats:
-        """What regulators give now."""
+        """The outputs of the controllers."""
         return self._settings.pid_output(self._some(joints), _LOOPS[loop])
 
     def setSpeedLimits(self, joints: Names, speed: Floats) -> None:
@@ -194,7 +194,7 @@ class BoardSettings(Servant):
 
     def getLastFault(self, joint: str) -> Any:
         """The last fault of a joint."""
-        report = self._settings.last_fault(self._one(joint))
+        report = self._settings.last_fault(self._joint_index(joint))
         return self.types.JointFault(code=int(report.code), what=report.message)
 
     def getVariables(self) -> list[str]:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.hardware.display import DisplayDevice
-from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.devices.display import DisplayDevice
+from robocomp_dsl.hardware.devices.errors import CommandRefused
 from robocomp_dsl.hardware.servants.servant import Servant
 
 _GREY, _COLOURED = 1, (3, 4)
@@ -41,10 +41,7 @@ class DisplayServant(Servant):
 
     def setImageFromFile(self, pathImg: str) -> None:
         """Show the image in a file on the machine of the simulator."""
-        from robocomp_dsl.hardware.picture_file import (  # noqa: PLC0415 - most worlds have none
-            PictureError,
-            read_picture,
-        )
+        from robocomp_dsl.hardware.formats.picture_file import PictureError, read_picture  # noqa: PLC0415 - most worlds have none
 
         try:
             image = read_picture(Path(pathImg))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from concurrent.futures import Future, ThreadPoolExecutor
 
-from robocomp_dsl.hardware.camera import CameraDevice, Picture
+from robocomp_dsl.hardware.devices.camera import CameraDevice, Picture
 
 
 class Exposure:
@@ -17,10 +17,10 @@ class Exposure:
     def __init__(self) -> None:
         self._thread: ThreadPoolExecutor | None = None
         self._taken: Future[Picture] | None = None
-        self._told: Picture | None = None
+        self._last_returned: Picture | None = None
 
     def next(self, camera: CameraDevice, *, wait: bool) -> Picture | None:
-        """A picture that has not been told yet; None while there is none.
+        """A picture that has not been returned yet; None while there is none.
 
         Raises what the camera raises.
         """
@@ -35,7 +35,7 @@ class Exposure:
         return self._fresh(taken.result())
 
     def _fresh(self, picture: Picture) -> Picture | None:
-        if picture is self._told:
+        if picture is self._last_returned:
             return None
-        self._told = picture
+        self._last_returned = picture
         return picture

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.hardware.errors import finite
-from robocomp_dsl.hardware.full_pose import FullPoseDevice, OnFloor
-from robocomp_dsl.hardware.rotations import angles, pose_rows
+from robocomp_dsl.hardware.devices.errors import require_finite
+from robocomp_dsl.hardware.devices.full_pose import FloorPose, FullPoseDevice
+from robocomp_dsl.hardware.kinematics.rotations import angles, pose_rows
 from robocomp_dsl.hardware.servants.servant import Servant
 
 _SURE = 100
@@ -26,15 +26,15 @@ class FullPoseServant(Servant):
     @property
     def _robot(self) -> FullPoseDevice:
         found: Any = self.device()
-        made: FullPoseDevice = found if hasattr(found, "full_pose") else OnFloor(found)
-        return made
+        robot: FullPoseDevice = found if hasattr(found, "full_pose") else FloorPose(found)
+        return robot
 
     def setInitialPose(self, x: float, y: float, z: float, rx: float, ry: float, rz: float) -> None:
         """Where the robot is now."""
-        finite(x=x, y=y, z=z, rx=rx, ry=ry, rz=rz)
-        made = np.eye(4)
-        made[:3] = pose_rows((x, y, z, rx, ry, rz))
-        self._robot.set_full_pose(made)
+        require_finite(x=x, y=y, z=z, rx=rx, ry=ry, rz=rz)
+        matrix = np.eye(4)
+        matrix[:3] = pose_rows((x, y, z, rx, ry, rz))
+        self._robot.set_full_pose(matrix)
 
     def getFullPoseEuler(self) -> Any:
         """The pose with its angles, and how it changes."""
@@ -45,9 +45,9 @@ class FullPoseServant(Servant):
         rx, ry, rz = angles(turned)
         named = {
             "v": it.velocity,
-            "vr": it.turning,
+            "vr": it.angular_velocity,
             "a": it.acceleration,
-            "ar": it.turning_acceleration,
+            "ar": it.angular_acceleration,
         }
         rates = {
             f"{name}{axis}": part
@@ -65,7 +65,7 @@ class FullPoseServant(Servant):
             **rates,
             adv=adv,
             side=side,
-            rot=float((turned.T @ it.turning)[1]),
+            rot=float((turned.T @ it.angular_velocity)[1]),
             confidence=_SURE,
         )
 

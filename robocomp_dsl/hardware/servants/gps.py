@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.hardware.geodesy import utm
-from robocomp_dsl.hardware.gps import GpsDevice
+from robocomp_dsl.hardware.devices.gps import GpsDevice
+from robocomp_dsl.hardware.kinematics.geodesy import utm
 from robocomp_dsl.hardware.servants.servant import Servant
 
 

@@ -1,6 +1,6 @@
 """RoboComp's first `Camera`: the cameras of a head by their numbers, in five forms.
 
-An image is a run of bytes, rows from the top; `BOTH` is those of all cameras, one behind the other.
+An image is a run of bytes, rows from the top; `BOTH` is those of all cameras, one after the other.
 Luminance is that of ITU-R BT.601. Each image comes with the states of the joints and of the base.
 """
 
@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.camera import CameraSettings
-from robocomp_dsl.hardware.errors import CommandRefused
+from robocomp_dsl.hardware.devices.camera import CameraSettings
+from robocomp_dsl.hardware.devices.errors import CommandRefused
 from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
@@ -38,34 +38,34 @@ class HeadCameraServant(CarriedCameraServant):
 
     def getYUVImage(self, cam: int) -> tuple[Any, ...]:
         """Luminance, then u and v of every second pixel of every second row, by turns."""
-        return self._told(self._all(cam, _semi_planar))
+        return self._image_to_message(self._all(cam, _semi_planar))
 
     def getYImage(self, cam: int) -> tuple[Any, ...]:
         """Luminance."""
-        return self._told(self._all(cam, _luminance))
+        return self._image_to_message(self._all(cam, _luminance))
 
     def getYLogPolarImage(self, cam: int) -> tuple[Any, ...]:
-        """Refused: nothing tells how many rings and rays such an image has."""
+        """Refused: the interface does not define the rings and rays of such an image."""
         self._numbers(cam)
         raise CommandRefused("log-polar images are not made; `getYImage` has the same luminance")
 
     def getYImageCR(self, cam: int, div: int) -> tuple[Any, ...]:
         """Luminance, each pixel the mean of `div` times `div`; what is over at the edges is not."""
-        smallest = min(min(one.shape[:2]) for one in self._seen(cam))
+        smallest = min(min(picture.shape[:2]) for picture in self._seen(cam))
         if not 1 <= div <= smallest:
             raise CommandRefused(f"`div` is {div}, it must be 1 to {smallest}")
-        return self._told(self._all(cam, lambda seen: _reduced(_luminance(seen), div)))
+        return self._image_to_message(self._all(cam, lambda seen: _reduced(_luminance(seen), div)))
 
     def getRGBPackedImage(self, cam: int) -> tuple[Any, ...]:
         """Red, green and blue of each pixel."""
-        return self._told(self._all(cam, lambda seen: seen))
+        return self._image_to_message(self._all(cam, lambda seen: seen))
 
     def getYRGBImage(self, cam: int) -> tuple[Any, ...]:
-        """Luminance, red, green and blue, one behind the other."""
-        return self._told(self._all(cam, _planes))
+        """Luminance, red, green and blue, one after the other."""
+        return self._image_to_message(self._all(cam, _planes))
 
     def getCamParams(self) -> Any:
-        """The first camera; all are told to be like it."""
+        """The settings of the first camera; the interface assumes that all are alike."""
         it = self._settings(0)
         return self.types.TCamParams(
             name=self.cameras[0],
@@ -88,15 +88,15 @@ class HeadCameraServant(CarriedCameraServant):
 
     def setInnerImage(self, roi: Any) -> None:
         """What the first camera sees from now on, with colours or grey; an empty one ends it."""
-        it, given = self._settings(0), np.asarray(roi, dtype=np.uint8)
-        if given.size not in (0, it.width * it.height, it.width * it.height * 3):
+        it, region = self._settings(0), np.asarray(roi, dtype=np.uint8)
+        if region.size not in (0, it.width * it.height, it.width * it.height * 3):
             raise CommandRefused(
                 f"an image of {it.width} x {it.height} has {it.width * it.height} bytes, or three "
-                f"times as many with colours; not {given.size}"
+                f"times as many with colours; not {region.size}"
             )
-        shape = (it.height, it.width) if given.size else (0, 0)
-        grey = given.size == it.width * it.height
-        seen = given.reshape(*shape, 1 if grey else 3)
+        shape = (it.height, it.width) if region.size else (0, 0)
+        grey = region.size == it.width * it.height
+        seen = region.reshape(*shape, 1 if grey else 3)
         self._fed = np.repeat(seen, 3, axis=2) if grey else seen
 
     # -- what is seen -------------------------------------------------------------------------
@@ -117,25 +117,25 @@ class HeadCameraServant(CarriedCameraServant):
         ]
 
     def _all(self, cam: int, form: Any) -> Bytes:
-        made: Bytes = np.concatenate([form(one).ravel() for one in self._seen(cam)])
-        return made
+        joined: Bytes = np.concatenate([form(picture).ravel() for picture in self._seen(cam)])
+        return joined
 
     def _settings(self, number: int) -> CameraSettings:
         return self.camera(number).settings
 
     # -- what is around it --------------------------------------------------------------------
 
-    def _told(self, image: Bytes) -> tuple[Any, ...]:
+    def _image_to_message(self, image: Bytes) -> tuple[Any, ...]:
         """The image with the states of the joints and of the base; empty where there are none."""
-        joints, base = self.around()
-        moving = any(one.isMoving for one in joints.values())
+        joints, base = self.robot_state()
+        moving = any(joint.isMoving for joint in joints.values())
         return image, self.types.THeadState(motorsState=joints, isMoving=moving), base
 
 
 def _luminance(seen: Bytes) -> Bytes:
     """Shape (height, width)."""
-    made: Bytes = (seen @ _LUMINANCE).round().astype(np.uint8)
-    return made
+    grey: Bytes = (seen @ _LUMINANCE).round().astype(np.uint8)
+    return grey
 
 
 def _planes(seen: Bytes) -> Bytes:
@@ -158,5 +158,5 @@ def _reduced(grey: Bytes, div: int) -> Bytes:
 
 
 def _byte(values: NDArray[Any]) -> Bytes:
-    made: Bytes = values.round().clip(0, 255).astype(np.uint8)
-    return made
+    rounded: Bytes = values.round().clip(0, 255).astype(np.uint8)
+    return rounded

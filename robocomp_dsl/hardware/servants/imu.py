@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_dsl.hardware.imu import ImuDevice
+from robocomp_dsl.hardware.devices.imu import ImuDevice
 from robocomp_dsl.hardware.servants.servant import Servant
 
 
@@ -20,13 +20,13 @@ class ImuServant(Servant):
 
     def getDataImu(self) -> Any:
         """Everything."""
-        made, it = self.types, self._imu.measure()
+        types, it = self.types, self._imu.measure()
         rx, ry, rz = it.orientation
-        return made.DataImu(
-            acc=made.Acceleration(*it.acceleration),
-            gyro=made.Gyroscope(*it.turning),
-            mag=made.Magnetic(*it.field),
-            rot=made.Orientation(Roll=rz, Pitch=rx, Yaw=ry),
+        return types.DataImu(
+            acc=types.Acceleration(*it.acceleration),
+            gyro=types.Gyroscope(*it.angular_velocity),
+            mag=types.Magnetic(*it.field),
+            rot=types.Orientation(Roll=rz, Pitch=rx, Yaw=ry),
             temperature=it.temperature,
         )
 

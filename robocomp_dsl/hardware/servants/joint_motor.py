@@ -14,7 +14,7 @@ from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
 from robocomp_dsl.hardware.control.minimum_jerk import PEAK
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.servants.servant import Servant
 
 _MM = 1e-3
@@ -46,9 +46,9 @@ class JointMotorServant(Servant):
     def setSyncPosition(self, listGoals: Sequence[Any]) -> None:
         """Send several; all of them or none."""
         self.move(
-            [one.name for one in listGoals],
-            [one.position for one in listGoals],
-            [one.maxSpeed for one in listGoals],
+            [goal.name for goal in listGoals],
+            [goal.position for goal in listGoals],
+            [goal.maxSpeed for goal in listGoals],
         )
 
     def move(self, names: Sequence[str], position: Sequence[float], speed: Sequence[float]) -> None:
@@ -77,9 +77,9 @@ class JointMotorServant(Servant):
     def setSyncVelocity(self, listGoals: Sequence[Any]) -> None:
         """Turn several; a `maxAcc` of 0 leaves the acceleration as it is."""
         self.drive(
-            [one.name for one in listGoals],
-            [one.velocity for one in listGoals],
-            [one.maxAcc for one in listGoals],
+            [goal.name for goal in listGoals],
+            [goal.velocity for goal in listGoals],
+            [goal.maxAcc for goal in listGoals],
         )
 
     def drive(self, names: Sequence[str], speed: Sequence[float], most: Sequence[float]) -> None:
@@ -90,20 +90,20 @@ class JointMotorServant(Servant):
         steepest = numbers("maxAcc", most, len(joints)) * unit
         self._refuse_beyond("velocity", joints, velocity, -board.limits.speed, board.limits.speed)
         board.set_modes(joints, [Mode.VELOCITY] * len(joints))
-        given = steepest > 0
-        board.references.acceleration[joints[given]] = steepest[given]
-        board.references.drive(joints, velocity, np.inf)
+        limited = steepest > 0
+        board.references.acceleration[joints[limited]] = steepest[limited]
+        board.references.set_velocity(joints, velocity, np.inf)
 
     def _move(self, joints: Ints, goal: Floats, speed: Floats) -> None:
-        """Minimum jerk to `goal` (rad or m); `speed` (as on the wire) is the largest on the way."""
+        """Minimum jerk to `goal` (rad or m); `speed` (as in the interface) is the highest one."""
         board = self._board
         self._refuse_beyond("position", joints, goal, board.limits.low, board.limits.high)
         if (speed < 0).any():
             raise BadValue("`maxSpeed` is negative")
         most = np.where(speed > 0, speed * self._units(joints), board.limits.speed[joints])
         board.set_modes(joints, [Mode.POSITION] * len(joints))
-        kept, _ = board.limits.clip(joints, goal)
-        board.references.move(joints, kept, board.dt, most / PEAK)
+        allowed, _ = board.limits.clip(joints, goal)
+        board.references.move(joints, allowed, board.dt, most / PEAK)
 
     def _refuse_beyond(
         self, what: str, joints: Ints, values: Floats, low: Floats, high: Floats
@@ -145,8 +145,8 @@ class JointMotorServant(Servant):
             state.temperature.astype(np.int64).tolist(),
         )
         names, rows = board.spec.names, list(zip(*columns, strict=True))
-        time, made = f"{state.time:.6f}", self.types.MotorState
-        return {names[i]: _state(made, time, rows[i]) for i in joints}
+        time, struct = f"{state.time:.6f}", self.types.MotorState
+        return {names[i]: _state(struct, time, rows[i]) for i in joints}
 
     # -- how they are built -------------------------------------------------------------------
 
@@ -196,10 +196,10 @@ class JointMotorServant(Servant):
         return np.where(self._board.spec.prismatic[joints], _MM, 1.0)
 
 
-def _state(made: type[Any], time: str, row: tuple[Any, ...]) -> Any:
+def _state(struct: type[Any], time: str, row: tuple[Any, ...]) -> Any:
     """The struct `made` of one motor."""
     pos, vel, power, p, v, moving, temperature = row
-    return made(
+    return struct(
         pos=pos,
         vel=vel,
         power=power,
@@ -213,5 +213,5 @@ def _state(made: type[Any], time: str, row: tuple[Any, ...]) -> Any:
 
 def _whole(counts: Floats) -> list[int]:
     """Counts that fit into the 32 bits of the interface."""
-    fitting: list[int] = np.clip(counts, _LEAST, _MOST).astype(np.int64).tolist()
-    return fitting
+    clamp_scene: list[int] = np.clip(counts, _LEAST, _MOST).astype(np.int64).tolist()
+    return clamp_scene

@@ -1,4 +1,4 @@
-"""`Laser` over a range finder. The base that it tells of is the one that carries it, if any."""
+"""`Laser` over a range finder. Its base is the one that carries the range finder, if any."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -7,8 +7,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from robocomp_dsl.hardware.laser import LaserDevice, LaserSettings, Scan
-from robocomp_dsl.hardware.servants.base import told_state
+from robocomp_dsl.hardware.devices.laser import LaserDevice, LaserSettings, Scan
+from robocomp_dsl.hardware.servants.base import base_state_to_message
 from robocomp_dsl.hardware.servants.servant import Servant
 
 
@@ -20,14 +20,14 @@ class LaserServant(Servant):
         found: LaserDevice = self.device()
         return found
 
-    _told: object = None
+    _last_published: object = None
 
-    def news(self) -> list[tuple[Any, ...]]:
-        """The latest scan, if it has not been told yet."""
+    def poll(self) -> list[tuple[Any, ...]]:
+        """The latest scan, if it has not been published yet."""
         scan = self._laser.scan()
-        if scan is self._told:
+        if scan is self._last_published:
             return []
-        self._told = scan
+        self._last_published = scan
         return [(self._data(scan),)]
 
     def getLaserData(self) -> Any:
@@ -40,18 +40,22 @@ class LaserServant(Servant):
     def getLaserAndBStateData(self) -> tuple[Any, Any]:
         """The latest scan, and the state of the base; all zero where nothing drives."""
         state = self.types.TBaseState
-        base = told_state(state, self.device(self.ids[1]).state()) if self.ids[1:] else state()
+        base = (
+            base_state_to_message(state, self.device(self.ids[1]).state())
+            if self.ids[1:]
+            else state()
+        )
         return self.getLaserData(), base
 
     def getLaserConfData(self) -> Any:
         """How the laser is set up."""
-        return told_settings(self.types.LaserConfData, self.ids[0], self._laser.settings)
+        return settings_to_message(self.types.LaserConfData, self.ids[0], self._laser.settings)
 
 
-def told_settings(made: type[Any], name: str, settings: LaserSettings) -> Any:
+def settings_to_message(struct: type[Any], name: str, settings: LaserSettings) -> Any:
     """The settings of the laser `name` as the struct `made`."""
     half = settings.degrees / 2
-    return made(
+    return struct(
         driver="robocomp_dsl",
         device=name,
         staticConf=1,

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robocomp_dsl.hardware.camera import CameraSettings, Picture
+from robocomp_dsl.hardware.devices.camera import CameraSettings, Picture
 from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
@@ -23,7 +23,7 @@ _BYTES = {"color": 3, "depth": 4}
 """Of a pixel."""
 
 
-class SeenServant(CarriedCameraServant):
+class RgbdServant(CarriedCameraServant):
     """The first device of the port is the camera, the second, if any, the base under it."""
 
     def __init__(
@@ -35,7 +35,7 @@ class SeenServant(CarriedCameraServant):
     def getRGBDParams(self) -> Any:
         """How the camera is set up."""
         it = self.camera().settings
-        made = {
+        parameters = {
             name: self.types.CameraParameters(
                 focal=round(it.focal),
                 width=it.width,
@@ -46,7 +46,7 @@ class SeenServant(CarriedCameraServant):
             for name, size in _BYTES.items()
         }
         return self.types.TRGBDParams(
-            **made,
+            **parameters,
             timerPeriod=round(it.period * 1000),
             talkToBase=bool(self.bases),
             talkToJointMotor=self.has_joints(),
@@ -65,11 +65,11 @@ class SeenServant(CarriedCameraServant):
     def getData(self) -> tuple[Any, ...]:
         """Colour bytes and distances."""
         seen = self.camera().picture()
-        return seen.colour.ravel(), seen.depth.ravel(), *self.around()
+        return seen.colour.ravel(), seen.depth.ravel(), *self.robot_state()
 
     def getDepthInIR(self) -> tuple[Any, ...]:
         """Distances."""
-        return self.camera().picture().depth.ravel(), *self.around()
+        return self.camera().picture().depth.ravel(), *self.robot_state()
 
     def getDepth(self) -> tuple[Any, ...]:
         """Distances."""
@@ -78,20 +78,20 @@ class SeenServant(CarriedCameraServant):
     def getImage(self) -> tuple[Any, ...]:
         """Colours, distances and points of one moment."""
         seen = self.camera().picture()
-        return self._colours(seen), seen.depth.ravel(), self._points(seen), *self.around()
+        return self._colours(seen), seen.depth.ravel(), self._points(seen), *self.robot_state()
 
     def getRGB(self) -> tuple[Any, ...]:
         """Colours."""
-        return self._colours(self.camera().picture()), *self.around()
+        return self._colours(self.camera().picture()), *self.robot_state()
 
     def getXYZ(self) -> tuple[Any, ...]:
         """A point for every pixel."""
-        return self._points(self.camera().picture()), *self.around()
+        return self._points(self.camera().picture()), *self.robot_state()
 
     def getXYZByteStream(self) -> tuple[Any, ...]:
         """The points as bytes: x, y, z, w of each as 32-bit floats, little endian."""
         found = homogeneous(self.camera().settings, self.camera().picture().depth)
-        return found.astype("<f4").view(np.uint8).ravel(), *self.around()
+        return found.astype("<f4").view(np.uint8).ravel(), *self.robot_state()
 
     def _colours(self, seen: Picture) -> Any:
         red, green, blue = seen.colour.reshape(-1, 3).T
@@ -109,5 +109,5 @@ def homogeneous(settings: CameraSettings, depth: Floats) -> Floats:
     y = ((height - 1) / 2 - np.arange(height, dtype=np.float32)) / settings.focal
     somewhere = np.isfinite(depth)
     z = np.where(somewhere, depth, 1.0)
-    made: Floats = np.stack([x[None, :] * z, y[:, None] * z, z, somewhere], axis=-1)
-    return made.astype(np.float32).reshape(-1, 4)
+    points: Floats = np.stack([x[None, :] * z, y[:, None] * z, z, somewhere], axis=-1)
+    return points.astype(np.float32).reshape(-1, 4)

@@ -1,4 +1,4 @@
-"""The base of servants: the types of their interface, their devices, and how failures are told.
+"""The base of servants: their types and devices, and the mapping of errors to exceptions.
 
 In: an interface as generated code declares it, and the devices behind the port. Out: nothing of its
 own; the methods of the classes below are the operations.
@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, ClassVar
 
-from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
+from robocomp_dsl.hardware.devices.errors import DeviceGone, HardwareError
 from robocomp_dsl.runtime import types as rt
 
 _MODULE = "RoboComp"
 
 
-class Types:
+class InterfaceTypes:
     """The types that an interface mentions, as attributes under the names that the IDSL gives them.
 
     Generated classes of the same name in two modules carry their module before it
@@ -24,24 +24,27 @@ class Types:
 
     def __init__(self, interface: rt.Interface) -> None:
         seen: dict[Any, None] = {}
-        for one in interface.operations:
-            for type_ in (*(t for _, t in (*one.inputs, *one.outputs)), *one.throws):
-                _walk(type_, seen)
-        vars(self).update({_plain_name(one): one for one in seen})
+        for operation in interface.operations:
+            for type_ in (
+                *(t for _, t in (*operation.inputs, *operation.outputs)),
+                *operation.throws,
+            ):
+                _collect_types(type_, seen)
+        vars(self).update({_plain_name(operation): operation for operation in seen})
 
     def __getattr__(self, name: str) -> Any:
         raise AttributeError(f"the interface has no type `{name}`")
 
 
-def _walk(type_: Any, seen: dict[Any, None]) -> None:
+def _collect_types(type_: Any, seen: dict[Any, None]) -> None:
     if isinstance(type_, type) and type_ not in seen:
         seen[type_] = None
-    for inner in _inside(type_):
+    for inner in _member_types(type_):
         if not isinstance(inner, type) or inner not in seen:
-            _walk(inner, seen)
+            _collect_types(inner, seen)
 
 
-def _inside(type_: Any) -> Iterator[Any]:
+def _member_types(type_: Any) -> Iterator[Any]:
     if isinstance(type_, rt.Sequence):
         yield type_.element
     elif isinstance(type_, rt.Dictionary):
@@ -62,7 +65,7 @@ def _plain_name(class_: type) -> str:
 class Servant:
     """One port. `ids` are its devices, in order; `devices` is looked into at every call."""
 
-    TAKES_TURNS: ClassVar[bool] = True
+    NEEDS_LOCK: ClassVar[bool] = True
     """Whether the world must stand still during a call."""
 
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
@@ -73,20 +76,20 @@ class Servant:
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
     ) -> None:
-        self.types = Types(interface)
+        self.types = InterfaceTypes(interface)
         self.port = port
         self.ids = ids
-        self.in_step: Callable[[], bool] = bool
+        self.on_deployment_clock: Callable[[], bool] = bool
         self._devices = devices
-        self._throws = {one.name: one.throws for one in interface.operations}
+        self._throws = {operation.name: operation.throws for operation in interface.operations}
 
     def device(self, id: str = "") -> Any:
         """The device `id`, or the first. Raises `DeviceGone`."""
-        wanted = id or self.ids[0]
+        key = id or self.ids[0]
         try:
-            return self._devices[wanted]
+            return self._devices[key]
         except KeyError:
-            raise DeviceGone(f"`{wanted}` has been removed from the world") from None
+            raise DeviceGone(f"`{key}` has been removed from the world") from None
 
     def board_device(self) -> Any:
         """The board of all joints. Raises `DeviceGone` when there are none left."""
@@ -95,16 +98,16 @@ class Servant:
                 return device
         raise DeviceGone("there are no joints any more")
 
-    def told(self, operation: str, error: HardwareError) -> Exception:
+    def to_idl_error(self, operation: str, error: HardwareError) -> Exception:
         """What the caller of `operation` gets: a declared exception where there is one."""
         for kind, name in self.FAILURES:
             for declared in self._throws.get(operation, ()):
                 if isinstance(error, kind) and _plain_name(declared) == name:
-                    made: Exception = self.failure(declared, error)
-                    return made
+                    exception: Exception = self.declared_error(declared, error)
+                    return exception
         return error
 
-    def failure(self, declared: type[Any], error: HardwareError) -> Exception:
+    def declared_error(self, declared: type[Any], error: HardwareError) -> Exception:
         """The exception that the interface declares, filled in."""
-        made: Exception = declared(what=str(error))
-        return made
+        exception: Exception = declared(what=str(error))
+        return exception

@@ -1,4 +1,4 @@
-"""`Skin` over a skin, and its frames and touches to those who subscribed."""
+"""`Skin` over a skin, and the topics with its frames and touches."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -8,9 +8,9 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from robocomp_dsl.hardware.errors import HardwareError
+from robocomp_dsl.hardware.devices.errors import HardwareError
+from robocomp_dsl.hardware.devices.skin import SkinDevice, SkinFrame
 from robocomp_dsl.hardware.servants.servant import Servant
-from robocomp_dsl.hardware.skin import SkinDevice, SkinFrame
 from robocomp_dsl.tactile.skin.contacts import Touches
 from robocomp_dsl.tactile.skin.geometry import LimbFrame, SkinGeometry
 
@@ -24,7 +24,7 @@ class FrameTopic(Protocol):
     def frame(self, frame: Any) -> None:
         """Publish a frame."""
 
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody gets it."""
 
 
@@ -34,7 +34,7 @@ class ContactTopic(Protocol):
     def contacts(self, contacts: Any) -> None:
         """Publish the touches of a frame."""
 
-    def is_heard(self) -> bool:
+    def has_subscribers(self) -> bool:
         """Whether anybody gets them."""
 
 
@@ -63,12 +63,14 @@ class SkinServant(Servant):
             ny=ny,
             nz=nz,
             patches=self._patches(it),
-            limbs=[self._limb(name, one) for name, one in zip(it.limbs, it.frames, strict=True)],
+            limbs=[
+                self._limb(name, frame) for name, frame in zip(it.limbs, it.frames, strict=True)
+            ],
         )
 
     def getFrame(self) -> Any:
         """The latest frame."""
-        return self._told(self._skin.frame)
+        return self._frame_to_message(self._skin.frame)
 
     def getContacts(self) -> Any:
         """The touches of the latest frame."""
@@ -80,18 +82,18 @@ class SkinServant(Servant):
         self._skin.calibrate(seconds)
 
     def publish(self, frames: FrameTopic, touches: ContactTopic) -> None:
-        """Publish every new frame and its touches, as far as anybody hears.
+        """Publish every new frame and its touches, if the topic has subscribers.
 
-        No touches are told once, not again with every frame.
+        An empty list of touches is published once, not with every frame.
         """
         touched = True
 
         def hear(new: SkinFrame) -> None:
             nonlocal touched
-            if frames.is_heard():
-                frames.frame(self._told(new))
+            if frames.has_subscribers():
+                frames.frame(self._frame_to_message(new))
             felt = bool(new.force.any())
-            if not (felt or touched) or not touches.is_heard():
+            if not (felt or touched) or not touches.has_subscribers():
                 return
             touched = felt
             try:
@@ -104,7 +106,7 @@ class SkinServant(Servant):
 
     # -- inside -------------------------------------------------------------------------------
 
-    def _told(self, frame: SkinFrame) -> Any:
+    def _frame_to_message(self, frame: SkinFrame) -> Any:
         shear = (_NONE,) * 3 if frame.shear is None else _columns(frame.shear)
         return self.types.Frame(
             sequence=frame.sequence,
@@ -144,15 +146,20 @@ class SkinServant(Servant):
 
     def _patches(self, it: SkinGeometry) -> list[Any]:
         return [
-            self.types.Patch(name=name, gain=one.gain, floor=one.floor, saturation=one.saturation)
-            for name, one in zip(it.patches, it.sensitivities, strict=True)
+            self.types.Patch(
+                name=name,
+                gain=sensitivity.gain,
+                floor=sensitivity.floor,
+                saturation=sensitivity.saturation,
+            )
+            for name, sensitivity in zip(it.patches, it.sensitivities, strict=True)
         ]
 
-    def _limb(self, name: str, one: LimbFrame) -> Any:
-        r = one.axes.tolist()
+    def _limb(self, name: str, limb_frame: LimbFrame) -> Any:
+        r = limb_frame.axes.tolist()
         turn = {f"r{i}{j}": r[i][j] for i in range(3) for j in range(3)}
-        x, y, z = one.origin.tolist()
-        return self.types.Limb(name=name, body=one.body, x=x, y=y, z=z, **turn)
+        x, y, z = limb_frame.origin.tolist()
+        return self.types.Limb(name=name, body=limb_frame.body, x=x, y=y, z=z, **turn)
 
 
 def _columns(rows: Any) -> tuple[Any, Any, Any]:

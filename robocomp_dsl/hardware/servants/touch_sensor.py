@@ -1,4 +1,4 @@
-"""`TouchSensor` over touch sensors: one port tells of all of them."""
+"""`TouchSensor` over touch sensors: one port serves all of them."""
 
 # ruff: noqa: N802  called as in the interface
 

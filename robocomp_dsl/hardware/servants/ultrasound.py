@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from robocomp_dsl.hardware.errors import DeviceGone, HardwareError
+from robocomp_dsl.hardware.devices.errors import DeviceGone, HardwareError
 from robocomp_dsl.hardware.servants.servant import Servant
 
 _PERIOD_MS = 50
@@ -33,13 +33,13 @@ class UltrasoundServant(Servant):
 
     def getAllSensorParams(self) -> list[Any]:
         """How all sensors are set up."""
-        return [self.getSensorParams(one) for one in self.ids]
+        return [self.getSensorParams(sensor) for sensor in self.ids]
 
     def getAllSonarPose(self) -> Any:
         """Where they sit on the robot: x to the right, y ahead."""
-        poses = [self._known(one).mounted() for one in self.ids]
+        poses = [self._known(sensor).mounted() for sensor in self.ids]
         return self.types.SonarPoseList(
-            [self.types.SonarPose(one.x, one.z, one.alpha) for one in poses]
+            [self.types.SonarPose(sensor.x, sensor.z, sensor.alpha) for sensor in poses]
         )
 
     def getSonarsNumber(self) -> int:
@@ -53,7 +53,7 @@ class UltrasoundServant(Servant):
 
     def getAllSensorDistances(self) -> Any:
         """What all of them measure, in mm."""
-        return np.array([self.getSensorDistance(one) for one in self.ids], dtype=np.int32)
+        return np.array([self.getSensorDistance(sensor) for sensor in self.ids], dtype=np.int32)
 
     def _known(self, sensor: str) -> Any:
         if sensor not in self.ids:

@@ -7,19 +7,18 @@ explanation (`MalformedMessage`) or reads what is rare, as messages of big-endia
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from functools import partial
-from struct import Struct
 from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.blocks import checker, unpack
 from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
 from robocomp_dsl.runtime.codec.read import read
-from robocomp_dsl.runtime.layout import row_layout
-from robocomp_dsl.runtime.record import Record
-from robocomp_dsl.runtime.schema import (
+from robocomp_dsl.runtime.codec.struct_arrays import checker, unpack
+from robocomp_dsl.runtime.data.layout import row_layout
+from robocomp_dsl.runtime.data.schema import (
     BOOL,
     STRING,
     Array,
@@ -30,17 +29,18 @@ from robocomp_dsl.runtime.schema import (
     Sequence,
     Type,
 )
+from robocomp_dsl.runtime.data.struct import Struct
 
 
 def decoder_function(fields: Fields, form: str) -> Callable[[Any], Any]:
     """The decoder; `form` says how the values are handed over: `none`, `one` or `tuple`."""
-    made: list[Callable[[Any], Any]] = []
+    compiled: list[Callable[[Any], Any]] = []
 
     def from_view(buffer: Any) -> Any:
         """Buffers other than bytes have a decoder of their own, for they have no `decode`."""
-        if not made:
-            made.append(_written(fields, form, view=True))
-        return made[0](memoryview(buffer).toreadonly().cast("B"))
+        if not compiled:
+            compiled.append(_written(fields, form, view=True))
+        return compiled[0](memoryview(buffer).toreadonly().cast("B"))
 
     return _written(fields, form, view=False, other=from_view)
 
@@ -56,8 +56,8 @@ def _written(fields: Fields, form: str, view: bool, other: Any = None) -> Callab
     return writer.compiled("def decode(b):", tail, "decode")
 
 
-def _unpacker(one: Struct) -> Callable[..., Any]:
-    return one.unpack_from
+def _unpacker(layout: struct.Struct) -> Callable[..., Any]:
+    return layout.unpack_from
 
 
 class _Decoder(Emitter):
@@ -85,7 +85,7 @@ class _Decoder(Emitter):
             self.settle()
         self.line(f"if len(b) != {end}: raise ValueError")
         if form == "tuple":
-            self.line(f"return ({''.join(f'{one}, ' for one in values)})")
+            self.line(f"return ({''.join(f'{value}, ' for value in values)})")
         else:
             self.line(f"return {values[0] if values else None}")
 
@@ -126,10 +126,10 @@ class _Decoder(Emitter):
                 value = self.sequence(type_)
             case Dictionary():
                 value = self.dictionary(type_)
-            case _ if issubclass(type_, Record):
+            case _ if issubclass(type_, Struct):
                 value = self.record(type_)
             case _ if issubclass(type_, Enum):
-                members = {int(one): one for one in type_}
+                members = {int(member): member for member in type_}
                 value = f"{self.constant(members)}[{self.number('i')}]"
             case _:
                 value = self.struct_array(type_)
@@ -164,7 +164,7 @@ class _Decoder(Emitter):
         self._unset = True
         return text
 
-    def record(self, type_: type[Record]) -> str:
+    def record(self, type_: type[Struct]) -> str:
         """An object, made past its `__init__`, which would only fill in defaults."""
         if not type_._fields_:
             self.run.append(("x", ""))

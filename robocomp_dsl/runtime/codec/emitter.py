@@ -13,7 +13,7 @@ import struct
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from robocomp_dsl.runtime.layout import padding
+from robocomp_dsl.runtime.data.layout import padding
 
 SIZES = {"x": 1, "?": 1, "B": 1, "h": 2, "i": 4, "I": 4, "f": 4, "q": 8, "d": 8}
 """Size and alignment of what a `struct` letter stands for; x is a byte without meaning."""
@@ -87,18 +87,18 @@ class Emitter:
         codes = [code for code, _ in self.run]
         self.run = []
         if self.at is not None:
-            here, one = self.at, numbers(codes, self.at)
-            self.at += one.size
-            return lambda pick: self.constant(pick(one)), here
+            here, layout = self.at, numbers(codes, self.at)
+            self.at += layout.size
+            return lambda pick: self.constant(pick(layout)), here
         alignment = max(SIZES[code] for code in codes)
         known = self.multiple >= alignment
-        one = numbers(codes, 0)
+        layout = numbers(codes, 0)
         # Behind the widest number the residue does not depend on the start any more.
-        self.multiple = min(alignment, one.size & -one.size)
+        self.multiple = min(alignment, layout.size & -layout.size)
         self.settle()
         if known:
-            self.later.append(str(one.size))
-            return lambda pick: self.constant(pick(one)), None
+            self.later.append(str(layout.size))
+            return lambda pick: self.constant(pick(layout)), None
         residues = [numbers(codes, (r - self.origin) % alignment) for r in range(alignment)]
         index = f"[{self.variable} & {alignment - 1}]"
         self.later.append(self.constant(tuple(s.size for s in residues)) + index)

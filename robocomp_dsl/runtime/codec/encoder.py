@@ -13,19 +13,18 @@ For a pose with a text in its header the body is, but for names:
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
-from struct import Struct
 from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.blocks import checker, pack
 from robocomp_dsl.runtime.codec.emitter import HEADER, Emitter
 from robocomp_dsl.runtime.codec.explain import explain
-from robocomp_dsl.runtime.convert import FLAGS, as_array, as_list
-from robocomp_dsl.runtime.layout import row_layout
-from robocomp_dsl.runtime.record import Record
-from robocomp_dsl.runtime.schema import (
+from robocomp_dsl.runtime.codec.struct_arrays import checker, pack
+from robocomp_dsl.runtime.data.convert import FLAGS, as_array, as_list
+from robocomp_dsl.runtime.data.layout import row_layout
+from robocomp_dsl.runtime.data.schema import (
     BOOL,
     STRING,
     Array,
@@ -36,6 +35,7 @@ from robocomp_dsl.runtime.schema import (
     Sequence,
     Type,
 )
+from robocomp_dsl.runtime.data.struct import Struct
 
 _GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 0 or 4
 
@@ -53,8 +53,8 @@ def encoder_function(fields: Fields, form: str) -> Callable[[Any], bytes]:
     return writer.compiled("def encode(value):", tail, "encode")
 
 
-def _packer(one: Struct) -> Callable[..., Any]:
-    return one.pack
+def _packer(layout: struct.Struct) -> Callable[..., Any]:
+    return layout.pack
 
 
 class _Encoder(Emitter):
@@ -128,10 +128,10 @@ class _Encoder(Emitter):
                 self.sequence(type_, expression)
             case Dictionary():
                 self.dictionary(type_, expression)
-            case _ if issubclass(type_, Record):
+            case _ if issubclass(type_, Struct):
                 self.record(type_, expression)
             case _ if issubclass(type_, Enum):
-                values = {int(one): int(one) for one in type_}
+                values = {int(member): int(member) for member in type_}
                 self.run.append(("i", f"{self.constant(values)}[{expression}]"))
             case _:
                 self.struct_array(type_, expression)
@@ -156,7 +156,7 @@ class _Encoder(Emitter):
         self.advance(length)
         self.run.append(("x", ""))
 
-    def record(self, type_: type[Record], expression: str) -> None:
+    def record(self, type_: type[Struct], expression: str) -> None:
         """The fields in order."""
         if not type_._fields_:
             self.run.append(("x", ""))
@@ -178,9 +178,9 @@ class _Encoder(Emitter):
     def struct_array(self, type_: Any, expression: str) -> None:
         """A structured array, as it is in memory if that is how the wire has it."""
         layout = row_layout(type_._element_)
-        given, name, cls = self.assigned("a", expression), self.name("a"), self.constant(type_)
+        source, name, cls = self.assigned("a", expression), self.name("a"), self.constant(type_)
         self.line(
-            f"{name} = {given}._array if {given}.__class__ is {cls} else {cls}._rows({given})"
+            f"{name} = {source}._array if {source}.__class__ is {cls} else {cls}._rows({source})"
         )
         if check := checker(layout):
             self.line(f"{self.constant(check)}({name})")

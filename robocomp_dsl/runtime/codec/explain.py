@@ -7,13 +7,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from robocomp_dsl.runtime.arrays import StructArray
-from robocomp_dsl.runtime.codec.blocks import bad_element
-from robocomp_dsl.runtime.convert import as_array, as_list, as_scalar, described
-from robocomp_dsl.runtime.errors import EncodeError
-from robocomp_dsl.runtime.layout import row_layout
-from robocomp_dsl.runtime.record import Record
-from robocomp_dsl.runtime.schema import (
+from robocomp_dsl.runtime.codec.struct_arrays import bad_element
+from robocomp_dsl.runtime.data.arrays import StructArray
+from robocomp_dsl.runtime.data.convert import as_array, as_list, as_scalar, described
+from robocomp_dsl.runtime.data.layout import row_layout
+from robocomp_dsl.runtime.data.schema import (
     Array,
     Dictionary,
     Enum,
@@ -22,6 +20,8 @@ from robocomp_dsl.runtime.schema import (
     Sequence,
     Type,
 )
+from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import EncodeError
 
 
 def explain(fields: Fields, form: str, values: Any, failure: Exception) -> EncodeError:
@@ -66,7 +66,7 @@ def _check(type_: Type, value: Any, path: str) -> None:
                 _check_dictionary(type_, value)
             case _ if issubclass(type_, Enum):
                 as_scalar(type_, value)
-            case _ if issubclass(type_, Record):
+            case _ if issubclass(type_, Struct):
                 _check_record(type_, value)
             case _:
                 _check_rows(type_, value)
@@ -75,7 +75,7 @@ def _check(type_: Type, value: Any, path: str) -> None:
         raise EncodeError(error.reason, path + inner) from None
 
 
-def _check_record(type_: type[Record], value: Any) -> None:
+def _check_record(type_: type[Struct], value: Any) -> None:
     for name, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
         try:
             item = getattr(value, name)

@@ -12,11 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from robocomp_dsl.runtime.codec.blocks import bad_element, begin, unpack
-from robocomp_dsl.runtime.errors import MalformedMessage
-from robocomp_dsl.runtime.layout import padding, row_layout
-from robocomp_dsl.runtime.record import Record
-from robocomp_dsl.runtime.schema import (
+from robocomp_dsl.runtime.codec.struct_arrays import bad_element, begin, unpack
+from robocomp_dsl.runtime.data.layout import padding, row_layout
+from robocomp_dsl.runtime.data.schema import (
     BOOL,
     STRING,
     Array,
@@ -27,6 +25,8 @@ from robocomp_dsl.runtime.schema import (
     Sequence,
     Type,
 )
+from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import MalformedMessage
 
 _BIG, _LITTLE = b"\0\0", b"\0\1"
 
@@ -116,7 +116,7 @@ class _Reader:
                 value = self.dictionary(type_, path)
             case _ if issubclass(type_, Enum):
                 value = self.member(type_, path)
-            case _ if issubclass(type_, Record):
+            case _ if issubclass(type_, Struct):
                 value = self.record(type_, path)
             case _:
                 value = self.struct_array(type_, path)
@@ -156,7 +156,7 @@ class _Reader:
                 f"{number} is no value of {type_.__name__}", path, self.at - 4
             ) from None
 
-    def record(self, type_: type[Record], path: str) -> Record:
+    def record(self, type_: type[Struct], path: str) -> Struct:
         """A struct or exception."""
         value = type_.__new__(type_)
         for attribute, (name, inner) in zip(type_._names_, type_._fields_, strict=True):

@@ -1,40 +1,48 @@
-"""Finds the configuration of a component among folders of the user and installed ones.
+"""Finds the configuration of a component in folders of the user and of installed packages.
 
-In: a file name or a context, the environment. Out: the file that wins, and every place tried. The
+In: a file name or a context, the environment. Out: the file that wins, and every candidate. The
 search is that of YARP's ResourceFinder, in the folders of the XDG base directory specification.
 """
 
-from robocomp_dsl.runtime.config.choose import Asked, Chosen, choose, files_beside
-from robocomp_dsl.runtime.config.contexts import context_names, files_of
-from robocomp_dsl.runtime.config.drop_ins import dropped
-from robocomp_dsl.runtime.config.find import (
-    Tried,
-    WrongName,
-    checked_context,
-    checked_file,
+from robocomp_dsl.runtime.config.candidates import (
+    Candidate,
+    InvalidName,
     search,
+    validate_context,
+    validate_file,
 )
-from robocomp_dsl.runtime.config.places import CONTEXTS, Place, places
-from robocomp_dsl.runtime.config.surroundings import Origin, Root, Surroundings, surroundings
+from robocomp_dsl.runtime.config.contexts import context_names, files_of
+from robocomp_dsl.runtime.config.drop_ins import drop_in_roots
+from robocomp_dsl.runtime.config.resolve import (
+    ConfigRequest,
+    ConfigResult,
+    existing_configs,
+    resolve_config,
+)
+from robocomp_dsl.runtime.config.search_environment import (
+    Origin,
+    Root,
+    SearchEnvironment,
+)
+from robocomp_dsl.runtime.config.search_paths import CONTEXTS, SearchPath, search_paths
 
 __all__ = [
     "CONTEXTS",
-    "Asked",
-    "Chosen",
+    "Candidate",
+    "ConfigRequest",
+    "ConfigResult",
+    "InvalidName",
     "Origin",
-    "Place",
     "Root",
-    "Surroundings",
-    "Tried",
-    "WrongName",
-    "checked_context",
-    "checked_file",
-    "choose",
+    "SearchEnvironment",
+    "SearchPath",
     "context_names",
-    "dropped",
-    "files_beside",
+    "drop_in_roots",
+    "existing_configs",
     "files_of",
-    "places",
+    "resolve_config",
     "search",
-    "surroundings",
+    "search_paths",
+    "validate_context",
+    "validate_file",
 ]

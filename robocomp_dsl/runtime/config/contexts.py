@@ -1,6 +1,7 @@
-"""What there is: the contexts of all roots, and the files of one.
+"""Lists the contexts of all roots, and the files of one context.
 
-In: roots. Out: names, and for each file of a context the places that have it, the winner first.
+In: roots. Out: names of contexts; for each file of a context the search paths that have it, the
+winner first.
 """
 
 from __future__ import annotations
@@ -9,34 +10,34 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from robocomp_dsl.runtime.config.find import CONTEXT
-from robocomp_dsl.runtime.config.places import CONTEXTS, Place
-from robocomp_dsl.runtime.config.surroundings import Root
+from robocomp_dsl.runtime.config.candidates import CONTEXT_NAME
+from robocomp_dsl.runtime.config.search_environment import Root
+from robocomp_dsl.runtime.config.search_paths import CONTEXTS, SearchPath
 
 
 def context_names(roots: Iterable[Root]) -> list[str]:
-    """All contexts, those inside others too (`tests/left`), sorted."""
-    made: set[str] = set()
+    """All contexts, sorted, nested ones included (`tests/left`)."""
+    names: set[str] = set()
     for root in roots:
         top = root.folder / CONTEXTS
         for folder, inside, _ in os.walk(top):
-            inside[:] = [one for one in inside if not one.startswith(".")]
+            inside[:] = [folder_name for folder_name in inside if not folder_name.startswith(".")]
             name = Path(folder).relative_to(top).as_posix()
-            if CONTEXT.fullmatch(name):
-                made.add(name)
-    return sorted(made)
+            if CONTEXT_NAME.fullmatch(name):
+                names.add(name)
+    return sorted(names)
 
 
-def files_of(context: str, roots: Iterable[Root]) -> dict[str, list[Place]]:
-    """File name to the places that have it; files of contexts inside belong to these."""
-    made: dict[str, list[Place]] = {}
+def files_of(context: str, roots: Iterable[Root]) -> dict[str, list[SearchPath]]:
+    """File name to the search paths that have it; files of nested contexts are left out."""
+    paths: dict[str, list[SearchPath]] = {}
     for root in roots:
-        place = Place(root, f"{CONTEXTS}/{context}")
+        search_path = SearchPath(root, f"{CONTEXTS}/{context}")
         try:
-            names = sorted(one.name for one in place.folder.iterdir() if one.is_file())
+            names = sorted(path.name for path in search_path.folder.iterdir() if path.is_file())
         except OSError:
             continue
         for name in names:
             if not name.startswith("."):
-                made.setdefault(name, []).append(place)
-    return dict(sorted(made.items()))
+                paths.setdefault(name, []).append(search_path)
+    return dict(sorted(paths.items()))

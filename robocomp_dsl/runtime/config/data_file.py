@@ -1,52 +1,57 @@
-"""Finds a file that a parameter names: a map, a description of the robot.
+"""Finds a file that a parameter names, such as a map or a robot description.
 
-In: the words of the parameter, the configuration that they come from. Out: the path, or
-`ConfigError` that lists every place in which the file is not.
+In: the value of the parameter, the configuration file. Out: the path, or `ConfigError` that lists
+every path where the file was looked for.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from robocomp_dsl.runtime.config.drop_ins import dropped
-from robocomp_dsl.runtime.config.find import search
-from robocomp_dsl.runtime.config.places import places
-from robocomp_dsl.runtime.config.surroundings import Surroundings, surroundings
+from robocomp_dsl.runtime.config.candidates import search
+from robocomp_dsl.runtime.config.drop_ins import drop_in_roots
+from robocomp_dsl.runtime.config.search_environment import SearchEnvironment
+from robocomp_dsl.runtime.config.search_paths import search_paths
 from robocomp_dsl.runtime.parameters.findings import (
     ConfigError,
-    Finding,
-    Place,
-    Text,
+    ConfigFinding,
+    ConfigLocation,
+    ConfigText,
     did_you_mean,
 )
 
 
 def data_file(
-    name: str, parameter: str, config: Path | None = None, around: Surroundings | None = None
+    name: str,
+    parameter: str,
+    config: Path | None = None,
+    environment: SearchEnvironment | None = None,
 ) -> Path:
-    """The file `name`, as `parameter` says: beside `config`, then where configurations are found.
+    """The path of file `name`, the value of `parameter`.
 
-    An absolute path is taken as it is, one with `..` from the folder of `config` or the working
-    folder. Raises `ConfigError`.
+    Searches the folder of `config`, the working folder, then the search paths of configurations.
+    An absolute path is used as it is; a path with `..` is relative to the first two only. Raises
+    `ConfigError`.
     """
-    there = around or surroundings()
-    tried = [one.expanduser() for one in _beside(name, config, there)]
-    if not _leads_out(name):
-        order = places((*there.roots, *dropped(there, [])), there.robot)
-        tried += [one.path for one in search(name, order)]
-    found = next((one for one in tried if _is_file(one)), None)
+    environment = environment or SearchEnvironment.from_environ()
+    tried = [path.expanduser() for path in _direct_paths(name, config, environment)]
+    if not _leaves_search_path(name):
+        roots = (*environment.roots, *drop_in_roots(environment, []))
+        order = search_paths(roots, environment.robot)
+        tried += [candidate.path for candidate in search(name, order)]
+    found = next((path for path in tried if _is_file(path)), None)
     if found is None:
-        raise ConfigError([_nowhere(name, parameter, tried)])
+        raise ConfigError([_not_found(name, parameter, tried)])
     return found
 
 
-def _beside(name: str, config: Path | None, around: Surroundings) -> list[Path]:
+def _direct_paths(name: str, config: Path | None, environment: SearchEnvironment) -> list[Path]:
     folders = [config.absolute().parent] if config else []
-    # An absolute name wins over the folder that it is joined to.
-    return [folder / Path(name).expanduser() for folder in (*folders, around.working)]
+    # Joining an absolute path to a folder gives the absolute path.
+    return [folder / Path(name).expanduser() for folder in (*folders, environment.working_folder)]
 
 
-def _leads_out(name: str) -> bool:
+def _leaves_search_path(name: str) -> bool:
     path = Path(name).expanduser()
     return path.is_absolute() or ".." in path.parts or not path.parts or "\0" in name
 
@@ -58,22 +63,22 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _nowhere(name: str, parameter: str, tried: list[Path]) -> Finding:
-    listed = "\n".join(f"  {one}" for one in dict.fromkeys(tried))
+def _not_found(name: str, parameter: str, tried: list[Path]) -> ConfigFinding:
+    listed = "\n".join(f"  {entry}" for entry in dict.fromkeys(tried))
     near = did_you_mean(Path(name).name, _neighbours(tried))
-    return Finding(
-        Place(Text(f"parameter {parameter}", (name,)), 1, 1, max(1, len(name))),
-        f"there is no file `{name:.200}`",
+    return ConfigFinding(
+        ConfigLocation(ConfigText(f"parameter {parameter}", (name,)), 1, 1, max(1, len(name))),
+        f"file not found: `{name:.200}`",
         label=near,
-        help=f"`{parameter}` is looked for in these places, in this order:\n{listed}",
+        help=f"`{parameter}` was looked for in this order:\n{listed}",
     )
 
 
 def _neighbours(tried: list[Path]) -> list[str]:
     names: list[str] = []
-    for one in tried:
+    for path in tried:
         try:
-            names += [p.name for p in one.parent.iterdir() if p.suffix == one.suffix]
+            names += [p.name for p in path.parent.iterdir() if p.suffix == path.suffix]
         except OSError:
             continue
     return names

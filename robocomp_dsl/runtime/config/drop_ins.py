@@ -1,8 +1,8 @@
-"""Drop-in files: how a package that is installed elsewhere adds its folders to the search.
+"""Reads drop-in files, with which installed packages add folders to the search.
 
-In: the `path.d` folders. Out: the folders that their files list, and what is wrong with them. A
-`.conf` has a folder a line, `#` begins a comment; a `.yaml` has a list under the key `path`.
-Relative folders are relative to the file; folders that are found in this way may not add others.
+In: the `path.d` folders. Out: the folders that their files list, and findings. A `.conf` file has
+one folder per line, `#` starts a comment; a `.yaml` file has a list under the key `path`. Relative
+folders are relative to the file. Folders added in this way cannot add others.
 """
 
 from __future__ import annotations
@@ -10,58 +10,65 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from robocomp_dsl.runtime.config.surroundings import Origin, Root, Surroundings
-from robocomp_dsl.runtime.parameters.findings import Finding, Place, Text
-from robocomp_dsl.runtime.parameters.load import Unreadable, decoded
+from robocomp_dsl.runtime.config.search_environment import Origin, Root, SearchEnvironment
+from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, ConfigText
+from robocomp_dsl.runtime.parameters.load import UnreadableFile, read_text
 
 SUFFIXES = (".conf", ".yaml")
-WAY_OUT = "a .conf has a folder in each line; a .yaml has `path: [FOLDER, ...]`"
+FORMAT_HELP = "a .conf file has one folder per line; a .yaml file has `path: [FOLDER, ...]`"
 
 
-def dropped(around: Surroundings, findings: list[Finding]) -> tuple[Root, ...]:
-    """The folders that drop-in files add. Adds what is wrong with a file; the others count."""
-    made = [one for file in _files(around.drop_in_folders) for one in _folders(file, findings)]
-    known = {root.folder for root in around.roots}
-    return tuple(Root(one, Origin.DROPPED) for one in dict.fromkeys(made) if one not in known)
+def drop_in_roots(
+    environment: SearchEnvironment, findings: list[ConfigFinding]
+) -> tuple[Root, ...]:
+    """The folders that drop-in files add. Errors go to `findings`; valid entries are used."""
+    files = _files(environment.drop_in_folders)
+    folders = dict.fromkeys(folder for file in files for folder in _folders(file, findings))
+    known = {root.folder for root in environment.roots}
+    return tuple(Root(folder, Origin.DROP_IN) for folder in folders if folder not in known)
 
 
 def _files(folders: Iterable[Path]) -> list[Path]:
-    """In the order of their names in each folder; a file of the user shadows those of its name."""
+    """The drop-in files, by name in each folder; a user's file overrides others of its name."""
     found: dict[str, Path] = {}
     for folder in folders:
         try:
-            names = sorted(one for one in folder.iterdir() if one.suffix in SUFFIXES)
+            names = sorted(path for path in folder.iterdir() if path.suffix in SUFFIXES)
         except OSError:
             continue
-        for one in names:
-            found.setdefault(one.name, one)
+        for name in names:
+            found.setdefault(name.name, name)
     return list(found.values())
 
 
-def _folders(file: Path, findings: list[Finding]) -> Iterator[Path]:
+def _folders(file: Path, findings: list[ConfigFinding]) -> Iterator[Path]:
     try:
-        source = decoded(file)
-    except Unreadable as error:
-        place = Place(Text(str(file), ()), 1, 1)
-        findings.append(Finding(place, f"this drop-in file cannot be used: {error}"))
+        source = read_text(file)
+    except UnreadableFile as error:
+        place = ConfigLocation(ConfigText(str(file), ()), 1, 1)
+        findings.append(ConfigFinding(place, f"unreadable drop-in file: {error}"))
         return
-    text = Text(str(file), tuple(source.splitlines()))
-    said = _conf(text) if file.suffix == ".conf" else _yaml(text, source, findings)
-    for place, folder in said:
+    text = ConfigText(str(file), tuple(source.splitlines()))
+    entries = (
+        _conf_folders(text) if file.suffix == ".conf" else _yaml_folders(text, source, findings)
+    )
+    for place, folder in entries:
         try:
             yield (file.parent / Path(folder).expanduser()).absolute()
-        except RuntimeError:  # of a user who is not there
-            findings.append(Finding(place, f"`{folder}` is no folder of this machine"))
+        except RuntimeError:  # the home folder of an unknown user
+            findings.append(ConfigFinding(place, f"`{folder}` is not a folder of this machine"))
 
 
-def _conf(text: Text) -> Iterator[tuple[Place, str]]:
+def _conf_folders(text: ConfigText) -> Iterator[tuple[ConfigLocation, str]]:
     for number, line in enumerate(text.lines, 1):
-        said = line.partition("#")[0].strip()
-        if said:
-            yield Place(text, number, line.index(said) + 1, len(said)), said
+        folder = line.partition("#")[0].strip()
+        if folder:
+            yield ConfigLocation(text, number, line.index(folder) + 1, len(folder)), folder
 
 
-def _yaml(text: Text, source: str, findings: list[Finding]) -> Iterator[tuple[Place, str]]:
+def _yaml_folders(
+    text: ConfigText, source: str, findings: list[ConfigFinding]
+) -> Iterator[tuple[ConfigLocation, str]]:
     from robocomp_dsl.runtime.parameters.tree import Items, Scalar  # noqa: PLC0415 - for .yaml only
     from robocomp_dsl.runtime.parameters.yaml_text import read_yaml  # noqa: PLC0415 - slow to load
 
@@ -69,10 +76,12 @@ def _yaml(text: Text, source: str, findings: list[Finding]) -> Iterator[tuple[Pl
     for key, member in root.members.items() if root else ():
         listed = member.value
         if key != "path" or not isinstance(listed, Items):
-            findings.append(Finding(member.place, f"`{key:.80}` is no list `path`", help=WAY_OUT))
+            findings.append(
+                ConfigFinding(member.place, f"`{key:.80}` is not a list `path`", help=FORMAT_HELP)
+            )
             continue
-        for one in listed.items:
-            if isinstance(one, Scalar) and one.text:
-                yield one.place, one.text
+        for item in listed.items:
+            if isinstance(item, Scalar) and item.text:
+                yield item.place, item.text
             else:
-                findings.append(Finding(one.place, "this is no folder", help=WAY_OUT))
+                findings.append(ConfigFinding(item.place, "not a folder", help=FORMAT_HELP))

@@ -17,7 +17,7 @@ from statemachine.io import create_machine_class_from_definition, load
 from robocomp_dsl.runtime.machine.spec import MachineSpec, StateSpec, TransitionSpec
 
 
-class Timed(StateChart[Any]):
+class ExternallyTimedChart(StateChart[Any]):
     """What machines of both languages have.
 
     `later` takes an event and the seconds until it is due, `cancel` the id of those to forget,
@@ -30,7 +30,7 @@ class Timed(StateChart[Any]):
         self,
         later: Callable[[TriggerData, float], None],
         cancel: Callable[[str], None],
-        begun: Callable[[Timed], None],
+        begun: Callable[[ExternallyTimedChart], None],
         listeners: list[object],
     ) -> None:
         self._later = later
@@ -57,11 +57,11 @@ class Timed(StateChart[Any]):
         super().cancel_event(send_id)
 
 
-def chart_of(spec: MachineSpec) -> type[Timed]:
+def chart_of(spec: MachineSpec) -> type[ExternallyTimedChart]:
     """The class. Raises what the library raises for a document that it does not support."""
     # Expressions of a document can only read and write its data: no code of it is run.
-    made = load(spec.scxml, format="scxml", trusted=False) if spec.scxml else _from_states(spec)
-    both: type[Timed] = new_class(spec.name, (Timed, made))
+    chart = load(spec.scxml, format="scxml", trusted=False) if spec.scxml else _from_states(spec)
+    both: type[ExternallyTimedChart] = new_class(spec.name, (ExternallyTimedChart, chart))
     return both
 
 
@@ -71,7 +71,7 @@ def timer_event(number: int) -> str:
 
 
 def _from_states(spec: MachineSpec) -> type[StateChart[Any]]:
-    states = {one.name: _definition(one, spec.transitions) for one in spec.states}
+    states = {state.name: _state_definition(state, spec.transitions) for state in spec.states}
     return create_machine_class_from_definition(
         spec.name,
         states,
@@ -81,16 +81,20 @@ def _from_states(spec: MachineSpec) -> type[StateChart[Any]]:
     )
 
 
-def _definition(one: StateSpec, transitions: Iterable[TransitionSpec]) -> Any:
+def _state_definition(state: StateSpec, transitions: Iterable[TransitionSpec]) -> Any:
     all_ = tuple(transitions)
     events: dict[str | None, list[dict[str, str]]] = {}
     for number, transition in enumerate(all_):
-        if transition.source == one.name:
+        if transition.source == state.name:
             named = [transition.event] if transition.event else []
             timed = [timer_event(number)] if transition.after is not None else []
             for event in (*named, *timed):
                 events.setdefault(event, []).append({"target": transition.target})
-    made: dict[str, Any] = {"initial": one.initial, "final": one.final, "parallel": one.parallel}
-    made["states"] = {inner.name: _definition(inner, all_) for inner in one.inside}
-    made["on"] = events
-    return made
+    definition: dict[str, Any] = {
+        "initial": state.initial,
+        "final": state.final,
+        "parallel": state.parallel,
+    }
+    definition["states"] = {inner.name: _state_definition(inner, all_) for inner in state.inside}
+    definition["on"] = events
+    return definition

@@ -1,7 +1,7 @@
 """The state machine of one running component.
 
-In: a `MachineSpec`, the worker, a clock. Out: `go` for the worker's code, `beat` for the life
-cycle: events whose time has come are taken, and the methods of the active states are called.
+In: a `MachineSpec`, the worker, a clock. Out: `send` for the worker's code, `tick` for the
+lifecycle: due events are processed, and the methods of the active states are called.
 """
 
 from __future__ import annotations
@@ -16,20 +16,21 @@ from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import Any
 
-from robocomp_dsl.runtime.clock import DIGITS, Clock
+from robocomp_dsl.runtime.clock import TIME_DIGITS, Clock
+from robocomp_dsl.runtime.deprecated import DeprecatedMachineNames
+from robocomp_dsl.runtime.machine.run_to_completion import RunToCompletionQueue
 from robocomp_dsl.runtime.machine.spec import MachineSpec
-from robocomp_dsl.runtime.machine.turns import Turns
 
 log = logging.getLogger("robocomp")
 
 
 class UnknownEvent(Exception):
-    """The machine has no event of this name; the message offers the nearest."""
+    """The machine has no event or state of this name; the message suggests the nearest."""
 
 
 @dataclass(frozen=True, order=True, slots=True)
-class _Due:
-    """An event that waits for its moment."""
+class _Timer:
+    """A delayed event."""
 
     moment: float
     number: int
@@ -38,10 +39,10 @@ class _Due:
     delay: float
 
 
-class Machine:
-    """One state machine. It begins behind `initialize`, and its end is that of the component.
+class Machine(DeprecatedMachineNames):
+    """One state machine. It starts after `initialize`; when it finishes, the component stops.
 
-    `changed` is called where something is to be done at another time than before.
+    `changed` is called when the time of the next delayed event changes.
     """
 
     def __init__(
@@ -50,136 +51,141 @@ class Machine:
         self.spec = spec
         self._clock = clock
         self._changed = changed
-        self._states = {one.name: one for one in spec.walk()}
+        self._states = {known_state.name: known_state for known_state in spec.walk()}
         self._hooks = {
-            (verb, one.name): getattr(worker, f"{verb}_{one.suffix}", None)
-            for one in self._states.values()
+            (verb, state.name): getattr(worker, f"{verb}_{state.suffix}", None)
+            for state in self._states.values()
             for verb in ("state", "on_enter", "on_exit")
         }
         self._events = set(spec.events) | {t.event for t in spec.transitions if t.event}
-        self._due: list[_Due] = []
+        self._timers: list[_Timer] = []
         self._numbers = count()
         self._lock = threading.Lock()
-        self._turns = Turns()
+        self._queue = RunToCompletionQueue()
         self._chart: Any = None
         self._running = False
-        self._entries = 0
+        self._entry_count = 0
         self._active: tuple[str, ...] = ()
 
     def start(self) -> None:
-        """Enter the first states. Raises what the worker's methods raise."""
+        """Enter the initial states. Raises what the worker's methods raise."""
         from robocomp_dsl.runtime.machine.chart import chart_of  # noqa: PLC0415 - 0.1 s to load
 
         chart = chart_of(self.spec)
 
         def enter() -> bool:
-            chart(self._later, self._cancel, self._begun, [_Listener(self)])
+            chart(self._schedule_delayed, self._cancel, self._on_chart_created, [_Listener(self)])
             self._running = True
-            self._settle()
+            self._update_state()
             return True
 
-        self._turns.take(enter)
+        self._queue.submit(enter)
 
-    def _begun(self, chart: Any) -> None:
+    def _on_chart_created(self, chart: Any) -> None:
         self._chart = chart
 
     @property
     def states(self) -> tuple[str, ...]:
-        """The names of the active states, outer ones first; none before the beginning."""
+        """The names of the active states, outer ones first; empty before the start."""
         return self._active
 
     @property
     def ended(self) -> bool:
-        """Whether a final state of the whole was reached."""
+        """Whether the machine has reached a top-level final state."""
         return self._running and bool(self._chart.is_terminated)
 
     def is_in(self, state: str) -> bool:
-        """Whether this state is active. Raises `UnknownEvent` for one that there is not."""
+        """Whether this state is active. Raises `UnknownEvent` for an unknown state."""
         if state not in self._states:
-            raise UnknownEvent(f"there is no state `{state}`{_near(state, self._states)}")
+            raise UnknownEvent(f"unknown state `{state}`{_suggestion(state, self._states)}")
         return state in self._active
 
-    def go(self, event: str, **data: object) -> bool:
-        """Fire an event: the transitions that wait for it are taken; whether there was one.
+    def send(self, event: str, **data: object) -> bool:
+        """Send an event: its transitions are taken; returns whether there was one.
 
-        `data` is for the conditions of an SCXML document (`_event.data`). Called from a method
-        that a transition calls, or while another thread is at it, it is taken when that is done,
-        and False is returned. Raises `UnknownEvent`.
+        `data` is for the conditions of an SCXML document (`_event.data`). If a transition is being
+        processed (in this thread or another one), the event is queued and False is returned.
+        Raises `UnknownEvent`.
         """
         if self._chart is None:
-            raise UnknownEvent(f"`{event}`: the state machine begins behind `initialize`")
+            raise UnknownEvent(f"`{event}`: the state machine starts after `initialize`")
         if event not in self._events and not self._is_pattern(event):
-            raise UnknownEvent(f"there is no event `{event}`{_near(event, self._events)}")
-        return self._turns.take(partial(self._happen, partial(self._chart.send, event, **data)))
+            raise UnknownEvent(f"unknown event `{event}`{_suggestion(event, self._events)}")
+        return self._queue.submit(
+            partial(self._process_event, partial(self._chart.send, event, **data))
+        )
 
-    def _happen(self, fire: Callable[[], None], timer: _Due | None = None) -> bool:
-        """Let something happen; whether a state was entered.
+    def _process_event(self, fire: Callable[[], None], timer: _Timer | None = None) -> bool:
+        """Process an event; returns whether a state was entered.
 
-        Where a method of the worker raises, it has not happened, and a timer is still due.
+        If a method of the worker raises, the timers are restored, and `timer` is due again.
         """
-        before, waiting = self._entries, list(self._due)
+        before, waiting = self._entry_count, list(self._timers)
         try:
             fire()
         except BaseException:
             with self._lock:
-                self._due = sorted([*waiting, timer] if timer else waiting)
+                self._timers = sorted([*waiting, timer] if timer else waiting)
             raise
         finally:
-            self._settle()
-        return self._entries != before
+            self._update_state()
+        return self._entry_count != before
 
-    def due(self) -> float | None:
-        """When the next event comes by itself; None: none does."""
+    def next_due(self) -> float | None:
+        """Time of the next delayed event; None: there is none."""
         with self._lock:
-            return self._due[0].moment if self._due else None
+            return self._timers[0].moment if self._timers else None
 
     def restart_timers(self) -> None:
-        """Time has begun anew: what waits for its moment waits in full again."""
+        """Restart all delays in full, after a reset of the clock."""
         now = self._clock.now()
         with self._lock:
-            again = [replace(one, moment=round(now + one.delay, DIGITS)) for one in self._due]
-            self._due = sorted(again)
+            again = [
+                replace(timer, moment=round(now + timer.delay, TIME_DIGITS))
+                for timer in self._timers
+            ]
+            self._timers = sorted(again)
 
     def fire_due(self) -> None:
-        """Take the events whose time has come."""
-        self._turns.take(self._fire_next)
+        """Process the delayed events that are due."""
+        self._queue.submit(self._fire_next_due)
 
-    def _fire_next(self) -> bool:
-        """The first event whose time has come, and then the next, behind what they cause."""
-        one = self._next_due()
-        if one is None:
+    def _fire_next_due(self) -> bool:
+        """Process the first due event; the next one is queued after the events it causes."""
+        timer = self._pop_due()
+        if timer is None:
             return False
-        moved = self._happen(one.fire, one)
-        self._turns.take(self._fire_next)
+        moved = self._process_event(timer.fire, timer)
+        self._queue.submit(self._fire_next_due)
         return moved
 
-    def beat(self) -> None:
+    def tick(self) -> None:
         """Call the `state_…` methods of the active states, outer ones first."""
         for name in self._active:
-            # One of them may have left the states of the others.
+            # A method may have left the states of the others.
             if name in self._active and (method := self._hooks["state", name]):
                 method()
 
-    # What follows is for the chart.
+    # Called by the chart.
 
-    def entered(self, name: str) -> None:
-        """A state was entered; its timers begin."""
-        self._entries += 1
+    def on_state_entered(self, name: str) -> None:
+        """A state was entered: start its timers."""
+        self._entry_count += 1
         from robocomp_dsl.runtime.machine.chart import timer_event  # noqa: PLC0415 - see above
 
-        for number, one in enumerate(self.spec.transitions):
-            if one.source == name and one.after is not None:
+        for number, transition in enumerate(self.spec.transitions):
+            if transition.source == name and transition.after is not None:
                 event = timer_event(number)
-                self._add(one.after, partial(self._chart.send, event), event)
-        self._settle_names()
+                self._schedule(transition.after, partial(self._chart.send, event), event)
+        self._update_active_states()
         self._call("on_enter", name)
 
-    def left(self, name: str) -> None:
-        """A state was left; its timers end."""
+    def on_state_exited(self, name: str) -> None:
+        """A state was exited: cancel its timers."""
         from robocomp_dsl.runtime.machine.chart import timer_event  # noqa: PLC0415 - see above
 
-        for number, one in enumerate(self.spec.transitions):
-            if one.source == name and one.after is not None:
+        for number, transition in enumerate(self.spec.transitions):
+            if transition.source == name and transition.after is not None:
                 self._cancel(timer_event(number))
         self._call("on_exit", name)
 
@@ -188,35 +194,35 @@ class Machine:
         if method:
             method()
 
-    def _later(self, trigger: Any, delay: float) -> None:
-        self._add(delay, lambda: self._chart.put_due(trigger), trigger.send_id or "")
+    def _schedule_delayed(self, trigger: Any, delay: float) -> None:
+        self._schedule(delay, lambda: self._chart.put_due(trigger), trigger.send_id or "")
 
-    def _add(self, delay: float, fire: Callable[[], None], id_: str) -> None:
+    def _schedule(self, delay: float, fire: Callable[[], None], id_: str) -> None:
         with self._lock:
-            moment = round(self._clock.now() + delay, DIGITS)
-            one = _Due(moment, next(self._numbers), fire, id_, delay)
-            heappush(self._due, one)
+            moment = round(self._clock.now() + delay, TIME_DIGITS)
+            timer = _Timer(moment, next(self._numbers), fire, id_, delay)
+            heappush(self._timers, timer)
         self._changed()
 
     def _cancel(self, id_: str) -> None:
         with self._lock:
-            self._due = [one for one in self._due if one.id != id_]
-            heapify(self._due)
+            self._timers = [timer for timer in self._timers if timer.id != id_]
+            heapify(self._timers)
 
-    def _next_due(self) -> _Due | None:
+    def _pop_due(self) -> _Timer | None:
         now = self._clock.now()
         with self._lock:
-            ready = self._due and self._due[0].moment <= now
-            return heappop(self._due) if ready else None
+            ready = self._timers and self._timers[0].moment <= now
+            return heappop(self._timers) if ready else None
 
-    def _settle(self) -> None:
-        self._settle_names()
+    def _update_state(self) -> None:
+        self._update_active_states()
         if self.ended:
             with self._lock:
-                self._due.clear()
+                self._timers.clear()
             self._changed()
 
-    def _settle_names(self) -> None:
+    def _update_active_states(self) -> None:
         if self._chart is None:
             return
         found = {str(state.id) for state in self._chart.configuration}
@@ -231,19 +237,19 @@ class Machine:
 
 
 class _Listener:
-    """Hears of states that are entered and left (the names are those of the library)."""
+    """Listener for entered and exited states (the method names are those of the library)."""
 
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
 
     def on_enter_state(self, state: Any) -> None:
-        self._machine.entered(str(state.id))
+        self._machine.on_state_entered(str(state.id))
 
     def on_exit_state(self, state: Any) -> None:
-        self._machine.left(str(state.id))
+        self._machine.on_state_exited(str(state.id))
 
 
-def _near(name: str, known: Any) -> str:
+def _suggestion(name: str, known: Any) -> str:
     guess = get_close_matches(name, list(known), 1, 0.6)
     listed = ", ".join(sorted(known))
-    return f"; did you mean `{guess[0]}`?" if guess else f"; there are {listed or 'none'}"
+    return f"; did you mean `{guess[0]}`?" if guess else f"; known: {listed or 'none'}"

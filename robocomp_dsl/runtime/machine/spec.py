@@ -1,4 +1,4 @@
-"""A state machine as data: the constant that generated code writes and the runtime reads."""
+"""Data of a state machine: constants that generated code contains and the runtime reads."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class StateSpec:
-    """One state; `inside` are those within it, all active at once where it is `parallel`.
+    """One state; `inside` are its substates, all active if it is `parallel`.
 
-    `method` is its part of the worker's methods: `state_<method>`, `on_enter_<method>`,
-    `on_exit_<method>`; empty for the name itself.
+    `method` is the suffix of the worker's methods: `state_<method>`, `on_enter_<method>`,
+    `on_exit_<method>`; empty: the name of the state.
     """
 
     name: str
@@ -23,19 +23,19 @@ class StateSpec:
 
     @property
     def suffix(self) -> str:
-        """What its methods end in."""
+        """The suffix of its methods."""
         return self.method or self.name
 
     def walk(self) -> Iterator[StateSpec]:
-        """Itself and all within it, outer ones first."""
+        """The state and all nested states, outer ones first."""
         yield self
-        for one in self.inside:
-            yield from one.walk()
+        for state in self.inside:
+            yield from state.walk()
 
 
 @dataclass(frozen=True, slots=True)
 class TransitionSpec:
-    """From one state to another, by an event, or `after` seconds, or by whichever is first."""
+    """A transition, taken on `event` or `after` so many seconds, whichever is first."""
 
     source: str
     target: str
@@ -45,9 +45,9 @@ class TransitionSpec:
 
 @dataclass(frozen=True, slots=True)
 class MachineSpec:
-    """One machine. With `scxml`, the text of a document, that says how it moves.
+    """One state machine; if `scxml` is set, that document defines its behaviour.
 
-    `events` are the names that `Machine.go` takes; those of `transitions` are among them.
+    `events` are the names that `Machine.send` accepts, with those of `transitions`.
     """
 
     name: str
@@ -58,5 +58,5 @@ class MachineSpec:
 
     def walk(self) -> Iterator[StateSpec]:
         """All states, outer ones first."""
-        for one in self.states:
-            yield from one.walk()
+        for state in self.states:
+            yield from state.walk()

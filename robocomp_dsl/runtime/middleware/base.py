@@ -1,8 +1,8 @@
-"""What a middleware offers to a component, as Protocols. In: endpoints and handlers. Out: calls.
+"""Protocols of a middleware: channels, and the ports of one component.
 
-A middleware is one package here, or in another distribution, under an entry point of the group
-`robocomp_dsl.middleware`: a function that takes a `Host` and gives a `Middleware`. The suite in
-`tests/middleware/` says what it must do; failures are those of `robocomp_dsl.runtime.errors`.
+A middleware is a package here, or an entry point of the group `robocomp_dsl.middleware` in another
+distribution: a function from a `MiddlewareContext` to a `Middleware`. The conformance suite in
+`tests/middleware/` defines the behaviour; failures are those of `robocomp_dsl.runtime.errors`.
 """
 
 from __future__ import annotations
@@ -11,19 +11,19 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
 
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.interface import Interface, Operation
-from robocomp_dsl.runtime.statistics import Statistics
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface, Operation
+from robocomp_dsl.runtime.component.statistics import Statistics
 
-Bound: TypeAlias = Callable[..., Any]
+OperationCallable: TypeAlias = Callable[..., Any]
 
 
 @dataclass(frozen=True, slots=True)
 class Qos:
-    """Quality of service of one port; None: as the middleware has it.
+    """Quality of service of one port; None: the default of the middleware.
 
-    `depth` is the length of the queue in front of a handler; `deadline` in s is the longest time
-    between two publications that is not counted as missed.
+    `depth` is the length of the receive queue; `deadline` in s is the maximum time between two
+    publications before one counts as missed.
     """
 
     reliable: bool | None = None
@@ -34,10 +34,10 @@ class Qos:
 
 @dataclass(frozen=True, slots=True)
 class Endpoint:
-    """One port of one running component. `peers`: the components it is wired to, empty for any.
+    """One port of one running component. `peers`: its connections, empty for any peer.
 
-    A peer is `component` or `component.port`, or `*.port` for that port of any component. `any` are
-    those that are `naming.related`; of servers the `naming.nearest` count.
+    A peer is `component`, `component.port`, or `*.port` for that port of any component. "Any" means
+    components on the same branch (`naming.on_same_branch`); of servers, the nearest.
     """
 
     interface: Interface
@@ -48,54 +48,58 @@ class Endpoint:
 
 
 @dataclass(frozen=True, slots=True)
-class Host:
-    """The component that a middleware works for. Components of other domains are not seen.
+class MiddlewareContext:
+    """The component that a middleware serves. Components of other domains are invisible.
 
-    `listen_port` 0: as the middleware likes.
+    `listen_port` 0: chosen by the middleware.
     """
 
     component: str
     domain: str
-    execution: Execution
+    callback_group: CallbackGroup
     statistics: Statistics
     listen_port: int = 0
 
 
-class Link(Protocol):
-    """The calling side of a port: what a proxy is bound to. `timeout` in s bounds every call."""
+class Channel(Protocol):
+    """The calling side of a port, used by a proxy. `timeout` in s limits every call."""
 
     timeout: float
 
-    def bind(self, operation: Operation) -> Bound:
-        """The function that carries out `operation`; it takes the inputs in order."""
+    def bind(self, operation: Operation) -> OperationCallable:
+        """A function that calls `operation`; its arguments are the inputs in order."""
 
     def wait(self, timeout: float) -> bool:
-        """Whether there is a peer, waiting for one up to `timeout` s."""
+        """Wait up to `timeout` s for a peer; returns whether there is one."""
 
-    def heard(self) -> bool:
-        """Whether anything would become of a publication now; without waiting, at hardly a cost."""
+    def has_subscribers(self) -> bool:
+        """Whether a publication would have a receiver now; cheap, does not wait."""
 
 
 class Middleware(Protocol):
     """All connections of one component."""
 
-    def serve(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
+    def serve(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
         """Answer queries and commands with `handlers`, by operation name, under `execution`."""
 
-    def proxy(self, at: Endpoint) -> Link:
-        """Call a peer that serves the interface."""
+    def proxy(self, at: Endpoint) -> Channel:
+        """A channel to a peer that serves the interface."""
 
-    def advertise(self, at: Endpoint) -> Link:
-        """Publish to whoever subscribes."""
+    def advertise(self, at: Endpoint) -> Channel:
+        """A channel that publishes to all subscribers."""
 
-    def subscribe(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
-        """Hand publications to `handlers`, by operation name, in the order of each publisher."""
+    def subscribe(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
+        """Pass publications to `handlers`, by operation name, in the order of each publisher."""
 
-    def announce(self, state: str) -> None:
-        """Tell all who watch the domain the state of the life cycle; "" before the end."""
+    def publish_state(self, state: str) -> None:
+        """Publish the lifecycle state to monitors of the domain; "" before the end."""
 
     def interrupt(self) -> None:
-        """Let calls that wait raise at once, and all later ones."""
+        """Let waiting calls and all later calls raise immediately."""
 
     def close(self) -> None:
-        """End all of it; nothing is handled or called afterwards."""
+        """Close all ports; no handler is called afterwards."""

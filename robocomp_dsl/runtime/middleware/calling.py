@@ -1,6 +1,6 @@
-"""What all middlewares do alike: choose the peer of a call, and log what a handler raised.
+"""Shared by all middlewares: select the peer of a call, and log failures of handlers.
 
-In: endpoints and candidates. Out: one peer, or the failure that says why there is none.
+In: endpoints and candidates. Out: one peer, or the error that says why there is none.
 """
 
 from __future__ import annotations
@@ -12,67 +12,69 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
+from robocomp_dsl.runtime.component.naming import ANY, distance, nearest, on_same_branch
+from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
-from robocomp_dsl.runtime.middleware.base import Bound, Endpoint
-from robocomp_dsl.runtime.naming import ANY, distance, nearest, related
-from robocomp_dsl.runtime.statistics import OperationCounts
+from robocomp_dsl.runtime.middleware.base import Endpoint, OperationCallable
 
-GRACE_S = 1.0
-"""So long after the start of a component its calls wait for a server that is not there yet."""
+DISCOVERY_TIMEOUT_S = 1.0
+"""After the start of a component, its calls wait so long for a server to appear."""
 
 log = logging.getLogger("robocomp")
 _T = TypeVar("_T")
 _RUNTIME = str(Path(__file__).parents[1])
 
 
-def reaches(at: Endpoint, component: str, port: str) -> bool:
-    """Whether this port is one that `at` is wired to, or may find where it is not wired."""
+def matches(at: Endpoint, component: str, port: str) -> bool:
+    """Whether `at` is connected to this port, or may discover it."""
     wired = at.peers
     if component in wired or f"{component}.{port}" in wired:
         return True
-    return (not wired or f"{ANY}.{port}" in wired) and related(at.component, component)
+    return (not wired or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
 
 
-def servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:
-    """Those of `found` that count: all a wire names, else the nearest."""
-    return list(found) if _named(at) else nearest(at.component, found, name)
+def eligible_servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:
+    """The servers that may be called: all named by a connection, else the nearest."""
+    return list(found) if _names_components(at) else nearest(at.component, found, name)
 
 
-def settled(at: Endpoint, components: Iterable[str]) -> bool:
-    """Whether there is no reason to wait for a nearer server than these.
+def discovery_complete(at: Endpoint, components: Iterable[str]) -> bool:
+    """Whether there is no need to wait for a nearer server.
 
-    A set of components under a prefix starts together: what is found around it first is not to be
-    taken for the one beside that comes a moment later.
+    Components of one namespace start together: a server of an outer namespace must not be chosen
+    because the nearer one starts a moment later.
     """
-    if _named(at):
+    if _names_components(at):
         return any(True for _ in components)
-    return any(distance(at.component, one) == 0 for one in components)
+    return any(distance(at.component, component) == 0 for component in components)
 
 
-def _named(at: Endpoint) -> bool:
-    return any(not one.startswith(f"{ANY}.") for one in at.peers)
+def _names_components(at: Endpoint) -> bool:
+    return any(not peer.startswith(f"{ANY}.") for peer in at.peers)
 
 
-def pick(at: Endpoint, candidates: Sequence[str]) -> str:
-    """The one candidate (`component.port`). Raises `NoServer` or `AmbiguousServer`."""
+def select_server(at: Endpoint, candidates: Sequence[str]) -> str:
+    """The only candidate (`component.port`). Raises `NoServer` or `AmbiguousServer`."""
     if len(candidates) == 1:
         return candidates[0]
     interface = at.interface.name
     if not candidates:
-        whom = f"{' or '.join(at.peers)} does not serve" if at.peers else "nobody serves"
-        raise NoServer(f"{whom} {interface}, which {at.component} requires as {at.port}")
+        subject = f"{' or '.join(at.peers)} does not serve" if at.peers else "no component serves"
+        raise NoServer(f"{subject} {interface}, which {at.component} requires as {at.port}")
     listed = ", ".join(sorted(candidates))
-    # A name under a prefix has to be said whole.
+    # In a namespace, the suggested name must be absolute.
     first = f"{'/' if '/' in at.component else ''}{min(candidates).partition('.')[0]}"
     raise AmbiguousServer(
         f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
-        f" say which: --connect {at.port}={first}",
+        f" select one: --connect {at.port}={first}",
         tuple(sorted(candidates)),
     )
 
 
-def watched(handler: Bound, deadline: float, counts: OperationCounts) -> Bound:
-    """`handler`, with the publications counted that come more than `deadline` s after the last."""
+def with_deadline_check(
+    handler: OperationCallable, deadline: float, counts: OperationCounts
+) -> OperationCallable:
+    """`handler`, counting publications more than `deadline` s after the previous one."""
     last = 0.0
 
     def watch(*arguments: Any) -> Any:
@@ -87,19 +89,19 @@ def watched(handler: Bound, deadline: float, counts: OperationCounts) -> Bound:
 
 
 def log_failure(what: str, error: Exception) -> None:
-    """Log an exception of user code: where it happened, what it says; the trace for debugging."""
-    log.error("%s failed: %s", what, describe(error))
-    log.debug("the whole trace of the failure of %s", what, exc_info=error)
+    """Log an exception of user code with its location; the traceback at level debug."""
+    log.error("%s failed: %s", what, describe_error(error))
+    log.debug("traceback of the failure of %s", what, exc_info=error)
 
 
-def describe(error: BaseException) -> str:
-    """`Type: message (file:line)`, the place being the last one in the user's own code."""
+def describe_error(error: BaseException) -> str:
+    """`Type: message (file:line)`, with the innermost location in user code."""
     frames = traceback.extract_tb(error.__traceback__)
-    own = [f for f in frames if not _is_ours(f.filename)] or frames
-    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return f"{said} ({own[-1].filename}:{own[-1].lineno})" if own else said
+    own = [f for f in frames if not _is_library_code(f.filename)] or frames
+    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return f"{text} ({own[-1].filename}:{own[-1].lineno})" if own else text
 
 
-def _is_ours(file: str) -> bool:
-    """Whether no user wrote it: the runtime, what it compiles, what rcgen generates."""
-    return file.startswith((_RUNTIME, "<")) or Path(file).parent.name == "generated"
+def _is_library_code(file: str) -> bool:
+    """Whether a file is not user code: the runtime, compiled codecs, generated code."""
+    return file.startswith((_RUNTIME, "<")) or Path(file).parent.name.endswith("_generated")

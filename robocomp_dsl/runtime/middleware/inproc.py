@@ -1,8 +1,8 @@
 """inproc: components of one process call each other directly.
 
-A query runs in the caller's thread, under the token of the component that serves it; a command or a
+A query runs in the thread of the caller, in the callback group of the server; a command or a
 publication is queued and handled by a thread of the receiver. Values are passed by reference, not
-copied: what is received is to be read, not changed.
+copied: receivers must not modify them.
 """
 
 from __future__ import annotations
@@ -16,6 +16,10 @@ from queue import SimpleQueue
 from threading import get_ident
 from typing import Any
 
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface, Operation, Pattern
+from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
+from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     DeclaredError,
@@ -24,50 +28,50 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
     Timeout,
 )
-from robocomp_dsl.runtime.execution import Execution
-from robocomp_dsl.runtime.interface import Interface, Operation, Pattern
-from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
 from robocomp_dsl.runtime.middleware.calling import (
-    GRACE_S,
+    DISCOVERY_TIMEOUT_S,
+    discovery_complete,
+    eligible_servers,
     log_failure,
-    pick,
-    reaches,
-    servers,
-    settled,
-    watched,
+    matches,
+    select_server,
+    with_deadline_check,
 )
-from robocomp_dsl.runtime.receiver import Closed, Receiver
-from robocomp_dsl.runtime.statistics import OperationCounts
 
 DEPTH = 1000
-"""Length of a queue without a depth in its quality of service; the oldest is dropped."""
+"""Default queue length; when the queue is full the oldest message is dropped."""
 
 
-class _Inbox:
-    """The queue in front of the handlers of one port, and the thread that drains it."""
+class _Mailbox:
+    """The receive queue of one port, and the thread that drains it."""
 
-    def __init__(self, at: Endpoint, execution: Execution, count: Callable[[str], Any]) -> None:
-        self._jobs: deque[tuple[str, Bound, tuple[Any, ...]]] = deque(maxlen=at.qos.depth or DEPTH)
-        self._bell: SimpleQueue[bool] = SimpleQueue()
+    def __init__(self, at: Endpoint, execution: CallbackGroup, count: Callable[[str], Any]) -> None:
+        self._jobs: deque[tuple[str, OperationCallable, tuple[Any, ...]]] = deque(
+            maxlen=at.qos.depth or DEPTH
+        )
+        self._wakeup: SimpleQueue[bool] = SimpleQueue()
         self._count = count
         self._execution = execution
-        self._receiver = Receiver(f"{at.component}.{at.port}", self._take, self._run, execution)
+        self._receiver = LeaderFollowerQueue(
+            f"{at.component}.{at.port}", self._take, self._run, execution
+        )
 
-    def put(self, operation: str, handler: Bound, arguments: tuple[Any, ...]) -> None:
+    def put(self, operation: str, handler: OperationCallable, arguments: tuple[Any, ...]) -> None:
         if len(self._jobs) == self._jobs.maxlen:
             self._count(operation).drops += 1
         self._jobs.append((operation, handler, arguments))
-        self._bell.put(True)
+        self._wakeup.put(True)
 
-    def _take(self) -> tuple[str, Bound, tuple[Any, ...]]:
+    def _take(self) -> tuple[str, OperationCallable, tuple[Any, ...]]:
         while True:
-            if not self._bell.get():
-                raise Closed
-            # A dropped job has rung, too.
+            if not self._wakeup.get():
+                raise QueueClosed
+            # A dropped job leaves a wake-up behind.
             if self._jobs:
                 return self._jobs.popleft()
 
-    def _run(self, job: tuple[str, Bound, tuple[Any, ...]]) -> None:
+    def _run(self, job: tuple[str, OperationCallable, tuple[Any, ...]]) -> None:
         operation, handler, arguments = job
         counts = self._count(operation)
         counts.calls += 1
@@ -79,24 +83,24 @@ class _Inbox:
             log_failure(operation, error)
 
     def close(self) -> None:
-        self._bell.put(False)
+        self._wakeup.put(False)
         self._receiver.join(1.0)
 
 
 @dataclass(eq=False, slots=True)
-class _Served:
-    """One served or subscribed port. `alive` becomes false when it is closed."""
+class _Port:
+    """One served or subscribed port. `alive` is false after it was closed."""
 
-    at: Endpoint
-    handlers: Mapping[str, Bound]
-    execution: Execution
-    inbox: _Inbox
+    endpoint: Endpoint
+    handlers: Mapping[str, OperationCallable]
+    callback_group: CallbackGroup
+    mailbox: _Mailbox
     counts: Callable[[str], OperationCounts]
     alive: bool = True
 
     @property
     def name(self) -> str:
-        return f"{self.at.component}.{self.at.port}"
+        return f"{self.endpoint.component}.{self.endpoint.port}"
 
 
 class _Domain:
@@ -104,71 +108,77 @@ class _Domain:
 
     def __init__(self) -> None:
         self.changed = threading.Condition()
-        self.servers: list[_Served] = []
-        self.subscribers: list[_Served] = []
+        self.servers: list[_Port] = []
+        self.subscribers: list[_Port] = []
 
-    def matching(self, among: list[_Served], interface: Interface) -> list[_Served]:
-        return [one for one in among if one.at.interface.name == interface.name]
+    def ports_of(self, among: list[_Port], interface: Interface) -> list[_Port]:
+        return [port for port in among if port.endpoint.interface.name == interface.name]
 
 
 _domains: dict[str, _Domain] = {}
-_guard = threading.Lock()
+_domains_lock = threading.Lock()
 
 
-def open_for(host: Host) -> Inproc:
+def open_for(host: MiddlewareContext) -> InprocMiddleware:
     """The in-process middleware of one component."""
-    with _guard:
-        return Inproc(host, _domains.setdefault(host.domain, _Domain()))
+    with _domains_lock:
+        return InprocMiddleware(host, _domains.setdefault(host.domain, _Domain()))
 
 
-class Inproc:
+class InprocMiddleware:
     """All connections of one component within the process."""
 
-    def __init__(self, host: Host, domain: _Domain) -> None:
+    def __init__(self, host: MiddlewareContext, domain: _Domain) -> None:
         self._host = host
         self._domain = domain
-        self._mine: list[_Served] = []
+        self._ports: list[_Port] = []
         self.interrupted = threading.Event()
 
-    def serve(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
+    def serve(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
         """See `base.Middleware`."""
         self._add(self._domain.servers, at, handlers, execution)
 
-    def subscribe(self, at: Endpoint, handlers: Mapping[str, Bound], execution: Execution) -> None:
+    def subscribe(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
         """See `base.Middleware`."""
         if at.qos.deadline:
             handlers = {
-                name: watched(one, at.qos.deadline, self._host.statistics.of(at.port, name))
-                for name, one in handlers.items()
+                name: with_deadline_check(
+                    handler, at.qos.deadline, self._host.statistics.of(at.port, name)
+                )
+                for name, handler in handlers.items()
             }
         self._add(self._domain.subscribers, at, handlers, execution)
 
     def _add(
         self,
-        among: list[_Served],
+        among: list[_Port],
         at: Endpoint,
-        handlers: Mapping[str, Bound],
-        execution: Execution,
+        handlers: Mapping[str, OperationCallable],
+        execution: CallbackGroup,
     ) -> None:
         def counts(operation: str) -> OperationCounts:
             return self._host.statistics.of(at.port, operation)
 
-        made = _Served(at, handlers, execution, _Inbox(at, execution, counts), counts)
-        self._mine.append(made)
+        port = _Port(at, handlers, execution, _Mailbox(at, execution, counts), counts)
+        self._ports.append(port)
         with self._domain.changed:
-            among.append(made)
+            among.append(port)
             self._domain.changed.notify_all()
 
-    def proxy(self, at: Endpoint) -> ServiceLink:
+    def proxy(self, at: Endpoint) -> InprocServiceChannel:
         """See `base.Middleware`."""
-        return ServiceLink(self, self._host, self._domain, at)
+        return InprocServiceChannel(self, self._host, self._domain, at)
 
-    def advertise(self, at: Endpoint) -> TopicLink:
+    def advertise(self, at: Endpoint) -> InprocTopicChannel:
         """See `base.Middleware`."""
-        return TopicLink(self._host, self._domain, at)
+        return InprocTopicChannel(self._host, self._domain, at)
 
-    def announce(self, state: str) -> None:
-        """Nobody outside of the process can watch."""
+    def publish_state(self, state: str) -> None:
+        """No effect: other processes cannot monitor this one."""
 
     def interrupt(self) -> None:
         """See `base.Middleware`."""
@@ -180,61 +190,63 @@ class Inproc:
         """See `base.Middleware`."""
         self.interrupt()
         with self._domain.changed:
-            for one in self._mine:
-                one.alive = False
+            for port in self._ports:
+                port.alive = False
                 for among in (self._domain.servers, self._domain.subscribers):
-                    if one in among:
-                        among.remove(one)
-        for one in self._mine:
-            one.inbox.close()
+                    if port in among:
+                        among.remove(port)
+        for port in self._ports:
+            port.mailbox.close()
 
 
-class ServiceLink:
-    """Calls the one component that serves the interface."""
+class InprocServiceChannel:
+    """Calls the component that serves the interface."""
 
-    def __init__(self, owner: Inproc, host: Host, domain: _Domain, at: Endpoint) -> None:
+    def __init__(
+        self, owner: InprocMiddleware, host: MiddlewareContext, domain: _Domain, at: Endpoint
+    ) -> None:
         self.timeout = 10.0
         self._owner = owner
         self._host = host
         self._domain = domain
         self._at = at
-        self._server: _Served | None = None
+        self._server: _Port | None = None
         self._opened = time.monotonic()
 
-    def bind(self, operation: Operation) -> Bound:
-        """See `base.Link`."""
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `base.Channel`."""
         counts = self._host.statistics.of(self._at.port, operation.name)
         if operation.pattern is Pattern.COMMAND:
             return self._command(operation, counts)
         return self._query(operation, counts)
 
-    def _command(self, operation: Operation, counts: OperationCounts) -> Bound:
+    def _command(self, operation: Operation, counts: OperationCounts) -> OperationCallable:
         name = operation.name
 
         def command(*arguments: Any) -> None:
             server = self._find()
             counts.calls += 1
-            server.inbox.put(name, server.handlers[name], arguments)
+            server.mailbox.put(name, server.handlers[name], arguments)
 
         return command
 
     def _query(  # noqa: C901 - written out, see `Execution`
         self, operation: Operation, counts: OperationCounts
-    ) -> Bound:
+    ) -> OperationCallable:
         name, throws = operation.name, operation.throws
-        mine = self._host.execution
+        mine = self._host.callback_group
         my_acquire, my_release, my_holders = mine.acquire, mine.release, mine.holders
-        relieve = mine.relieve.get
-        # Those of the server, found at the first call.
-        server: _Served | None = None
-        handler: Bound = self.bind
+        relieve = mine.handoffs.get
+        # The server and its functions, found at the first call.
+        server: _Port | None = None
+        handler: OperationCallable = self.bind
         theirs, acquire, release, holders = counts, mine.acquire, mine.release, my_holders
 
-        def find() -> _Served:
+        def find() -> _Port:
             nonlocal server, handler, theirs, acquire, release, holders
             server = self._find()
             handler, theirs = server.handlers[name], server.counts(name)
-            its = server.execution
+            its = server.callback_group
             acquire, release, holders = its.acquire, its.release, its.holders
             return server
 
@@ -262,10 +274,12 @@ class ServiceLink:
             except Exception as error:
                 counts.failures += 1
                 theirs.failures += 1
-                if isinstance(error, DeclaredError) and isinstance(error, throws):
-                    raise
+                if declared := _as_declared(
+                    error, served.endpoint.interface.operation(name), throws
+                ):
+                    raise declared  # noqa: B904 - nearly always the same exception
                 log_failure(name, error)
-                raise RemoteError(_failed(served, name, error)) from error
+                raise RemoteError(_failure_message(served, name, error)) from error
             finally:
                 holders.discard(me)
                 release()
@@ -275,102 +289,125 @@ class ServiceLink:
 
         return query
 
-    def _find(self) -> _Served:
+    def _find(self) -> _Port:
         if self._server is None or not self._server.alive:
-            self._server = self._wait(self._grace())
+            self._server = self._wait(self._discovery_time_left())
         return self._server
 
-    def _grace(self) -> float:
-        """So long is one waited for that has yet to start; one that was there is gone."""
-        return 0.0 if self._server else self._opened + GRACE_S - time.monotonic()
+    def _discovery_time_left(self) -> float:
+        """Seconds to wait for a server; 0 if one was connected before, as it has exited."""
+        return 0.0 if self._server else self._opened + DISCOVERY_TIMEOUT_S - time.monotonic()
 
-    def _wait(self, seconds: float) -> _Served:
-        """The one server, waiting for it at most so long. Raises what `pick` raises."""
+    def _wait(self, seconds: float) -> _Port:
+        """The server, waiting at most `seconds`. Raises what `select_server` raises."""
         over = self._owner.interrupted
         until = time.monotonic() + seconds
-        grace = min(seconds, self._grace())
-        paused = self._host.execution.pause()
+        grace = min(seconds, self._discovery_time_left())
+        paused = self._host.callback_group.pause()
         try:
             with self._domain.changed:
                 wait_for = self._domain.changed.wait_for
-                wait_for(lambda: self._settled() or over.is_set(), max(grace, 0))
+                wait_for(lambda: self._discovery_complete() or over.is_set(), max(grace, 0))
                 left = until - time.monotonic()
                 wait_for(lambda: self._candidates() or over.is_set(), max(left, 0))
-                found = servers(self._at, self._candidates(), lambda one: one.at.component)
+                found = eligible_servers(
+                    self._at, self._candidates(), lambda port: port.endpoint.component
+                )
         finally:
             if paused:
-                self._host.execution.resume()
+                self._host.callback_group.resume()
         if over.is_set():
             raise NoServer(f"{self._at.component} is stopping")
-        name = pick(self._at, [one.name for one in found])
-        server = next(one for one in found if one.name == name)
-        if server.at.interface.hash != self._at.interface.hash:
+        name = select_server(self._at, [port.name for port in found])
+        server = next(port for port in found if port.name == name)
+        if server.endpoint.interface.hash != self._at.interface.hash:
             raise InterfaceMismatch(
-                f"{self._at.component} and {server.at.component} were generated from different"
-                f" versions of {self._at.interface.name}"
+                f"{self._at.component} and {server.endpoint.component} were generated from"
+                f" different versions of {self._at.interface.name}"
             )
         return server
 
-    def _candidates(self) -> list[_Served]:
-        found = self._domain.matching(self._domain.servers, self._at.interface)
-        return [one for one in found if reaches(self._at, one.at.component, one.at.port)]
+    def _candidates(self) -> list[_Port]:
+        found = self._domain.ports_of(self._domain.servers, self._at.interface)
+        return [
+            port for port in found if matches(self._at, port.endpoint.component, port.endpoint.port)
+        ]
 
-    def _settled(self) -> bool:
-        return settled(self._at, (one.at.component for one in self._candidates()))
+    def _discovery_complete(self) -> bool:
+        return discovery_complete(
+            self._at, (candidate.endpoint.component for candidate in self._candidates())
+        )
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Link`."""
+        """See `base.Channel`."""
         try:
             self._server = self._wait(timeout)
         except (NoServer, AmbiguousServer):
             return False
         return True
 
-    def heard(self) -> bool:
-        """See `base.Link`."""
+    def has_subscribers(self) -> bool:
+        """See `base.Channel`."""
         return self.wait(0.0)
 
 
-class TopicLink:
-    """Publishes to all who subscribe, in the queue of each."""
+class InprocTopicChannel:
+    """Publishes to all subscribers, into the queue of each."""
 
-    def __init__(self, host: Host, domain: _Domain, at: Endpoint) -> None:
+    def __init__(self, host: MiddlewareContext, domain: _Domain, at: Endpoint) -> None:
         self.timeout = 0.0
         self._host = host
         self._domain = domain
         self._at = at
 
-    def bind(self, operation: Operation) -> Bound:
-        """See `base.Link`."""
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `base.Channel`."""
         name = operation.name
         counts = self._host.statistics.of(self._at.port, name)
 
         def publish(*arguments: Any) -> None:
             counts.calls += 1
-            for one in self._hearers():
-                handler = one.handlers.get(name)
+            for subscriber in self._subscribers():
+                handler = subscriber.handlers.get(name)
                 if handler:
-                    one.inbox.put(name, handler, arguments)
+                    subscriber.mailbox.put(name, handler, arguments)
 
         return publish
 
-    def _hearers(self) -> list[_Served]:
+    def _subscribers(self) -> list[_Port]:
         at = self._at
         return [
-            one
-            for one in self._domain.matching(list(self._domain.subscribers), at.interface)
-            if reaches(one.at, at.component, at.port) and one.at.interface.hash == at.interface.hash
+            port
+            for port in self._domain.ports_of(list(self._domain.subscribers), at.interface)
+            if matches(port.endpoint, at.component, at.port)
+            and port.endpoint.interface.hash == at.interface.hash
         ]
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Link`."""
+        """See `base.Channel`."""
         with self._domain.changed:
-            return bool(self._domain.changed.wait_for(self._hearers, timeout))
+            return bool(self._domain.changed.wait_for(self._subscribers, timeout))
 
-    def heard(self) -> bool:
-        """See `base.Link`."""
-        return bool(self._hearers())
+    def has_subscribers(self) -> bool:
+        """See `base.Channel`."""
+        return bool(self._subscribers())
 
 
-def _failed(server: _Served, operation: str, error: Exception) -> str:
+def _as_declared(
+    error: Exception, operation: Operation, throws: tuple[type[DeclaredError], ...]
+) -> DeclaredError | None:
+    """The exception as the caller declares it: two generated packages have classes of their own.
+
+    None for one that the `operation` of the server does not declare.
+    """
+    if not isinstance(error, DeclaredError):
+        return None
+    if isinstance(error, throws):
+        return error
+    if type(error) not in operation.throws:
+        return None
+    return throws[operation.throws.index(type(error))](*error._astuple())
+
+
+def _failure_message(server: _Port, operation: str, error: Exception) -> str:
     return f"{server.name}.{operation} failed: {type(error).__name__}: {error}"

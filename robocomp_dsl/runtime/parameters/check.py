@@ -1,7 +1,7 @@
-"""A tree against a schema: every problem in one go.
+"""Checks a configuration tree against a schema, and reports every problem.
 
 In: the root mapping and the schema. Out: the values by name (groups as dictionaries, lists of
-groups as lists of them), complete only when no finding was added.
+groups as lists of them); complete only if no finding was added.
 """
 
 from __future__ import annotations
@@ -10,110 +10,110 @@ from typing import Any
 
 from robocomp_dsl.runtime.parameters import overrides
 from robocomp_dsl.runtime.parameters import scalar as scalars
-from robocomp_dsl.runtime.parameters.findings import Finding, Place, did_you_mean
-from robocomp_dsl.runtime.parameters.scalar import Unfit
-from robocomp_dsl.runtime.parameters.schema import ARTICLE, Entry, Group, Parameter, Schema
-from robocomp_dsl.runtime.parameters.tree import CALLED, Items, Mapping, Member, Node, Scalar
+from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, did_you_mean
+from robocomp_dsl.runtime.parameters.scalar import InvalidValue
+from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Entry, Group, Parameter, Schema
+from robocomp_dsl.runtime.parameters.tree import NODE_NAMES, Items, Mapping, Member, Node, Scalar
 
 _MOST_NODES = 100_000
 _MOST_FINDINGS = 100
 
 
-def check(root: Mapping, schema: Schema, findings: list[Finding]) -> dict[str, Any]:
+def check_values(root: Mapping, schema: Schema, findings: list[ConfigFinding]) -> dict[str, Any]:
     """The value of every parameter of `schema`. Adds to `findings`, at most 100 in all."""
     checker = _Checker(findings)
     try:
         return checker.group(root, schema, "")
-    except _Enough as enough:
-        findings.append(Finding(enough.place, str(enough)))
+    except _TooManyFindings as enough:
+        findings.append(ConfigFinding(enough.place, str(enough)))
         return {}
 
 
-class _Enough(Exception):
-    def __init__(self, place: Place, said: str) -> None:
+class _TooManyFindings(Exception):
+    def __init__(self, place: ConfigLocation, message: str) -> None:
         self.place = place
-        super().__init__(said)
+        super().__init__(message)
 
 
 class _Checker:
-    """Walks a tree as its schema leads; aliases can make a short file a huge one, so it counts."""
+    """Walks a tree along its schema. It limits the entries: aliases can make a short file huge."""
 
-    def __init__(self, findings: list[Finding]) -> None:
+    def __init__(self, findings: list[ConfigFinding]) -> None:
         self.findings = findings
         self.visited = 0
 
-    def add(self, place: Place, message: str, label: str = "", help: str = "") -> None:
+    def add(self, place: ConfigLocation, message: str, label: str = "", help: str = "") -> None:
         if len(self.findings) >= _MOST_FINDINGS:
-            raise _Enough(place, "too many errors, the rest is not shown")
-        self.findings.append(Finding(place, message, label, help))
+            raise _TooManyFindings(place, "too many errors, the rest is not shown")
+        self.findings.append(ConfigFinding(place, message, label, help))
 
     def group(self, found: Mapping, schema: Schema, prefix: str) -> dict[str, Any]:
         known = {entry.name: entry for entry in schema}
         for name, member in found.members.items():
             if name not in known:
                 self.unknown(name, member, known, prefix)
-        made = {}
+        values = {}
         for name, entry in known.items():
             self.visited += 1
             if self.visited > _MOST_NODES:
-                raise _Enough(found.place, "the configuration has too many entries")
-            given = found.members.get(name)
+                raise _TooManyFindings(found.place, "the configuration has too many entries")
+            entry_value = found.members.get(name)
             path = f"{prefix}.{name}" if prefix else name
-            if given is None:
-                made[name] = self.absent(found, entry, path)
+            if entry_value is None:
+                values[name] = self.absent(found, entry, path)
             elif isinstance(entry, Parameter):
-                made[name] = self.parameter(given.value, entry, path)
+                values[name] = self.parameter(entry_value.value, entry, path)
             elif entry.single:
-                made[name] = self.single(given.value, entry, path)
+                values[name] = self.single(entry_value.value, entry, path)
             else:
-                made[name] = self.list_of(given.value, entry, path)
-        return made
+                values[name] = self.list_of(entry_value.value, entry, path)
+        return values
 
     def unknown(self, name: str, member: Member, known: dict[str, Entry], prefix: str) -> None:
-        owner = f"`{prefix}` has" if prefix else "there is"
         label = did_you_mean(name, known)
-        listed = f"known: {', '.join(known):.300}" if known else "nothing can be given here"
-        said = f"{owner} no parameter `{name:.80}`"
-        self.add(member.place, said, label, "" if label else listed)
+        listed = f"known: {', '.join(known):.300}" if known else "no parameters are defined here"
+        shown = f"parameter `{name:.80}`"
+        message = f"`{prefix}` has no {shown}" if prefix else f"unknown {shown}"
+        self.add(member.place, message, label, "" if label else listed)
 
     def absent(self, owner: Mapping, entry: Entry, path: str) -> Any:
         if isinstance(entry, Parameter):
             if entry.default is None:
-                said = f"`{path}` is not given and has no default"
-                self.add(owner.place, said, help=f"add `{_sample(entry)}`")
+                message = f"`{path}` is not given and has no default"
+                self.add(owner.place, message, help=f"add `{_sample(entry)}`")
             return entry.default
         if entry.single:
             return self.group(Mapping(owner.place), entry.type.SCHEMA, path)
         if entry.low:
-            said = f"`{path}` is not given, it must have {_entries(entry)}"
-            self.add(owner.place, said, help=f"add `{entry.name}:` and its entries below it")
+            message = f"`{path}` is not given, it must have {_entries(entry)}"
+            self.add(owner.place, message, help=f"add `{entry.name}:` and its entries below it")
         return []
 
     def parameter(self, node: Node, entry: Parameter, path: str) -> Any:
         if not isinstance(node, Scalar):
-            said = f"`{path}` must be {ARTICLE[entry.kind]}, not {CALLED[type(node)]}"
-            self.add(node.place, said, f"expected {entry.kind}")
+            message = f"`{path}` must be {KIND_NAMES[entry.kind]}, not {NODE_NAMES[type(node)]}"
+            self.add(node.place, message, f"expected {entry.kind}")
             return None
         try:
-            return scalars.of_scalar(entry, path, node)
-        except Unfit as unfit:
+            return scalars.from_scalar(entry, path, node)
+        except InvalidValue as unfit:
             self.add(node.place, str(unfit), unfit.label, unfit.help)
             return None
 
     def single(self, node: Node, entry: Group, path: str) -> Any:
         if isinstance(node, Mapping):
             return self.group(node, entry.type.SCHEMA, path)
-        said = f"`{path}` must be a group of `key: value` lines, not {CALLED[type(node)]}"
-        self.add(node.place, said)
+        message = f"`{path}` must be a group of `key: value` lines, not {NODE_NAMES[type(node)]}"
+        self.add(node.place, message)
         return {}
 
     def list_of(self, node: Node, entry: Group, path: str) -> list[Any]:
         if not isinstance(node, Items):
-            said = f"`{path}` must be a list, not {CALLED[type(node)]}"
+            message = f"`{path}` must be a list, not {NODE_NAMES[type(node)]}"
             way_out = f"begin each of the {entry.name} with `- `"
-            if node.place.text.name == overrides.NAME:
+            if node.place.text.name == overrides.SOURCE_NAME:
                 way_out = f"set a member of one of them, as in `--set {path}[0].…`"
-            self.add(node.place, said, help=way_out)
+            self.add(node.place, message, help=way_out)
             return []
         count = len(node.items)
         if count < (entry.low or 0) or (entry.high is not None and count > entry.high):

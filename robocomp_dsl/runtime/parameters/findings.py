@@ -1,6 +1,6 @@
-"""What is wrong with a configuration: places, findings, and how both are shown.
+"""Findings in a configuration: locations, messages, and their text format.
 
-In: words and places, from the readers and the checks. Out: `ConfigError`, whose text shows every
+In: messages and locations from the readers and checks. Out: `ConfigError`, whose text shows every
 finding with file, line, excerpt and caret.
 """
 
@@ -12,34 +12,34 @@ from difflib import get_close_matches
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Text:
-    """A configuration as it was written; `name` is how the user called it."""
+class ConfigText:
+    """The text of a configuration; `name` is its file name or option."""
 
     name: str
     lines: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ConfigLocation:
     """`width` characters at `line` and `column` (both from 1) of a text."""
 
-    text: Text
+    text: ConfigText
     line: int
     column: int
     width: int = 1
 
     @property
     def excerpt(self) -> str:
-        """The line it is on; empty behind the end of the text."""
+        """The line of the location; empty after the end of the text."""
         lines = self.text.lines
         return lines[self.line - 1] if self.line <= len(lines) else ""
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
-    """One thing that is wrong. `label` stands beside the carets, `help` is the way out."""
+class ConfigFinding:
+    """One problem. `label` is shown beside the carets, `help` suggests a fix."""
 
-    place: Place
+    place: ConfigLocation
     message: str
     label: str = ""
     help: str = ""
@@ -59,8 +59,8 @@ class Finding:
         return "\n".join(lines)
 
 
-def _excerpt(place: Place, label: str) -> list[str]:
-    """The line, cut to what a terminal shows, with carets below."""
+def _excerpt(place: ConfigLocation, label: str) -> list[str]:
+    """The line, cut to the width of a terminal, with carets below."""
     cut = max(0, place.column - 1 - 80)
     shown = place.excerpt[cut : cut + 160].replace("\t", " ")
     carets = "^" * max(1, min(place.width, len(shown) - (place.column - 1 - cut)))
@@ -75,15 +75,15 @@ def _excerpt(place: Place, label: str) -> list[str]:
 
 
 class ConfigError(Exception):
-    """A configuration that cannot be used; `findings` lists everything that is wrong with it."""
+    """An invalid configuration; `findings` lists all problems."""
 
-    def __init__(self, findings: Iterable[Finding]) -> None:
+    def __init__(self, findings: Iterable[ConfigFinding]) -> None:
         self.findings = tuple(findings)
-        super().__init__("\n\n".join(str(one) for one in self.findings))
+        super().__init__("\n\n".join(str(finding) for finding in self.findings))
 
 
-class Refused(Exception):
-    """A live change that was not made. Raised by `will_set` hooks and by `Parameters.set`."""
+class ParameterRejected(Exception):
+    """A live change was rejected. Raised by `will_set` hooks and by `Parameters.set`."""
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
@@ -91,7 +91,7 @@ class Refused(Exception):
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The label ``did you mean `x`?``, or an empty text."""
+    """The label ``did you mean `x`?``, or an empty string."""
     names = list(known)
     lowered = {name.lower(): name for name in reversed(names)}
     near = get_close_matches(word.lower(), lowered, n=1, cutoff=0.6)

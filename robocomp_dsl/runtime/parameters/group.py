@@ -1,6 +1,6 @@
 """Groups of parameters: typed attributes that are plain reads (no descriptor, no lock).
 
-In: checked values. Out: objects of the generated classes, and a walk over all they hold.
+In: checked values. Out: objects of the generated classes, and a walk over all parameters.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeVar
 
 from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema
 
-Made = TypeVar("Made", bound="ParameterGroup")
+GroupT = TypeVar("GroupT", bound="ParameterGroup")
 
 
 class ParameterGroup:
@@ -33,23 +33,23 @@ class ParameterGroup:
         return f"{type(self).__name__}({shown})"
 
 
-def filled(kind: type[Made], values: Mapping[str, Any]) -> Made:
-    """An object of `kind` with `values`, which `check` has made."""
-    made = kind.__new__(kind)
+def build_group(kind: type[GroupT], values: Mapping[str, Any]) -> GroupT:
+    """An object of `kind` with the checked `values`."""
+    group = kind.__new__(kind)
     for entry in kind.SCHEMA:
-        object.__setattr__(made, entry.attribute, _attribute(entry, values[entry.name]))
-    return made
+        object.__setattr__(group, entry.attribute, _attribute(entry, values[entry.name]))
+    return group
 
 
 def _attribute(entry: Parameter | Group, value: Any) -> Any:
     if isinstance(entry, Parameter):
         return value
     if entry.single:
-        return filled(entry.type, value)
-    return [filled(entry.type, one) for one in value]
+        return build_group(entry.type, value)
+    return [build_group(entry.type, group) for group in value]
 
 
-def walk(
+def walk_parameters(
     owner: ParameterGroup, prefix: str = ""
 ) -> Iterator[tuple[str, ParameterGroup, Parameter]]:
     """Every parameter below `owner` with its path and the group that holds its value."""
@@ -60,7 +60,7 @@ def walk(
             continue
         below = getattr(owner, entry.attribute)
         if entry.single:
-            yield from walk(below, f"{path}.")
+            yield from walk_parameters(below, f"{path}.")
         else:
-            for i, one in enumerate(below):
-                yield from walk(one, f"{path}[{i}].")
+            for i, group in enumerate(below):
+                yield from walk_parameters(group, f"{path}[{i}].")

@@ -1,7 +1,7 @@
-"""Changes of a running component's parameters: all or none, and with the say of its worker.
+"""Changes parameters of a running component: all or none, with hooks of its worker.
 
-In: the parameters, the worker, paths and values. Out: the parameters changed, or `Refused` with
-every reason and nothing changed. The caller holds the lock.
+In: the parameters, the worker, paths and values. Out: the changed parameters, or
+`ParameterRejected` with all reasons and nothing changed. The caller holds the lock.
 """
 
 from __future__ import annotations
@@ -11,16 +11,16 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from robocomp_dsl.runtime.parameters.findings import Refused, did_you_mean
-from robocomp_dsl.runtime.parameters.group import ParameterGroup, walk
-from robocomp_dsl.runtime.parameters.overrides import dotted, steps
-from robocomp_dsl.runtime.parameters.scalar import Unfit
+from robocomp_dsl.runtime.parameters.findings import ParameterRejected, did_you_mean
+from robocomp_dsl.runtime.parameters.group import ParameterGroup, walk_parameters
+from robocomp_dsl.runtime.parameters.overrides import format_path, parse_path
+from robocomp_dsl.runtime.parameters.scalar import InvalidValue
 from robocomp_dsl.runtime.parameters.schema import Parameter, Value
 
 _log = logging.getLogger("robocomp.parameters")
 
 Interpret: TypeAlias = Callable[[Parameter, str, Any], Value]
-"""From what was given to a checked value: `(parameter, path, given)`; raises `Unfit`."""
+"""Converts and checks a requested value: `(parameter, path, value)`; raises `InvalidValue`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,77 +41,79 @@ class _Change:
             hook(value, *(step for step in self.path if isinstance(step, int)))
 
 
-def change(
-    root: ParameterGroup, worker: object, given: Mapping[str, Any], interpret: Interpret
+def apply_changes(
+    root: ParameterGroup, worker: object, requested: Mapping[str, Any], interpret: Interpret
 ) -> list[str]:
-    """Check all, ask the worker about all, assign all, tell the worker; what has changed."""
-    changes = _checked(root, given, interpret)
-    _ask(worker, changes)
-    for one in changes:
-        object.__setattr__(one.owner, one.parameter.attribute, one.new)
-    _tell(worker, changes)
-    return [dotted(one.path) for one in changes]
+    """Check all changes, call the `will_set` hooks, assign, call `did_set`; returns the paths."""
+    changes = _check_changes(root, requested, interpret)
+    _call_will_set(worker, changes)
+    for change in changes:
+        object.__setattr__(change.owner, change.parameter.attribute, change.new)
+    _call_did_set(worker, changes)
+    return [format_path(change.path) for change in changes]
 
 
-def _checked(root: ParameterGroup, given: Mapping[str, Any], interpret: Interpret) -> list[_Change]:
-    made: list[_Change] = []
+def _check_changes(
+    root: ParameterGroup, requested: Mapping[str, Any], interpret: Interpret
+) -> list[_Change]:
+    changes: list[_Change] = []
     reasons: list[str] = []
-    known = {path: (owner, parameter) for path, owner, parameter in walk(root)}
-    for path, value in given.items():
+    known = {path: (owner, parameter) for path, owner, parameter in walk_parameters(root)}
+    for path, value in requested.items():
         owner, parameter = known.get(path, (None, None))
         if owner is None or parameter is None:
-            reasons.append(_no_such(path, list(known)))
+            reasons.append(_unknown_parameter(path, list(known)))
             continue
         try:
-            new = _allowed(parameter, path, value, interpret)
-        except Unfit as unfit:
+            new = _check_value(parameter, path, value, interpret)
+        except InvalidValue as unfit:
             reasons.append("; ".join(filter(None, (str(unfit), unfit.label, unfit.help))))
             continue
         old = getattr(owner, parameter.attribute)
         if new != old:
-            made.append(_Change(owner, parameter, tuple(steps(path) or ()), old, new))
+            changes.append(_Change(owner, parameter, tuple(parse_path(path) or ()), old, new))
     if reasons:
-        raise Refused("\n".join(reasons))
-    return made
+        raise ParameterRejected("\n".join(reasons))
+    return changes
 
 
-def _allowed(parameter: Parameter, path: str, value: object, interpret: Interpret) -> Value:
+def _check_value(parameter: Parameter, path: str, value: object, interpret: Interpret) -> Value:
     if not parameter.live:
-        raise Unfit(f"`{path}` is not live: it is read at the start only")
+        raise InvalidValue(f"`{path}` is not live: it is read at the start only")
     return interpret(parameter, path, value)
 
 
-def _ask(worker: object, changes: list[_Change]) -> None:
+def _call_will_set(worker: object, changes: list[_Change]) -> None:
     reasons = []
-    for one in changes:
+    for change in changes:
         try:
-            one.call("will_set", worker, one.new)
-        except Refused as refusal:
-            reasons.append(f"`{dotted(one.path)}` stays {one.old!r}: {refusal.reason}")
+            change.call("will_set", worker, change.new)
+        except ParameterRejected as refusal:
+            reasons.append(f"`{format_path(change.path)}` stays {change.old!r}: {refusal.reason}")
     if reasons:
-        raise Refused("\n".join(reasons))
+        raise ParameterRejected("\n".join(reasons))
     together: Callable[[dict[str, Value]], Any] | None = getattr(worker, "will_set", None)
     if together and changes:
-        together({dotted(one.path): one.new for one in changes})
+        together({format_path(change.path): change.new for change in changes})
 
 
-def _tell(worker: object, changes: list[_Change]) -> None:
-    for one in changes:
+def _call_did_set(worker: object, changes: list[_Change]) -> None:
+    for change in changes:
         try:
-            one.call("did_set", worker, one.old)
+            change.call("did_set", worker, change.old)
         except Exception:
-            _log.exception("did_set of `%s` failed; the change stays", dotted(one.path))
+            _log.exception("did_set of `%s` failed; the change stays", format_path(change.path))
 
 
-def _no_such(path: str, known: list[str]) -> str:
+def _unknown_parameter(path: str, known: list[str]) -> str:
     for name in known:
         if name.startswith((f"{path}.", f"{path}[")):
             return f"`{path}` is a group: change one of its members, as in `{name}`"
-    said = f"there is no parameter `{path}`"
+    message = f"unknown parameter `{path}`"
     array = path.partition("[")[0]
     entries = {name.partition("]")[0] for name in known if name.startswith(f"{array}[")}
-    if entries and not any(path.startswith(f"{one}]") for one in entries):
+    if entries and not any(path.startswith(f"{entry}]") for entry in entries):
         many = "one entry" if len(entries) == 1 else f"{len(entries)} entries"
-        return f"{said}; `{array}` has {many}"
+        return f"{message}; `{array}` has {many}"
     guess = did_you_mean(path, known)
-    return f"{said}; {guess}" if guess else said
+    return f"{message}; {guess}" if guess else message

@@ -1,7 +1,8 @@
-"""Single values: from text or from Python to the type that a parameter has, within its range.
+"""Converts single values from text or Python to the type of a parameter, and checks their range.
 
-In: a `Scalar` or a Python object, and the `Parameter`. Out: the value, or `Unfit` with the reason.
-Numbers follow YAML 1.2 (`1e-3` is a number, `010` is refused as ambiguous, `1:30` is text).
+In: a `Scalar` or a Python object, and the `Parameter`. Out: the value, or `InvalidValue` with the
+reason. Numbers follow YAML 1.2 (`1e-3` is a number, `010` is rejected as ambiguous, `1:30` is a
+string).
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from numbers import Integral, Real
 from typing import SupportsFloat
 
 from robocomp_dsl.runtime.parameters.findings import did_you_mean
-from robocomp_dsl.runtime.parameters.schema import ARTICLE, Parameter, Value
-from robocomp_dsl.runtime.parameters.tree import Scalar, Style
+from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Parameter, Value
+from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
 _DECIMAL = re.compile(r"[-+]?(0|[1-9][0-9]*(_[0-9]+)*)")
 _BASED = re.compile(r"[-+]?0(x[0-9a-fA-F]+|o[0-7]+|b[01]+)")
@@ -23,12 +24,12 @@ _FLOAT = re.compile(r"[-+]?([0-9]+(_[0-9]+)*(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]
 _NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
 _TRUE = {"true", "yes", "on"}
 _FALSE = {"false", "no", "off"}
-_LONGEST = 400
+_MAX_DIGITS = 400
 """Digits of a number, at most: Python refuses to convert very long ones anyway."""
 
 
-class Unfit(Exception):
-    """A value that a parameter cannot take. `label` goes beside the caret, `help` is a way out."""
+class InvalidValue(Exception):
+    """An invalid value. `label` is shown beside the caret, `help` suggests a fix."""
 
     def __init__(self, message: str, label: str = "", help: str = "") -> None:
         self.label = label
@@ -36,41 +37,41 @@ class Unfit(Exception):
         super().__init__(message)
 
 
-def of_scalar(parameter: Parameter, path: str, scalar: Scalar) -> Value:
-    """What `scalar` means for `parameter`, in range. `path` is what messages call it."""
-    if scalar.style is Style.PLAIN and scalar.text in ("", "~", "null", "Null", "NULL"):
-        raise Unfit(f"`{path}` has no value", help=_how_to_give(parameter))
+def from_scalar(parameter: Parameter, path: str, scalar: Scalar) -> Value:
+    """The checked value of `scalar` for `parameter`; `path` is its name in messages."""
+    if scalar.style is TextSyntax.PLAIN and scalar.text in ("", "~", "null", "Null", "NULL"):
+        raise InvalidValue(f"`{path}` has no value", help=_value_help(parameter))
     if parameter.kind in ("string", "choice"):
-        return in_range(parameter, path, _text(parameter, path, scalar))
-    if scalar.style is Style.QUOTED:
-        raise _wrong_type(parameter, path, "a quoted text", "remove the quotes")
+        return check_range(parameter, path, _text(parameter, path, scalar))
+    if scalar.style is TextSyntax.QUOTED:
+        raise _wrong_type(parameter, path, "a quoted string", "remove the quotes")
     found = _number_or_bool(parameter, path, scalar.text.strip())
-    return in_range(parameter, path, found)
+    return check_range(parameter, path, found)
 
 
-def of_python(parameter: Parameter, path: str, value: object) -> Value:
-    """What the Python object `value` means for `parameter`, in range; numpy's numbers count."""
+def from_python(parameter: Parameter, path: str, value: object) -> Value:
+    """The checked value of a Python object for `parameter`; numpy numbers are accepted."""
     match parameter.kind, value:
         case "bool", bool():
             return value
         case "int", bool():
             pass
         case "int", Integral():
-            return in_range(parameter, path, int(value))
+            return check_range(parameter, path, int(value))
         case "float", bool():
             pass
         case "float", Real():
-            return in_range(parameter, path, _finite(path, value))
+            return check_range(parameter, path, _finite(path, value))
         case (("string" | "choice"), str()):
-            return in_range(parameter, path, value)
+            return check_range(parameter, path, value)
     raise _wrong_type(parameter, path, f"{value!r:.60}")
 
 
-def in_range(parameter: Parameter, path: str, value: Value) -> Value:
-    """`value` itself when it is one of the choices and within the bounds; else raises `Unfit`."""
+def check_range(parameter: Parameter, path: str, value: Value) -> Value:
+    """`value` itself if it is a choice and within the bounds; else raises `InvalidValue`."""
     if parameter.kind == "choice" and value not in parameter.choices:
         listed = ", ".join(parameter.choices)
-        raise Unfit(
+        raise InvalidValue(
             f"`{path}` cannot be `{value:.60}`",
             label=did_you_mean(str(value), parameter.choices),
             help=f"it is one of: {listed}",
@@ -78,39 +79,40 @@ def in_range(parameter: Parameter, path: str, value: Value) -> Value:
     if isinstance(value, str) or parameter.kind == "bool":
         return value
     low, high, unit = parameter.low, parameter.high, parameter.unit and f" {parameter.unit}"
+    stated = f"`{path}` is {format_value(value)}{unit}"
     if low is not None and value < low:
-        said = f"`{path}` is {shown(value)}{unit}, its lowest value is {shown(low)}{unit}"
-        raise Unfit(said, "too low")
+        lowest = f"its lowest value is {format_value(low)}{unit}"
+        raise InvalidValue(f"{stated}, {lowest}", "too low")
     if high is not None and value > high:
-        said = f"`{path}` is {shown(value)}{unit}, its highest value is {shown(high)}{unit}"
-        raise Unfit(said, "too high")
+        highest = f"its highest value is {format_value(high)}{unit}"
+        raise InvalidValue(f"{stated}, {highest}", "too high")
     return value
 
 
 def _text(parameter: Parameter, path: str, scalar: Scalar) -> str:
     """A string; what every YAML 1.2 reader takes for a number or a bool must be quoted."""
     text = scalar.text
-    if scalar.style is not Style.PLAIN or text in parameter.choices:
+    if scalar.style is not TextSyntax.PLAIN or text in parameter.choices:
         return text
     if text.lower() in ("true", "false"):
         raise _wrong_type(parameter, path, f"the bool {text}", f'write "{text}" with quotes')
-    if len(text) <= _LONGEST and (_FLOAT.fullmatch(text) or _BASED.fullmatch(text)):
+    if len(text) <= _MAX_DIGITS and (_FLOAT.fullmatch(text) or _BASED.fullmatch(text)):
         raise _wrong_type(parameter, path, f"the number {text}", f'write "{text}" with quotes')
     return text
 
 
 def _number_or_bool(parameter: Parameter, path: str, text: str) -> Value:
-    if len(text) > _LONGEST:
-        raise _wrong_type(parameter, path, "a very long text")
+    if len(text) > _MAX_DIGITS:
+        raise _wrong_type(parameter, path, "a very long string")
     if parameter.kind == "bool":
         if text.lower() in _TRUE | _FALSE:
             return text.lower() in _TRUE
         raise _wrong_type(parameter, path, f"`{text}`")
     if _NOT_FINITE.fullmatch(text):
-        raise Unfit(f"`{path}` is `{text}`, it must be a finite number")
+        raise InvalidValue(f"`{path}` is `{text}`, it must be a finite number")
     if _OCTAL_LOOK.fullmatch(text):
         plain = text.lstrip("+-").lstrip("0") or "0"
-        raise Unfit(
+        raise InvalidValue(
             f"`{path}` is `{text}`: YAML readers disagree on numbers that begin with 0",
             help=f"write {plain}, or 0o{plain} for the octal number",
         )
@@ -139,22 +141,24 @@ def _finite(path: str, value: SupportsFloat) -> float:
         number = math.inf
     if math.isfinite(number):
         return number
-    raise Unfit(f"`{path}` is {number}, it must be a finite number")
+    raise InvalidValue(f"`{path}` is {number}, it must be a finite number")
 
 
-def _wrong_type(parameter: Parameter, path: str, found: str, help: str = "") -> Unfit:
-    wanted = ARTICLE[parameter.kind]
-    return Unfit(f"`{path}` must be {wanted}, not {found}", f"expected {parameter.kind}", help)
+def _wrong_type(parameter: Parameter, path: str, found: str, help: str = "") -> InvalidValue:
+    expected = KIND_NAMES[parameter.kind]
+    return InvalidValue(
+        f"`{path}` must be {expected}, not {found}", f"expected {parameter.kind}", help
+    )
 
 
-def _how_to_give(parameter: Parameter) -> str:
+def _value_help(parameter: Parameter) -> str:
     if parameter.default is None:
-        return f"write {ARTICLE[parameter.kind]} behind it"
-    return f"write one, or remove the line to have the default {shown(parameter.default)}"
+        return f"write {KIND_NAMES[parameter.kind]} after it"
+    return f"write one, or remove the line to use the default {format_value(parameter.default)}"
 
 
-def shown(value: Value) -> str:
-    """`value` as one writes it in YAML; a long one is cut."""
+def format_value(value: Value) -> str:
+    """`value` as written in YAML; a long value is cut."""
     match value:
         case bool():
             return str(value).lower()

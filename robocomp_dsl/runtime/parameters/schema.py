@@ -1,4 +1,4 @@
-"""What parameters a component has: constants in generated code, read by everything here.
+"""Schema of the parameters of a component: constants in generated code.
 
 In: the arguments that the generator writes from a PDSL file. Out: `Parameter` and `Group`.
 """
@@ -14,21 +14,21 @@ if TYPE_CHECKING:
 Kind: TypeAlias = Literal["string", "int", "float", "bool", "choice"]
 Value: TypeAlias = bool | int | float | str
 
-ARTICLE: dict[str, str] = {
-    "string": "a text",
+KIND_NAMES: dict[str, str] = {
+    "string": "a string",
     "int": "a whole number",
     "float": "a number",
     "bool": "true or false",
     "choice": "a name",
 }
-"""How messages call a value of each kind."""
+"""Names of the kinds in messages."""
 
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One value. `default` None: it must be given. `low` and `high` are inclusive, in `unit`.
+    """One parameter. `default` None: required. `low` and `high` are inclusive, in `unit`.
 
-    `attribute` is its name in Python where that differs from `name` (a keyword, a name that
+    `attribute` is its Python name if that differs from `name` (a keyword, or a name that
     `Parameters` uses itself). `live`: it may change while the component runs.
     """
 

@@ -1,7 +1,7 @@
-"""The parameters of a component as the help of its program shows them.
+"""Describes the parameters of a component for the help of its command line.
 
-In: a schema. Out: lines of text: what `--set` takes, with units, ranges, defaults and what the
-PDSL file says of each.
+In: a schema. Out: lines of text: what `--set` accepts, with units, ranges, defaults and the
+documentation of the PDSL file.
 """
 
 from __future__ import annotations
@@ -14,53 +14,53 @@ from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema
 _WIDTH = 80
 
 
-def lines(schema: Schema, prefix: str = "") -> Iterator[str]:
+def describe_parameters(schema: Schema, prefix: str = "") -> Iterator[str]:
     """Two lines or more for each parameter; `N` stands for a position in a list."""
-    for one in schema:
-        path = f"{prefix}{one.name}"
-        if isinstance(one, Parameter):
-            yield f"  {path}={_takes(one)}"
-            yield from _said(one.doc)
+    for entry in schema:
+        path = f"{prefix}{entry.name}"
+        if isinstance(entry, Parameter):
+            yield f"  {path}={_describe_value(entry)}"
+            yield from _wrap_doc(entry.doc)
             continue
-        if not one.single:
-            yield f"  {path}[N]  {_count(one)}"
+        if not entry.single:
+            yield f"  {path}[N]  {_describe_count(entry)}"
             path += "[N]"
-        elif one.doc:
+        elif entry.doc:
             yield f"  {path}"
-        yield from _said(one.doc)
-        yield from lines(one.type.SCHEMA, f"{path}.")
+        yield from _wrap_doc(entry.doc)
+        yield from describe_parameters(entry.type.SCHEMA, f"{path}.")
 
 
-def _takes(one: Parameter) -> str:
+def _describe_value(parameter: Parameter) -> str:
     """`<float>  1 to 1000 Hz, 50.0 if not given, may change while running`."""
-    kind = "|".join(one.choices) if one.choices else f"<{one.kind}>"
+    kind = "|".join(parameter.choices) if parameter.choices else f"<{parameter.kind}>"
     facts = [
-        _range(one),
-        f"{one.default!r} if not given" if one.default is not None else "required",
+        _describe_range(parameter),
+        f"{parameter.default!r} if not given" if parameter.default is not None else "required",
     ]
-    facts += ["may change while running"] if one.live else []
+    facts += ["may change while running"] if parameter.live else []
     return f"{kind}  {', '.join(filter(None, facts))}"
 
 
-def _range(one: Parameter) -> str:
-    unit = f" {one.unit}" if one.unit else ""
-    if one.low is None and one.high is None:
+def _describe_range(parameter: Parameter) -> str:
+    unit = f" {parameter.unit}" if parameter.unit else ""
+    if parameter.low is None and parameter.high is None:
         return f"in{unit}" if unit else ""
-    if one.high is None:
-        return f"at least {one.low:g}{unit}"
-    if one.low is None:
-        return f"at most {one.high:g}{unit}"
-    return f"{one.low:g} to {one.high:g}{unit}"
+    if parameter.high is None:
+        return f"at least {parameter.low:g}{unit}"
+    if parameter.low is None:
+        return f"at most {parameter.high:g}{unit}"
+    return f"{parameter.low:g} to {parameter.high:g}{unit}"
 
 
-def _count(one: Group) -> str:
-    low = one.low or 0
-    if one.high is None:
+def _describe_count(parameter: Group) -> str:
+    low = parameter.low or 0
+    if parameter.high is None:
         return f"{low} or more groups, N from 0"
-    return f"{low} to {one.high} groups, N from 0"
+    return f"{low} to {parameter.high} groups, N from 0"
 
 
-def _said(doc: str) -> list[str]:
+def _wrap_doc(doc: str) -> list[str]:
     indent = " " * 6
     text = " ".join(doc.split())
     return textwrap.wrap(text, _WIDTH, initial_indent=indent, subsequent_indent=indent)

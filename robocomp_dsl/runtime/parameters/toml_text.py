@@ -1,7 +1,7 @@
-"""TOML to a tree with places.
+"""Reads TOML into a tree with locations.
 
-In: a text. Out: its root mapping and the findings. `tomllib` keeps no places, so a key is searched
-in the text: exact for the usual one key a line, else the nearest line above.
+In: a text. Out: its root mapping and the findings. `tomllib` keeps no locations, so keys are
+searched in the text: exact for one key per line, otherwise the nearest line above.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ import tomllib
 from collections.abc import Iterator
 from typing import Any
 
-from robocomp_dsl.runtime.parameters.findings import Finding, Place, Text
-from robocomp_dsl.runtime.parameters.tree import Items, Mapping, Member, Node, Scalar, Style
+from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, ConfigText
+from robocomp_dsl.runtime.parameters.tree import Items, Mapping, Member, Node, Scalar, TextSyntax
 
 _PART = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
 _NAME = rf"{_PART}(?:\s*\.\s*{_PART})*"
@@ -21,28 +21,30 @@ _KEY = re.compile(rf"\s*({_NAME})\s*=\s*")
 _MESSAGE = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
 
 
-def read_toml(text: Text, source: str, findings: list[Finding]) -> Mapping | None:
+def read_toml(text: ConfigText, source: str, findings: list[ConfigFinding]) -> Mapping | None:
     """The root mapping of `source`; None when it is not TOML. Adds to `findings`."""
-    root = Place(text, 1, 1)
+    root = ConfigLocation(text, 1, 1)
     try:
         data = tomllib.loads(source)
     except tomllib.TOMLDecodeError as error:
-        findings.append(_syntax(text, error))
+        findings.append(_syntax_error(text, error))
         return None
     except RecursionError:
-        findings.append(Finding(root, "the file is nested too deeply"))
+        findings.append(ConfigFinding(root, "the file is nested too deeply"))
         return None
     return Mapping(root, _members(data, "", dict(_places(text)), root))
 
 
-def _syntax(text: Text, error: tomllib.TOMLDecodeError) -> Finding:
-    told = _MESSAGE.fullmatch(str(error))
-    said, line, column = told.groups() if told else (str(error), None, None)
+def _syntax_error(text: ConfigText, error: tomllib.TOMLDecodeError) -> ConfigFinding:
+    match = _MESSAGE.fullmatch(str(error))
+    reason, line, column = match.groups() if match else (str(error), None, None)
     at = (int(line), int(column)) if line and column else (max(1, len(text.lines)), 1)
-    return Finding(Place(text, *at), f"this is not TOML: {said[:1].lower()}{said[1:]}")
+    return ConfigFinding(
+        ConfigLocation(text, *at), f"this is not TOML: {reason[:1].lower()}{reason[1:]}"
+    )
 
 
-def _places(text: Text) -> Iterator[tuple[str, tuple[Place, Place]]]:
+def _places(text: ConfigText) -> Iterator[tuple[str, tuple[ConfigLocation, ConfigLocation]]]:
     """Path of every key at the begin of a line, with the places of key and value."""
     prefix = ""
     counts: dict[str, int] = {}
@@ -52,13 +54,13 @@ def _places(text: Text) -> Iterator[tuple[str, tuple[Place, Place]]]:
             if header[1]:
                 counts[prefix] = counts.get(prefix, -1) + 1
                 prefix = f"{prefix}[{counts[prefix]}]"
-            place = Place(text, number, header.start(2) + 1, len(header[2]))
+            place = ConfigLocation(text, number, header.start(2) + 1, len(header[2]))
             yield prefix, (place, place)
         elif key := _KEY.match(line):
             path = f"{prefix}.{_dotted(key[1])}" if prefix else _dotted(key[1])
             width = len(line[key.end() :].split("#")[0].rstrip())
-            value = Place(text, number, key.end() + 1, max(1, width))
-            yield path, (Place(text, number, key.start(1) + 1, len(key[1])), value)
+            value = ConfigLocation(text, number, key.end() + 1, max(1, width))
+            yield path, (ConfigLocation(text, number, key.start(1) + 1, len(key[1])), value)
 
 
 def _dotted(name: str) -> str:
@@ -74,29 +76,37 @@ def _resolve(path: str, counts: dict[str, int]) -> str:
 
 
 def _members(
-    data: dict[str, Any], path: str, places: dict[str, tuple[Place, Place]], above: Place
+    data: dict[str, Any],
+    path: str,
+    places: dict[str, tuple[ConfigLocation, ConfigLocation]],
+    above: ConfigLocation,
 ) -> dict[str, Member]:
-    made = {}
+    members = {}
     for name, value in data.items():
         below = f"{path}.{name}" if path else name
         key_place, value_place = places.get(below, (above, above))
-        made[name] = Member(key_place, _node(value, below, places, value_place))
-    return made
+        members[name] = Member(key_place, _node(value, below, places, value_place))
+    return members
 
 
-def _node(value: Any, path: str, places: dict[str, tuple[Place, Place]], place: Place) -> Node:
+def _node(
+    value: Any,
+    path: str,
+    places: dict[str, tuple[ConfigLocation, ConfigLocation]],
+    place: ConfigLocation,
+) -> Node:
     match value:
         case dict():
             return Mapping(place, _members(value, path, places, place))
         case list():
             below = [f"{path}[{i}]" for i in range(len(value))]
-            here = [places.get(one, (place, place))[1] for one in below]
+            here = [places.get(entry, (place, place))[1] for entry in below]
             return Items(
                 place,
                 [_node(v, b, places, p) for v, b, p in zip(value, below, here, strict=True)],
             )
         case str():
-            return Scalar(place, value, Style.QUOTED)
+            return Scalar(place, value, TextSyntax.QUOTED)
         case bool():
             return Scalar(place, str(value).lower())
     return Scalar(place, str(value))

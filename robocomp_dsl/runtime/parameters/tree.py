@@ -1,7 +1,7 @@
-"""A configuration as a tree in which every node knows where it was written.
+"""A configuration as a tree in which every node has its location.
 
-All sources (YAML, TOML, `--set`) become this one shape; the checks know no other. Scalars keep
-their text, because only the schema tells whether `1e-3`, `on` or `010` is a number.
+All sources (YAML, TOML, `--set`) are converted to this form; the checks use no other. Scalars keep
+their text, because only the schema decides whether `1e-3`, `on` or `010` is a number.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeAlias
 
-from robocomp_dsl.runtime.parameters.findings import Place
+from robocomp_dsl.runtime.parameters.findings import ConfigLocation
 
 
-class Style(Enum):
+class TextSyntax(Enum):
     """How a scalar was written: as in `x: 5`, as in `x: "5"`, or on a command line."""
 
     PLAIN = "plain"
@@ -25,16 +25,16 @@ class Style(Enum):
 class Scalar:
     """One value, not yet interpreted."""
 
-    place: Place
+    place: ConfigLocation
     text: str
-    style: Style = Style.PLAIN
+    style: TextSyntax = TextSyntax.PLAIN
 
 
 @dataclass(frozen=True, slots=True)
 class Items:
     """A list."""
 
-    place: Place
+    place: ConfigLocation
     items: list[Node]
 
 
@@ -42,7 +42,7 @@ class Items:
 class Member:
     """One `key: value`; `place` is that of the key."""
 
-    place: Place
+    place: ConfigLocation
     value: Node
 
 
@@ -50,11 +50,11 @@ class Member:
 class Mapping:
     """Keys and values in order of writing."""
 
-    place: Place
+    place: ConfigLocation
     members: dict[str, Member] = field(default_factory=dict)
 
 
 Node: TypeAlias = Scalar | Items | Mapping
 
-CALLED: dict[type[Node], str] = {Scalar: "a single value", Items: "a list", Mapping: "a group"}
-"""How messages call each shape."""
+NODE_NAMES: dict[type[Node], str] = {Scalar: "a single value", Items: "a list", Mapping: "a group"}
+"""Names of the node types in messages."""

@@ -13,17 +13,17 @@ from typing import Any, Self
 
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters import scalar as scalars
-from robocomp_dsl.runtime.parameters.findings import Place, Refused, Text
-from robocomp_dsl.runtime.parameters.group import ParameterGroup, filled, walk
-from robocomp_dsl.runtime.parameters.live import change
+from robocomp_dsl.runtime.parameters.findings import ConfigLocation, ConfigText, ParameterRejected
+from robocomp_dsl.runtime.parameters.group import ParameterGroup, build_group, walk_parameters
+from robocomp_dsl.runtime.parameters.live import apply_changes
 from robocomp_dsl.runtime.parameters.load import load_values
 from robocomp_dsl.runtime.parameters.schema import Kind, Parameter, Value
-from robocomp_dsl.runtime.parameters.tree import Scalar, Style
+from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """One parameter as introspection shows it; `name` is its path, as in `motors[2].min`."""
+    """One parameter for introspection; `name` is its path, such as `motors[2].min`."""
 
     name: str
     kind: Kind
@@ -44,10 +44,10 @@ class Parameters(ParameterGroup):
     never sees half of a change.
     """
 
-    __slots__ = ("_changed", "_kept", "_lock", "_worker")
+    __slots__ = ("_changed", "_lock", "_save_target", "_worker")
     _lock: threading.RLock
     _worker: object
-    _kept: tuple[Path, Path] | None
+    _save_target: tuple[Path, Path] | None
     _changed: set[str]
 
     @classmethod
@@ -56,80 +56,103 @@ class Parameters(ParameterGroup):
         path: Path | str | None = None,
         overrides: Iterable[str] = (),
         *,
-        keeps: Path | None = None,
+        save_beside: Path | None = None,
     ) -> Self:
-        """What the YAML or TOML file at `path` says, `overrides` (`motors[2].min=-1`) above it.
+        """Load the YAML or TOML file at `path`; `overrides` (`motors[2].min=-1`) take precedence.
 
-        `keeps` is the configuration beside which `save` keeps live values; what it kept is read,
-        too. Raises `ConfigError` with every problem of all.
+        `save` writes live values to a file beside `save_beside`; values saved there before are
+        loaded, too. Raises `ConfigError` with all problems.
         """
-        kept = (keeps, saved.beside(keeps)) if keeps else None
+        save_target = (save_beside, saved.saved_path(save_beside)) if save_beside else None
         values = load_values(
-            cls.SCHEMA, None if path is None else Path(path), overrides, kept and kept[1]
+            cls.SCHEMA,
+            None if path is None else Path(path),
+            overrides,
+            save_target and save_target[1],
         )
-        made = filled(cls, values)
-        for name, value in (("_lock", threading.RLock()), ("_worker", None), ("_kept", kept)):
-            object.__setattr__(made, name, value)
-        object.__setattr__(made, "_changed", set(saved.paths(kept[1])) if kept else set())
-        return made
+        parameters = build_group(cls, values)
+        for name, value in (
+            ("_lock", threading.RLock()),
+            ("_worker", None),
+            ("_save_target", save_target),
+        ):
+            object.__setattr__(parameters, name, value)
+        object.__setattr__(
+            parameters,
+            "_changed",
+            set(saved.saved_parameters(save_target[1])) if save_target else set(),
+        )
+        return parameters
 
     def bind(self, worker: object) -> None:
-        """Let `worker` have its say in live changes.
+        """Register the hooks of `worker` for live changes.
 
-        Before a change `will_set_<name>(value)` of every parameter that changes, then
-        `will_set(changes)` once; each may raise `Refused`. After it `did_set_<name>(old)`. Inside
-        groups the names are joined with `_` and list positions follow the value:
-        `will_set_motors_min(value, 2)`.
+        Before a change `will_set_<name>(value)` is called for every parameter that changes, then
+        `will_set(changes)` once; each may raise `ParameterRejected`. After it
+        `did_set_<name>(old)` is called. In groups the names are joined with `_` and list positions
+        follow the value: `will_set_motors_min(value, 2)`.
         """
         object.__setattr__(self, "_worker", worker)
 
     def set(self, changes: Mapping[str, Value]) -> None:
         """Change live parameters by path, all or none.
 
-        Raises `Refused` with every reason: unknown, not live, wrong type, out of range, or what a
-        hook says.
+        Raises `ParameterRejected` with all reasons: unknown, not live, wrong type, out of range, or
+        rejected by a hook.
         """
         with self._lock:
-            self._changed.update(change(self, self._worker, changes, scalars.of_python))
+            self._changed.update(apply_changes(self, self._worker, changes, scalars.from_python))
 
     def set_text(self, changes: Mapping[str, str]) -> None:
-        """As `set`, with values as one types them on a command line."""
+        """As `set`, with values as typed on a command line."""
         with self._lock:
-            self._changed.update(change(self, self._worker, changes, _of_text))
+            self._changed.update(apply_changes(self, self._worker, changes, _from_text))
 
     def save(self) -> Path:
-        """Keep the live values that were changed for the next start; says where.
+        """Save the changed live values for the next start; returns the path of the file.
 
-        Raises `Refused` where there is no place for them.
+        Raises `ParameterRejected` if they cannot be saved.
         """
         with self._lock:
-            if self._kept is None:
-                raise Refused("this component was started without a place to keep values in")
-            config, file = self._kept
+            if self._save_target is None:
+                raise ParameterRejected(
+                    "this component was started without a file to save values in"
+                )
+            config, file = self._save_target
             current = self.values()
             try:
                 saved.write(file, config, {p: current[p] for p in self._changed if p in current})
             except OSError as error:
-                raise Refused(f"`{file}` cannot be written: {error.strerror or error}") from None
+                raise ParameterRejected(
+                    f"`{file}` cannot be written: {error.strerror or error}"
+                ) from None
             return file
 
     def values(self) -> dict[str, Value]:
         """Every value by its path."""
         with self._lock:
-            return {path: getattr(owner, one.attribute) for path, owner, one in walk(self)}
+            return {
+                path: getattr(owner, parameter.attribute)
+                for path, owner, parameter in walk_parameters(self)
+            }
 
     def describe(self) -> list[Description]:
         """Every parameter with its value, range and documentation, in the order of the PDSL."""
         with self._lock:
-            return [_description(path, owner, one) for path, owner, one in walk(self)]
+            return [
+                _description(path, owner, parameter)
+                for path, owner, parameter in walk_parameters(self)
+            ]
 
 
-def _description(path: str, owner: ParameterGroup, one: Parameter) -> Description:
-    value: Any = getattr(owner, one.attribute)
-    bounds = (one.low, one.high, one.unit, one.choices)
-    return Description(path, one.kind, value, one.default, *bounds, one.live, one.doc)
+def _description(path: str, owner: ParameterGroup, parameter: Parameter) -> Description:
+    value: Any = getattr(owner, parameter.attribute)
+    bounds = (parameter.low, parameter.high, parameter.unit, parameter.choices)
+    return Description(
+        path, parameter.kind, value, parameter.default, *bounds, parameter.live, parameter.doc
+    )
 
 
-def _of_text(parameter: Parameter, path: str, text: str) -> Value:
-    place = Place(Text(path, (text,)), 1, 1)
-    return scalars.of_scalar(parameter, path, Scalar(place, text, Style.RAW))
+def _from_text(parameter: Parameter, path: str, text: str) -> Value:
+    place = ConfigLocation(ConfigText(path, (text,)), 1, 1)
+    return scalars.from_scalar(parameter, path, Scalar(place, text, TextSyntax.RAW))

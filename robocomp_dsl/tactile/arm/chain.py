@@ -16,7 +16,7 @@ from robocomp_dsl.tactile.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class DhLink:
     """One link. `joint` is the index of its joint, or None for a link fixed at `offset`."""
 
     a: float
@@ -27,7 +27,7 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Steps:
+class _FixedTransforms:
     """A chain with everything fixed taken together: `before` (4, 4), then per moving row.
 
     `joints` (m,) and `offsets` (m,) turn it, `behind` (m, 4, 4) leads to the next.
@@ -43,7 +43,7 @@ class _Steps:
 class Chain:
     """Rows from `base` to `tool` (both 4 x 4), moved by `size` joints."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[DhLink, ...]
     size: int
     base: Floats = field(default_factory=lambda: np.eye(4))
     tool: Floats = field(default_factory=lambda: np.eye(4))
@@ -60,9 +60,9 @@ class Chain:
 
     def jacobian(self, angles: Floats) -> Floats:
         """Velocity and rotation of the tool per joint speed, (6, n); zero for unused joints."""
-        return self.reach(angles)[1]
+        return self.pose_and_jacobian(angles)[1]
 
-    def reach(self, angles: Floats) -> tuple[Floats, Floats]:
+    def pose_and_jacobian(self, angles: Floats) -> tuple[Floats, Floats]:
         """Pose of the tool and Jacobian at once."""
         frames, used = self._frames(angles), self._steps.joints
         x, y, z = frames[:-1, :3, 2].T
@@ -89,28 +89,28 @@ class Chain:
         behind[:, 1] = s * steps.behind[:, 0] + c * steps.behind[:, 1]
         poses = np.empty((len(turns) + 1, 4, 4))
         poses[0] = steps.before
-        for i, one in enumerate(behind):
-            np.matmul(poses[i], one, out=poses[i + 1])
+        for i, matrix in enumerate(behind):
+            np.matmul(poses[i], matrix, out=poses[i + 1])
         return poses
 
     @cached_property
-    def _steps(self) -> _Steps:
+    def _steps(self) -> _FixedTransforms:
         """What does not change with the angles, worked out once."""
         before, behind = self.base, list[Floats]()
         for row in self.rows:
-            one = link(row.a, row.d, row.alpha, row.offset if row.joint is None else 0.0)
+            matrix = link(row.a, row.d, row.alpha, row.offset if row.joint is None else 0.0)
             if row.joint is not None:
-                behind.append(one)
+                behind.append(matrix)
             elif behind:
-                behind[-1] = behind[-1] @ one
+                behind[-1] = behind[-1] @ matrix
             else:
-                before = before @ one
+                before = before @ matrix
         if behind:
             behind[-1] = behind[-1] @ self.tool
         else:
             before = before @ self.tool
         moving = [row for row in self.rows if row.joint is not None]
-        return _Steps(
+        return _FixedTransforms(
             joints=np.array([row.joint for row in moving], np.int64),
             offsets=np.array([row.offset for row in moving]),
             before=before,
@@ -140,26 +140,26 @@ def generic_chain(chain: Chain, gamma: Floats, sigma: Floats, available: Bools) 
     """
     if not np.allclose(np.abs(gamma), 1.0):
         raise ValueError("a generic chain needs |gamma| = 1: device angles in radians")
-    rows: list[Row] = []
+    rows: list[DhLink] = []
     base = chain.base
     for row in chain.rows:
         if row.joint is None or not available[row.joint]:
-            rows.append(Row(row.a, row.d, row.alpha, row.offset))
+            rows.append(DhLink(row.a, row.d, row.alpha, row.offset))
         elif gamma[row.joint] > 0:
             offset = row.offset - float(sigma[row.joint])
-            rows.append(Row(row.a, row.d, row.alpha, offset, row.joint))
+            rows.append(DhLink(row.a, row.d, row.alpha, offset, row.joint))
         else:
             base = _half_turn(rows, base)
             # Rz(c - g) = Rx(pi) Rz(g - c) Rx(pi): z lengths change sign, x lengths do not
             offset = -row.offset - float(sigma[row.joint])
-            rows.append(Row(row.a, -row.d, row.alpha + np.pi, offset, row.joint))
+            rows.append(DhLink(row.a, -row.d, row.alpha + np.pi, offset, row.joint))
     return Chain(tuple(rows), chain.size, base, chain.tool)
 
 
-def _half_turn(rows: list[Row], base: Floats) -> Floats:
+def _half_turn(rows: list[DhLink], base: Floats) -> Floats:
     """Put a half turn about x behind the last row, or behind the base; returns the base."""
     if not rows:
         return base @ link(0.0, 0.0, np.pi, 0.0)
     last = rows[-1]
-    rows[-1] = Row(last.a, last.d, last.alpha + np.pi, last.offset, last.joint)
+    rows[-1] = DhLink(last.a, last.d, last.alpha + np.pi, last.offset, last.joint)
     return base

@@ -1,164 +1,211 @@
-"""Inverse kinematics by damped least squares, within joint limits.
+"""Inverse kinematics by damped least squares, within joint limits: the solver of all arms.
 
-In: a chain, limits, a wanted position and optionally a direction. Out: joint angles, or
-`Unreachable` with how near the best ones come. Damping follows Levenberg and Marquardt; what the
-task leaves free is used to stay near the start pose. No randomness: the same call gives the same
-angles.
+In: a chain, joint limits, a goal (a position, optionally with an orientation) and a start posture.
+Out: joint angles, and how far from the goal they leave the tip.
+
+The damping is proportional to the squared error (Sugihara, "Solvability-unconcerned inverse
+kinematics by the Levenberg-Marquardt method", IEEE Trans. Robotics 27(5), 2011). The solver is
+deterministic: the same call gives the same angles. Lengths are in the unit of the chain.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from robocomp_dsl.tactile.arm.chain import Chain
-from robocomp_dsl.tactile.arrays import Bools, Floats
+from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.errors import Unreachable
 
 _STARTS = 16
+_LEAST_DAMPING = 1e-6
+_WEAK = 0.01
+"""A joint motion that moves the tip by less, per rad, in units of `lever`, counts as free."""
+
+_PULL = 0.1
+"""Share of the distance to the rest posture that the first step covers."""
 
 STANDSTILL = 1e-4
-"""A step that brings the pose nearer by less than this share is the last from its start."""
+"""A descent ends when a step reduces the squared error by less than this share."""
+
+
+class Kinematics(Protocol):
+    """Forward kinematics of a chain with n joints."""
+
+    def pose_and_jacobian(self, angles: Floats) -> tuple[Floats, Floats]:
+        """Pose of the tip (4, 4) at `angles` (n,), and the Jacobian (6, n), rotation below."""
+
+    def is_out_of_reach(self, point: Floats) -> bool:
+        """Whether the tip cannot get to `point` (3,) even with all links in one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """When a pose counts as reached: `position` [m], `rotation` [rad]; `iterations` per start."""
+    """When a goal counts as reached: `position` [length], `rotation` [rad].
+
+    `iterations` limits the steps from each start posture.
+    """
 
     position: float = 1e-4
     rotation: float = 1e-3
-    iterations: int = 100
+    iterations: int = 150
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Goal:
+    """A position (3,) [length] and, unless None, an orientation (3, 3)."""
+
+    position: Floats
+    orientation: Floats | None = None
+
+    def error(self, pose: Floats, lever: float) -> Floats:
+        """Error of `pose` (4, 4): position in units of `lever`, rotation in rad; (6,) or (3,)."""
+        distance: Floats = (self.position - pose[:3, 3]) / lever
+        if self.orientation is None:
+            return distance
+        return np.concatenate((distance, rotation_vector(self.orientation @ pose[:3, :3].T)))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Solution:
+    """Joint angles `q` (n,), and how far from the goal they leave the tip [length, rad]."""
+
+    q: Floats
+    distance: float
+    angle: float
+
+    def within(self, distance: float, angle: float) -> bool:
+        """Whether the goal is reached to `distance` [length] and `angle` [rad]."""
+        return self.distance <= distance and self.angle <= angle
 
 
 @dataclass(frozen=True, eq=False)
 class Solver:
-    """Inverse kinematics of `chain`; `low` and `high` (n,) bound its joints."""
+    """Inverse kinematics of `chain`; `low` and `high` (n,) [rad] bound its joints.
 
-    chain: Chain
+    An error of 1 rad counts as much as one of `lever` [length]. Freedom that the goal leaves draws
+    the joints to the posture `rest` (n,); without one they stay near the start.
+    """
+
+    chain: Kinematics
     low: Floats
     high: Floats
     tolerance: Tolerance = Tolerance()
+    lever: float = 0.1
+    rest: Floats | None = None
 
-    def solve(
-        self, position: Floats, start: Floats, rotation: Floats | None = None, weight: float = 0.1
-    ) -> Floats:
-        """Angles (n,) that bring the tool to `position` (3,), near `start`; else `Unreachable`.
+    def solve(self, position: Floats, start: Floats, orientation: Floats | None = None) -> Floats:
+        """Angles (n,) for a position (3,) and optionally an orientation (3, 3), near `start`.
 
-        `rotation` (3, 3) is wanted too when given; `weight` [m/rad] says what a radian is worth
-        against a metre while searching. Other start poses are tried when the first ends in a bend.
+        Raises `Unreachable` with the remaining distance and angle.
         """
-        best: tuple[float, float, Floats] = (np.inf, np.inf, start)
+        best = self.nearest(Goal(position, orientation), start)
+        if best.within(self.tolerance.position, self.tolerance.rotation):
+            return best.q
+        message = f"the nearest pose is {1000 * best.distance:.1f} mm and {best.angle:.3f} rad away"
+        raise Unreachable(message, distance=best.distance, angle=best.angle)
+
+    def nearest(self, goal: Goal, start: Floats) -> Solution:
+        """The first solution within the tolerance, or else the nearest one.
+
+        Other start postures are tried where the descent from `start` ends in a local minimum.
+        """
         starts = self._starts(start)
-        if self.chain.is_out_of_reach(position):
-            starts = starts[:1]  # only how near it comes is of interest
+        if self.chain.is_out_of_reach(goal.position):
+            starts = starts[:1]  # only the remaining distance is of interest
+        best: Solution | None = None
         for first in starts:
-            angles = self._descend(first, position, rotation, weight)
-            distance, angle = self._missing(angles, position, rotation)
-            if distance <= self.tolerance.position and angle <= self.tolerance.rotation:
-                return angles
-            if distance + weight * angle < best[0] + weight * best[1]:
-                best = (distance, angle, angles)
-        said = f"the nearest pose is {1000 * best[0]:.1f} mm and {best[1]:.3f} rad away"
-        raise Unreachable(said, distance=best[0], angle=best[1])
+            solution = self._descend(goal, first)
+            if solution.within(self.tolerance.position, self.tolerance.rotation):
+                return solution
+            if best is None or self._cost(solution) < self._cost(best):
+                best = solution
+        assert best is not None  # noqa: S101 - there is always a first start
+        return best
 
     def _starts(self, start: Floats) -> list[Floats]:
-        """The given pose, the middle of the limits, then poses spread evenly between them."""
-        spread = np.outer(np.arange(1, _STARTS - 1), _golden(len(self.low))) % 1.0
+        """`start`, the rest posture or the middle of the limits, then postures spread evenly."""
+        spread = np.outer(np.arange(1, _STARTS - 1), _golden_steps(len(self.low))) % 1.0
         others = [self.low + (self.high - self.low) * share for share in spread]
-        return [np.clip(start, self.low, self.high), (self.low + self.high) / 2, *others]
+        rest = (self.low + self.high) / 2 if self.rest is None else self.rest
+        return [np.clip(first, self.low, self.high) for first in (start, rest, *others)]
 
-    def _descend(
-        self, angles: Floats, position: Floats, rotation: Floats | None, weight: float
-    ) -> Floats:
-        damping, error, jacobian = 1e-2, *self._task(angles, position, rotation, weight)
-        cost = float(error @ error)
-        for _ in range(self.tolerance.iterations):
-            trial = self._step(angles, jacobian, error, damping)
-            found, turned = self._task(trial, position, rotation, weight)
-            gained = cost - float(found @ found)
-            if gained > 0.0:
-                angles, error, jacobian = trial, found, turned
-                cost, damping = cost - gained, max(damping * 0.25, 1e-7)
-            else:
-                damping *= 4.0
-            if cost < (0.1 * self.tolerance.position) ** 2 or damping > 1e4:
+    def _descend(self, goal: Goal, q: Floats) -> Solution:
+        best, last = self._solution(np.full(6, np.inf), q), np.inf
+        for k in range(self.tolerance.iterations):
+            pose, jacobian = self.chain.pose_and_jacobian(q)
+            error = goal.error(pose, self.lever)
+            solution = self._solution(error, q)
+            if self._cost(solution) < self._cost(best):
+                best = solution
+            squared = float(error @ error)
+            close = 0.1 * self.tolerance.position, 0.1 * self.tolerance.rotation
+            if best.within(*close) or 0.0 <= last - squared < STANDSTILL * squared:
                 break
-            if 0.0 < gained < STANDSTILL * cost:
-                break
-        return angles
+            q = q + self._step(jacobian, q, error, k)
+            last = squared
+        return best
 
-    def _step(self, angles: Floats, jacobian: Floats, error: Floats, damping: float) -> Floats:
-        """Where a step leads; joints that it brings to a limit stay there, the others make up."""
-        free = self._free(angles, jacobian.T @ error)
-        trial, left = angles, error
-        while free.any():
-            trial = np.where(free, angles + _damped_step(jacobian, left, damping, free), trial)
-            within = np.clip(trial, self.low, self.high)
-            beyond = free & (within != trial)
-            trial, free = within, free & ~beyond
-            if not beyond.any():
-                break
-            left = error - jacobian @ np.where(free, 0.0, trial - angles)
-        return trial
+    def _step(self, jacobian: Floats, q: Floats, error: Floats, k: int) -> Floats:
+        matrix = jacobian[: len(error)].copy()
+        matrix[:3] /= self.lever
+        pull = np.zeros(len(q))
+        if self.rest is not None:  # it fades, so that the end is exact
+            pull = _PULL * (1.0 - k / self.tolerance.iterations) * (self.rest - q)
+        damping = 0.5 * float(error @ error) + _LEAST_DAMPING
+        return damped_step(matrix, error, pull, damping, (self.low - q, self.high - q))
 
-    def _free(self, angles: Floats, pull: Floats) -> Bools:
-        """Joints that are not held at a limit by the way they are pulled."""
-        free: Bools = ~(((angles <= self.low) & (pull < 0)) | ((angles >= self.high) & (pull > 0)))
-        return free
+    def _solution(self, error: Floats, q: Floats) -> Solution:
+        distance = float(np.linalg.norm(error[:3])) * self.lever
+        return Solution(q, distance, float(np.linalg.norm(error[3:])))
 
-    def _task(
-        self, angles: Floats, position: Floats, rotation: Floats | None, weight: float
-    ) -> tuple[Floats, Floats]:
-        """What is missing (3 or 6,) and how the joints change it."""
-        pose, jacobian = self.chain.reach(angles)
-        away = position - pose[:3, 3]
-        if rotation is None:
-            return away, jacobian[:3]
-        turn = weight * rotation_vector(rotation @ pose[:3, :3].T)
-        return np.concatenate((away, turn)), np.vstack((jacobian[:3], weight * jacobian[3:]))
-
-    def _missing(
-        self, angles: Floats, position: Floats, rotation: Floats | None
-    ) -> tuple[float, float]:
-        pose = self.chain.pose(angles)
-        distance = float(np.linalg.norm(position - pose[:3, 3]))
-        if rotation is None:
-            return distance, 0.0
-        return distance, float(np.linalg.norm(rotation_vector(rotation @ pose[:3, :3].T)))
+    def _cost(self, solution: Solution) -> float:
+        return float(np.hypot(solution.distance / self.lever, solution.angle))
 
 
-def _damped_step(jacobian: Floats, error: Floats, damping: float, free: Bools) -> Floats:
-    """Least-squares step of the free joints, shortened by `damping` relative to the task."""
-    used = np.where(free, jacobian, 0.0)
-    square = used @ used.T
-    scale = damping * max(float(np.trace(square)), 1e-9)
-    step: Floats = used.T @ np.linalg.solve(square + scale * np.eye(len(error)), error)
-    return step
+def damped_step(
+    jacobian: Floats, error: Floats, pull: Floats, damping: float, limits: tuple[Floats, Floats]
+) -> Floats:
+    """One step of damped least squares, (n,), that reduces `error` (m,) by `jacobian` (m, n).
+
+    `pull` (n,) moves the joints as far as `error` leaves them free. A joint that would pass one of
+    its `limits`, the lowest and the highest step (n,), is brought to the limit, and the other
+    joints compensate.
+    """
+    low, high = limits
+    clipped, free = np.zeros(len(pull)), np.ones(len(pull), bool)
+    while free.any():
+        left, strength, right = np.linalg.svd(jacobian * free, full_matrices=False)
+        gain = strength / (strength * strength + damping)
+        bound = right[strength > _WEAK]
+        pulled = pull * free
+        step = clipped + right.T @ (gain * (left.T @ (error - jacobian @ clipped)))
+        step += pulled - bound.T @ (bound @ pulled)
+        past = free & ((step > high) | (step < low))
+        if not past.any():
+            return np.where(free, step, clipped)
+        clipped = np.where(past, np.clip(step, low, high), clipped)
+        free &= ~past
+    return clipped
 
 
 def rotation_vector(rotation: Floats) -> Floats:
-    """Axis times angle [rad] of a rotation matrix, angle in [0, pi]."""
-    twice = np.array(
-        [
-            rotation[2, 1] - rotation[1, 2],
-            rotation[0, 2] - rotation[2, 0],
-            rotation[1, 0] - rotation[0, 1],
-        ]
-    )
-    sine, cosine = float(np.linalg.norm(twice)) / 2, (float(np.trace(rotation)) - 1) / 2
-    angle = np.arctan2(sine, cosine)
-    if sine > 1e-6:
-        return np.asarray(twice * (angle / (2 * sine)))
-    if cosine > 0:
-        return twice / 2
-    # a half turn: rotation + 1 = 2 axis axis^T, so its largest row is along the axis
-    square = rotation + np.eye(3)
-    axis = square[int(np.argmax(np.diag(square)))]
-    return np.asarray(axis / np.linalg.norm(axis) * angle)
+    """Axis times angle [rad] of a rotation matrix (3, 3); the angle is in [0, pi]."""
+    skew = rotation - rotation.T
+    vector = 0.5 * np.array([skew[2, 1], skew[0, 2], skew[1, 0]])
+    sine, cosine = float(np.linalg.norm(vector)), (float(np.trace(rotation)) - 1.0) / 2.0
+    if sine > 1e-8:
+        return np.asarray(vector * (np.arctan2(sine, cosine) / sine))
+    if cosine > 0.0:
+        return vector
+    # a half turn: rotation + 1 = 2 axis axis^T, so its largest column is along the axis
+    columns = rotation + np.eye(3)
+    axis = columns[:, int(np.argmax(np.linalg.norm(columns, axis=0)))]
+    return np.asarray(axis * (np.pi / np.linalg.norm(axis)))
 
 
-def _golden(size: int) -> Floats:
+def _golden_steps(size: int) -> Floats:
     """Steps whose multiples fill the unit cube evenly (roots of x^(n+1) = x + 1)."""
     root = 2.0
     for _ in range(30):

@@ -1,7 +1,7 @@
 """Generic servos and device joints (equations 1 and 2 of Ma and Dahl, 2016).
 
 In: gamma, sigma and limits per generic index. Out: readings, commands, displacements, speeds,
-torques and limits carried from one side to the other. A generic value is gamma * device + sigma;
+torques and limits, converted between both sides. A generic value is gamma * device + sigma;
 displacements leave sigma out, speeds divide by |gamma|, torques follow from equal power.
 """
 
@@ -18,10 +18,10 @@ from robocomp_dsl.tactile.errors import InvalidCommand
 
 @dataclass(frozen=True)
 class DeviceCommand:
-    """What goes to the device: values of the present joints, in generic order.
+    """Values for the device: one per present joint, in generic order.
 
-    `clipped` and `dropped` have one entry per generic index: the value was moved into its limits;
-    the value was meant for a degree of freedom that the robot lacks.
+    `clipped` and `dropped` have one entry per generic index: the value was clipped to its limits;
+    the value was addressed to a degree of freedom that the robot lacks.
     """
 
     values: Floats
@@ -48,7 +48,7 @@ class PartMapping:
         if np.any(self.gamma == 0.0):
             raise ValueError("gamma must not be zero")
         if np.any(self.low > self.high):
-            raise ValueError("a lower limit lies above its upper limit")
+            raise ValueError("a lower limit is above its upper limit")
 
     @property
     def size(self) -> int:
@@ -62,35 +62,35 @@ class PartMapping:
 
     def read(self, device: Floats) -> Floats:
         """Generic values (n,) of the readings (m,) of the present joints."""
-        self._expect(device, len(self.present))
+        self._require(device, len(self.present))
         generic = self.sigma.copy()
         generic[self.present] += self.gamma[self.present] * device
         return generic
 
     def read_speed(self, device: Floats) -> Floats:
         """Generic velocities (n,) of device velocities (m,); zero where there is no joint."""
-        self._expect(device, len(self.present))
+        self._require(device, len(self.present))
         generic = np.zeros(self.size)
         generic[self.present] = self.gamma[self.present] * device
         return generic
 
     def command(self, generic: Floats) -> DeviceCommand:
         """Device positions for generic positions (n,), clipped in device units."""
-        self._expect(generic, self.size)
-        wanted = (generic - self.sigma) / self.gamma
-        kept = np.clip(wanted, self.low, self.high)
-        changed = (kept != wanted) & self.available
-        return DeviceCommand(kept[self.present], changed, self._dropped(generic - self.sigma))
+        self._require(generic, self.size)
+        requested = (generic - self.sigma) / self.gamma
+        limited = np.clip(requested, self.low, self.high)
+        changed = (limited != requested) & self.available
+        return DeviceCommand(limited[self.present], changed, self._dropped(generic - self.sigma))
 
     def displacement(self, generic: Floats) -> DeviceCommand:
         """Device displacements for generic displacements (n,): no sigma, nothing to clip."""
-        self._expect(generic, self.size)
+        self._require(generic, self.size)
         moved = (generic / self.gamma)[self.present]
         return DeviceCommand(moved, np.zeros(self.size, bool), self._dropped(generic))
 
     def speed(self, generic: Floats) -> DeviceCommand:
         """Device reference speeds, never negative, for generic reference speeds (n,)."""
-        self._expect(generic, self.size)
+        self._require(generic, self.size)
         speed = (np.abs(generic) / np.abs(self.gamma))[self.present]
         return DeviceCommand(speed, np.zeros(self.size, bool), self._dropped(generic))
 
@@ -100,26 +100,26 @@ class PartMapping:
 
     def torque(self, generic: Floats) -> DeviceCommand:
         """Device torques [N m] that do the same work as generic torques [N m] (n,)."""
-        self._expect(generic, self.size)
+        self._require(generic, self.size)
         torque = (generic * self.gamma_si)[self.present]
         return DeviceCommand(torque, np.zeros(self.size, bool), self._dropped(generic))
 
     def read_torque(self, device: Floats) -> Floats:
         """Generic torques (n,) of device torques (m,); zero where there is no joint."""
-        self._expect(device, len(self.present))
+        self._require(device, len(self.present))
         generic = np.zeros(self.size)
         generic[self.present] = device / self.gamma_si[self.present]
         return generic
 
     def stiffness(self, generic: Floats) -> DeviceCommand:
         """Device stiffness [N m/rad] or damping [N m s/rad] of a generic one (n,)."""
-        self._expect(generic, self.size)
+        self._require(generic, self.size)
         value = (generic * self.gamma_si**2)[self.present]
         return DeviceCommand(value, np.zeros(self.size, bool), self._dropped(generic))
 
     @cached_property
     def gamma_si(self) -> Floats:
-        """Gamma as if the device spoke in radians and metres, (n,)."""
+        """Gamma for device values in radians and metres, (n,)."""
         return self.gamma / self.to_si
 
     @cached_property
@@ -135,12 +135,12 @@ class PartMapping:
         return limit
 
     def _dropped(self, effect: Floats) -> Bools:
-        """Indices without a joint for which the command asked anything."""
+        """Indices without a joint that the command addresses."""
         dropped: Bools = ~self.available & (effect != 0.0)
         return dropped
 
-    def _expect(self, values: Floats, size: int) -> None:
+    def _require(self, values: Floats, size: int) -> None:
         if values.shape != (size,):
-            raise InvalidCommand(f"{size} values are needed, {values.size} were given")
+            raise InvalidCommand(f"{size} values are needed, not {values.size}")
         if not np.isfinite(values).all():
             raise InvalidCommand("the values hold NaN or infinity")

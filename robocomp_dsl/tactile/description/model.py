@@ -1,7 +1,7 @@
-"""What a robot's description says: generic parts with servos, chain, limbs, skin and fields.
+"""The model of a tactile description: generic parts with servos, chain, limbs, skin and fields.
 
 Frozen data; lengths in metres, angles in radians, except device values of a servo, which are in
-its own unit. `place` is where an item stands in its file, for complaints made later.
+its own unit. `place` is the position of an item in its file, for later findings.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from robocomp_dsl.tactile.arm.chain import Chain, generic_chain
 from robocomp_dsl.tactile.arm.mapping import PartMapping
 from robocomp_dsl.tactile.arrays import Floats
-from robocomp_dsl.tactile.description.located import NOWHERE, UNITS, Place
+from robocomp_dsl.tactile.description.yaml_reader import NOWHERE, UNITS, Place
 from robocomp_dsl.tactile.reflex.law import Field
 from robocomp_dsl.tactile.skin.cone import Cone
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
@@ -25,7 +25,7 @@ GENERIC_ARM = ("shoulder_pitch", "shoulder_roll", "shoulder_yaw", "elbow_pitch",
 
 @dataclass(frozen=True, slots=True)
 class Servo:
-    """One generic index. `joint` is empty where the robot lacks it: then it reads sigma.
+    """One generic index. `joint` is empty if the robot lacks the joint; then the angle is sigma.
 
     `low`, `high`, `speed` and `start` are in `unit` of the device; stiffness and damping are
     those of its interaction mode [N m/rad, N m s/rad].
@@ -51,12 +51,12 @@ class Servo:
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
-    """A joint that no generic index moves: it stays `at` [rad or m]."""
+class FixedJoint:
+    """A joint that no generic index moves; it stays at `position` [rad or m]."""
 
     joint: str
     part: str
-    at: float
+    position: float
     place: Place = NOWHERE
 
 
@@ -64,7 +64,7 @@ class Held:
 class Limb:
     """A limb on the robot's body `body`; `origin` (3,) and `axes` (3, 3) place its frame there.
 
-    `covers` are further bodies below the same skin. The frame has its origin on the proximal
+    `covers` are other bodies below the same skin. The frame has its origin on the proximal
     joint, x along the limb, and theta = 0 at +z, which points away from the trunk when all generic
     angles are zero.
     """
@@ -79,13 +79,13 @@ class Limb:
 
     def to_body(self, points: Floats) -> Floats:
         """Points (..., 3) of the limb frame in the frame of its body."""
-        carried: Floats = points @ self.axes.T + self.origin
-        return carried
+        transformed: Floats = points @ self.axes.T + self.origin
+        return transformed
 
     def to_limb(self, points: Floats) -> Floats:
         """Points (..., 3) of the body in the limb frame."""
-        carried: Floats = (points - self.origin) @ self.axes
-        return carried
+        transformed: Floats = (points - self.origin) @ self.axes
+        return transformed
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,10 +102,10 @@ class Patch:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
-    """A generic part: for an arm the five indices of `GENERIC_ARM`, whatever the robot has.
+class GenericPart:
+    """A generic part: an arm has the five indices of `GENERIC_ARM` on every robot.
 
-    `held` are joints that the robot has beyond them; they are kept where they are told to be.
+    `fixed_joints` are the other joints of the robot's arm; they keep their positions.
     """
 
     name: str
@@ -114,7 +114,7 @@ class Part:
     limbs: tuple[Limb, ...] = ()
     patches: tuple[Patch, ...] = ()
     fields: tuple[Field, ...] = ()
-    held: tuple[Held, ...] = ()
+    fixed_joints: tuple[FixedJoint, ...] = ()
     place: Place = NOWHERE
 
     @property
@@ -136,7 +136,7 @@ class Part:
 
     @property
     def generic_chain(self) -> Chain | None:
-        """The chain as generic angles drive it; None where the description gives none."""
+        """The chain driven by generic angles; None if the description has no chain."""
         if self.chain is None:
             return None
         mapping = self.mapping
@@ -153,20 +153,20 @@ class Part:
         return self.mapping.speed_limit(np.array([s.speed for s in self.servos]))
 
     def limb(self, name: str) -> Limb:
-        """The limb of that name; `KeyError` without one."""
+        """The limb of that name. Raises `KeyError` if there is none."""
         return {limb.name: limb for limb in self.limbs}[name]
 
 
 @dataclass(frozen=True, eq=False)
-class Robot:
+class RobotDescription:
     """All generic parts of a robot. `model`: the file of its body, relative to `file`, or empty."""
 
     name: str
-    parts: tuple[Part, ...] = field(default=())
+    parts: tuple[GenericPart, ...] = field(default=())
     file: Path = Path()
     model: str = ""
     model_place: Place = NOWHERE
 
-    def part(self, name: str) -> Part:
-        """The part of that name; `KeyError` without one."""
+    def part(self, name: str) -> GenericPart:
+        """The part of that name. Raises `KeyError` if there is none."""
         return {part.name: part for part in self.parts}[name]

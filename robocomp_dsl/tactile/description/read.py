@@ -1,9 +1,10 @@
-"""Read a robot's description from YAML.
+"""Read a tactile description from YAML.
 
-In: the text of a file. Out: `Robot`, checked; or `DescriptionError` with every finding. The form:
+In: the text of a file. Out: a checked `RobotDescription`, or `DescriptionError` with all findings.
+The format:
 
     robot: name
-    model: body.xml          (InnerModel, MJCF or URDF; may be left out)
+    model: body.xml          (InnerModel, MJCF or URDF; optional)
     parts:
       left_arm:
         servos: [{joint, part, gamma, sigma, limits, speed, stiffness, damping, start, unit}, ...]
@@ -21,35 +22,41 @@ from pathlib import Path
 
 import numpy as np
 
-from robocomp_dsl.tactile.arm.chain import Chain, Row
+from robocomp_dsl.tactile.arm.chain import Chain, DhLink
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.check import check
-from robocomp_dsl.tactile.description.located import (
+from robocomp_dsl.tactile.description.model import (
+    FixedJoint,
+    GenericPart,
+    Limb,
+    RobotDescription,
+    Servo,
+)
+from robocomp_dsl.tactile.description.skin import read_fields, read_patches
+from robocomp_dsl.tactile.description.yaml_reader import (
     ANGLE,
     LENGTH,
     NUMBER,
     UNITS,
     UNITS_OF,
-    Entry,
-    Reading,
-    Table,
+    YamlReader,
+    YamlTable,
+    YamlValue,
 )
-from robocomp_dsl.tactile.description.model import Held, Limb, Part, Robot, Servo
-from robocomp_dsl.tactile.description.skin import read_fields, read_patches
 from robocomp_dsl.tactile.skin.cone import Cone
 
-_NO_TURN = (0.0, 0.0, 0.0)
+_ZERO_VECTOR = (0.0, 0.0, 0.0)
 
 
-def read_robot(text: str, file: Path) -> Robot:
-    """The robot that `text` describes. Raises `DescriptionError` with every finding."""
-    reading = Reading(file)
+def read_robot(text: str, file: Path) -> RobotDescription:
+    """The robot that `text` describes. Raises `DescriptionError` with all findings."""
+    reading = YamlReader(file)
     top = reading.root(text).table()
-    name, parts, body = top.text("robot"), top.need("parts"), top.get("model")
+    name, parts, body = top.text("robot"), top.require("parts"), top.get("model")
     top.finish()
     rows = parts.table().rows if parts else {}
-    found = tuple(_part(key, entry) for key, entry in rows.items())
-    robot = Robot(name, found, file)
+    robot_parts = tuple(_part(key, entry) for key, entry in rows.items())
+    robot = RobotDescription(name, robot_parts, file)
     if body:
         robot = replace(robot, model=body.text(), model_place=body.place)
     reading.finish()
@@ -58,149 +65,151 @@ def read_robot(text: str, file: Path) -> Robot:
     return robot
 
 
-def load_robot(file: Path) -> Robot:
-    """The robot that the file describes; see `read_robot`."""
+def load_robot(file: Path) -> RobotDescription:
+    """The robot that the file describes. Raises as `read_robot`, and `OSError`."""
     return read_robot(file.read_text(encoding="utf-8"), file)
 
 
-def _part(name: str, entry: Entry) -> Part:
+def _part(name: str, entry: YamlValue) -> GenericPart:
     table = entry.table()
-    listed, limb_table = table.need("servos"), table.get("limbs")
-    servos = tuple(_servo(one) for one in listed.items()) if listed else ()
+    listed, limb_table = table.require("servos"), table.get("limbs")
+    servos = tuple(_servo(item) for item in listed.items()) if listed else ()
     chain = table.get("chain")
     rows = limb_table.table().rows if limb_table else {}
-    limbs = {key: _limb(key, one) for key, one in rows.items()}
+    limbs = {key: _limb(key, row) for key, row in rows.items()}
     patches = read_patches(table.get("skin"), limbs)
     fields = read_fields(table.get("fields"), limbs, patches, servos)
-    kept = table.get("held")
-    held = tuple(_held(one) for one in kept.items()) if kept else ()
+    fixed = table.get("held")
+    held = tuple(_fixed_joint(item) for item in fixed.items()) if fixed else ()
     table.finish()
-    made = _chain(chain, len(servos)) if chain else None
-    return Part(name, servos, made, tuple(limbs.values()), patches, fields, held, entry.place)
+    dh_chain = _chain(chain, len(servos)) if chain else None
+    return GenericPart(
+        name, servos, dh_chain, tuple(limbs.values()), patches, fields, held, entry.place
+    )
 
 
-def _servo(entry: Entry) -> Servo:
+def _servo(entry: YamlValue) -> Servo:
     table = entry.table()
     joint, unit = table.text("joint", ""), _unit(table, entry)
-    what = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
-    endless = () if joint else (-np.inf, np.inf)
-    low, high = table.numbers("limits", (what, what), endless, counted=unit)
+    quantity = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
+    unlimited = () if joint else (-np.inf, np.inf)
+    low, high = table.numbers("limits", (quantity, quantity), unlimited, default_unit=unit)
     gamma = _gamma(table, entry, joint)
     servo = Servo(
         joint=joint,
         part=table.text("part", ""),
         gamma=gamma,
-        sigma=table.number("sigma", what),
+        sigma=table.number("sigma", quantity),
         low=min(low, high),
         high=max(low, high),
-        speed=table.number("speed", what, None if joint else 0.0, unit),
+        speed=table.number("speed", quantity, None if joint else 0.0, unit),
         stiffness=table.number("stiffness", NUMBER, 0.0),
         damping=table.number("damping", NUMBER, 0.0),
-        start=table.number("start", what, 0.0, unit),
+        start=table.number("start", quantity, 0.0, unit),
         unit=unit,
         place=entry.place,
     )
     if low > high:
-        entry.complain(f"the lower limit {low:g} lies above the upper limit {high:g}")
+        entry.report(f"the lower limit {low:g} is above the upper limit {high:g}")
     table.finish()
     return servo
 
 
-def _held(entry: Entry) -> Held:
+def _fixed_joint(entry: YamlValue) -> FixedJoint:
     table = entry.table()
     unit = _unit(table, entry)
-    what = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
-    at = table.number("at", what, counted=unit) * UNITS[unit]
-    held = Held(table.text("joint"), table.text("part", ""), at, entry.place)
+    quantity = ANGLE if unit in UNITS_OF[ANGLE] else LENGTH
+    position = table.number("at", quantity, default_unit=unit) * UNITS[unit]
+    joint = FixedJoint(table.text("joint"), table.text("part", ""), position, entry.place)
     table.finish()
-    return held
+    return joint
 
 
-def _unit(table: Table, entry: Entry) -> str:
-    """In what a joint counts; rad after a complaint."""
+def _unit(table: YamlTable, entry: YamlValue) -> str:
+    """The unit of a joint; rad, with a finding, if it is invalid."""
     unit = table.text("unit", "rad")
     if unit in UNITS:
         return unit
-    entry.complain(f"`{unit}` is no unit of a joint", "use one of " + ", ".join(UNITS))
+    entry.report(f"`{unit}` is not a unit of a joint", "use one of " + ", ".join(UNITS))
     return "rad"
 
 
-def _gamma(table: Table, entry: Entry, joint: str) -> float:
-    """The factor of a servo; 1 after a complaint, so that it is complained about once."""
-    faults = len(entry.reading.findings)
+def _gamma(table: YamlTable, entry: YamlValue, joint: str) -> float:
+    """The factor of a servo; 1, with a single finding, if it is invalid."""
+    faults = len(entry.reader.findings)
     gamma = table.number("gamma", NUMBER, None if joint else 1.0)
-    if gamma == 0.0 and len(entry.reading.findings) == faults:
-        entry.complain("gamma must not be 0: a command could not be carried to the device")
+    if gamma == 0.0 and len(entry.reader.findings) == faults:
+        entry.report("gamma must not be 0: commands could not be converted for the device")
     return gamma or 1.0
 
 
-def _limb(name: str, entry: Entry) -> Limb:
+def _limb(name: str, entry: YamlValue) -> Limb:
     table = entry.table()
-    body, pose, shape = table.text("body"), _pose(table), table.need("cone")
+    body, pose, shape = table.text("body"), _pose(table), table.require("cone")
     covered = table.get("covers")
     table.finish()
     cone = _cone(shape) if shape else Cone(0, 1, 1, 1)
-    covers = tuple(one.text() for one in covered.items()) if covered else ()
+    covers = tuple(item.text() for item in covered.items()) if covered else ()
     return Limb(name, body, pose[:3, 3], pose[:3, :3], cone, covers, entry.place)
 
 
-def _cone(entry: Entry) -> Cone:
+def _cone(entry: YamlValue) -> Cone:
     table = entry.table()
     (x0, x1), (r0, r1) = (table.numbers(key, (LENGTH,) * 2) for key in ("x", "r"))
     table.finish()
     try:
         return Cone(x0, x1, r0, r1)
     except ValueError as error:
-        entry.complain(str(error))
+        entry.report(str(error))
         return Cone(0, 1, 1, 1)
 
 
-def _chain(entry: Entry, size: int) -> Chain:
+def _chain(entry: YamlValue, size: int) -> Chain:
     table = entry.table()
     base, tool = (_pose_at(table, key) for key in ("base", "tool"))
-    listed = table.need("rows")
+    listed = table.require("rows")
     table.finish()
-    rows = tuple(_row(one, size) for one in listed.items()) if listed else ()
+    rows = tuple(_dh_link(row, size) for row in listed.items()) if listed else ()
     try:
         return Chain(rows, size, base, tool)
     except ValueError as error:
-        entry.complain(str(error))
+        entry.report(str(error))
         return Chain((), size)
 
 
-def _row(entry: Entry, size: int) -> Row:
+def _dh_link(entry: YamlValue, size: int) -> DhLink:
     table = entry.table()
     servo, fixed = table.get("servo"), table.number("fixed", ANGLE, 0.0)
     joint = servo.integer() if servo else None
     if servo and not 0 <= (joint or 0) < size:
-        servo.complain(f"there is no servo {joint}: the part has 0 to {size - 1}")
+        servo.report(f"there is no servo {joint}: the part has 0 to {size - 1}")
         joint = None
     a, d = (table.number(key, LENGTH, 0.0) for key in ("a", "d"))
     alpha, offset = (table.number(key, ANGLE, 0.0) for key in ("alpha", "offset"))
     table.finish()
-    return Row(a, d, alpha, offset + (fixed if joint is None else 0.0), joint)
+    return DhLink(a, d, alpha, offset + (fixed if joint is None else 0.0), joint)
 
 
-def _pose_at(table: Table, key: str) -> Floats:
-    found = table.get(key)
-    if found is None:
+def _pose_at(table: YamlTable, key: str) -> Floats:
+    value = table.get(key)
+    if value is None:
         return np.eye(4)
-    inner = found.table()
+    inner = value.table()
     pose = _pose(inner)
     inner.finish()
     return pose
 
 
-def _pose(table: Table) -> Floats:
-    """4 x 4 from `position` and `rpy` (turns about the fixed x, y, z, in this order)."""
+def _pose(table: YamlTable) -> Floats:
+    """4 x 4 from `position` and `rpy` (rotations about fixed x, y and z axes, in this order)."""
     pose = np.eye(4)
-    pose[:3, 3] = table.numbers("position", (LENGTH,) * 3, _NO_TURN)
-    roll, pitch, yaw = table.numbers("rpy", (ANGLE,) * 3, _NO_TURN)
-    pose[:3, :3] = rotation(roll, pitch, yaw)
+    pose[:3, 3] = table.numbers("position", (LENGTH,) * 3, _ZERO_VECTOR)
+    roll, pitch, yaw = table.numbers("rpy", (ANGLE,) * 3, _ZERO_VECTOR)
+    pose[:3, :3] = rotation_from_rpy(roll, pitch, yaw)
     return pose
 
 
-def rotation(roll: float, pitch: float, yaw: float) -> Floats:
+def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Floats:
     """Rz(yaw) Ry(pitch) Rx(roll), 3 x 3."""
     (cr, cp, cy), (sr, sp, sy) = np.cos((roll, pitch, yaw)), np.sin((roll, pitch, yaw))
     return np.array(

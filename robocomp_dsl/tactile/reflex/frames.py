@@ -1,8 +1,8 @@
-"""Which taxel frames may be used: a gate that rejects and counts all others.
+"""Validation of taxel frames: rejects and counts frames that must not be used.
 
-In: frames as they arrive, in whatever order and shape. Out: forces (n,) of good frames, in newtons,
-or `RejectedFrame`. A publisher that starts anew is known by later times; one whose clock starts
-anew too is believed again after `forget`.
+In: frames in any order and shape. Out: forces (n,) of valid frames in newtons, or `RejectedFrame`.
+A restarted publisher is accepted because its times are later. If its clock restarted as well, call
+`reset_sequence`.
 """
 
 from __future__ import annotations
@@ -17,27 +17,27 @@ from robocomp_dsl.tactile.errors import FrameFault, RejectedFrame
 
 
 @dataclass(slots=True)
-class FrameGate:
-    """For frames of `size` taxels of one geometry `version`, None: it is not known yet.
+class FrameValidator:
+    """Validates frames of `size` taxels of geometry `version` (None: not known yet).
 
-    `rejected` counts by reason. `other` is the version of the latest frame, where that is another.
+    `rejected` counts by reason. `other_version` is the version of the latest frame if it differs.
     """
 
     version: int | None = None
     size: int = 0
     accepted: int = 0
     rejected: Counter[FrameFault] = field(default_factory=Counter)
-    other: int | None = None
+    other_version: int | None = None
     _sequence: int = -1
     _time: float = -np.inf
 
     def expect(self, version: int, size: int) -> None:
-        """From now on frames of this geometry; what was counted stays."""
-        self.version, self.size, self.other = version, size, None
+        """Expect frames of this geometry from now on. The counts are not reset."""
+        self.version, self.size, self.other_version = version, size, None
 
     def check(self, sequence: int, time: float, version: int, values: Floats) -> Floats:
-        """The forces of a good frame, none of them negative. Raises `RejectedFrame`."""
-        self.other = version if version != self.version else None
+        """The forces of a valid frame, clipped at 0. Raises `RejectedFrame`."""
+        self.other_version = version if version != self.version else None
         fault, detail = self._fault(sequence, time, version, values)
         if fault is not None:
             self.rejected[fault] += 1
@@ -47,12 +47,14 @@ class FrameGate:
         return np.maximum(values, 0.0)
 
     @property
-    def behind(self) -> bool:
-        """Whether the latest frame belongs to a newer geometry than this gate knows."""
-        return self.other is not None and (self.version is None or self.other > self.version)
+    def is_outdated(self) -> bool:
+        """Whether the latest frame belongs to a newer geometry than the expected one."""
+        return self.other_version is not None and (
+            self.version is None or self.other_version > self.version
+        )
 
-    def forget(self) -> None:
-        """Take the next frame whatever its number: its publisher may have started anew."""
+    def reset_sequence(self) -> None:
+        """Accept the next frame with any sequence number, for a publisher that restarted."""
         self._sequence, self._time = -1, -np.inf
 
     def _fault(

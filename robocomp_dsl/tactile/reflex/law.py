@@ -1,8 +1,8 @@
 """The force and distance law of the withdrawal reflex (equations 5 to 7 of Ma and Dahl, 2016).
 
 In: the taxels of one touch and a receptive field, both in the frame of the field's limb. Out: the
-gain and the displacements of the generic joints. As printed, equation 5 grows with the distance,
-against its own text; here force and distance discount the base motion, each from 1 down to 0:
+gain and the displacements of the generic joints. Equation 5 as printed grows with the
+distance, which contradicts its text. Here force and distance scale the base motion by 1 to 0:
 
     theta = phi(F) psi(d) Theta,   phi = clip((F - threshold) / (full - threshold), 0, 1),
     psi = 1 - d / radius,          0 where d >= radius or F <= threshold.
@@ -20,7 +20,7 @@ from robocomp_dsl.tactile.arrays import Floats
 
 @dataclass(frozen=True, slots=True)
 class Law:
-    """Forces [N] at which the reflex begins and at which it is as strong as it gets."""
+    """Force thresholds [N]: where the reflex begins, and where it reaches full strength."""
 
     threshold: float = 1.0
     full: float = 10.0
@@ -51,7 +51,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stimulus:
-    """One touch as one field feels it: weighted centre (3,) [m] and weighted mean force [N]."""
+    """A touch as seen by one field: weighted centre (3,) [m] and weighted mean force [N]."""
 
     centre: Floats
     force: float
@@ -59,7 +59,7 @@ class Stimulus:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Response:
-    """What one field answers to one touch; `motion` (n,) are displacements, not angles."""
+    """The response of one field to one touch; `motion` (n,) holds displacements."""
 
     field: Field
     stimulus: Stimulus
@@ -73,10 +73,10 @@ class Response:
 
 
 def stimulus(points: Floats, forces: Floats, radius: float) -> Stimulus | None:
-    """Equation 7 for the taxels `points` (n, 3) with `forces` (n,), or None without any force.
+    """Equation 7 for the taxels `points` (n, 3) with `forces` (n,), or None without force.
 
-    The weights 2 radius - |P - centre| turn negative beyond a field's diameter and would make the
-    mean meaningless, so such taxels are left out and the centre is taken once more.
+    The weights 2 radius - |P - centre| are negative beyond the diameter of the field and would
+    distort the mean. Such taxels are left out, and the centre is computed again.
     """
     felt = forces > 0.0
     points, forces = points[felt], forces[felt]
@@ -93,7 +93,7 @@ def stimulus(points: Floats, forces: Floats, radius: float) -> Stimulus | None:
 
 
 def respond(law: Law, field: Field, points: Floats, forces: Floats) -> Response | None:
-    """Equations 5 and 6: the answer of `field` to one touch, or None where there is none."""
+    """Equations 5 and 6: the response of `field` to one touch, or None without a response."""
     felt = stimulus(points, forces, field.radius)
     if felt is None:
         return None
@@ -103,10 +103,10 @@ def respond(law: Law, field: Field, points: Floats, forces: Floats) -> Response 
 
 
 def total_motion(responses: Iterable[Response], size: int) -> Floats:
-    """The displacements (size,) of several fields and touches together: their sum."""
+    """The sum (size,) of the displacements of several fields and touches."""
     motion = np.zeros(size)
-    for one in responses:
-        motion += one.motion
+    for response in responses:
+        motion += response.motion
     return motion
 
 

@@ -1,7 +1,7 @@
-"""Where a touched arm goes: away from the touch, by what its fields answer, and back.
+"""The withdrawal of a touched arm: goals and speeds from the responses of receptive fields.
 
-In: responses of fields, where the arm is, its limits. Out: goals and speeds in generic angles. Pure
-functions of data: nothing here reads a clock, remembers anything or knows a robot.
+In: responses, the pose of the arm, its limits. Out: goals and speeds in generic angles. Pure
+functions of data, without clock, state or robot.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from robocomp_dsl.tactile.reflex.law import Response, total_motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class ArmFacts:
-    """What the reflex must know of its arm, all (n,): limits, speed limits and start pose.
+class ArmProperties:
+    """The properties of an arm, all (n,): limits [rad], speed limits [rad/s] and start pose [rad].
 
-    `available` tells which generic joints the robot has. Raises `ValueError` for facts that no arm
-    can have.
+    `available` marks the generic joints that the robot has. Raises `ValueError` for inconsistent
+    properties.
     """
 
     low: Floats
@@ -30,20 +30,20 @@ class ArmFacts:
     available: Bools
 
     def __post_init__(self) -> None:
-        if len({len(one) for one in (self.low, self.high, self.speed, self.start)}) != 1:
+        if len({len(values) for values in (self.low, self.high, self.speed, self.start)}) != 1:
             raise ValueError("limits, speeds and start pose differ in length")
         if self.available.shape != self.low.shape:
-            raise ValueError("it does not say of every joint whether the robot has it")
+            raise ValueError("`available` needs one entry per joint")
         there = self.available
         numbers = np.concatenate(
-            [one[there] for one in (self.low, self.high, self.speed, self.start)]
+            [values[there] for values in (self.low, self.high, self.speed, self.start)]
         )
         if not np.isfinite(numbers).all():
             raise ValueError("limits, speeds or start pose hold NaN or infinity")
         if (self.low > self.high)[there].any():
-            raise ValueError("a lower limit lies above its upper limit")
+            raise ValueError("a lower limit is above its upper limit")
         if (self.speed <= 0.0)[there].any():
-            raise ValueError("a joint has no speed")
+            raise ValueError("a joint has a speed limit of 0 or less")
 
     @property
     def size(self) -> int:
@@ -51,16 +51,16 @@ class ArmFacts:
         return len(self.low)
 
     def within(self, goal: Floats, pose: Floats) -> Floats:
-        """`goal` (n,) within the limits; joints that the robot lacks stay as they are in `pose`."""
-        kept: Floats = np.where(self.available, np.clip(goal, self.low, self.high), pose)
-        return kept
+        """`goal` (n,) clipped to the limits; missing joints keep their value of `pose`."""
+        limited: Floats = np.where(self.available, np.clip(goal, self.low, self.high), pose)
+        return limited
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Withdrawal:
-    """One withdrawal, from `origin` (n,) where the arm was at `began` [s], to `goal` (n,).
+    """A withdrawal from `origin` (n,), the pose at `began` [s], to `goal` (n,).
 
-    `strongest` has the strongest response so far of each field that answered, by its name.
+    `strongest` holds the strongest response so far of each field, by its name.
     """
 
     began: float
@@ -69,37 +69,45 @@ class Withdrawal:
     strongest: Mapping[str, Response]
 
 
-def standing(pose: Floats, now: float) -> Withdrawal:
-    """A withdrawal that begins at `pose` (n,) and `now` [s], and goes nowhere yet."""
+def initial(pose: Floats, now: float) -> Withdrawal:
+    """A withdrawal that begins at `pose` (n,) and `now` [s], without any motion yet."""
     return Withdrawal(now, pose, pose, {})
 
 
-def stronger(one: Withdrawal, responses: Iterable[Response], facts: ArmFacts) -> Withdrawal:
-    """The same withdrawal with further responses.
+def add_responses(
+    withdrawal: Withdrawal, responses: Iterable[Response], arm: ArmProperties
+) -> Withdrawal:
+    """The withdrawal with further responses added.
 
-    A touch that lasts, moves or splits must not push the arm again and again: each field counts
-    with its strongest response, and the motions of several fields add up.
+    A touch that lasts, moves or splits must not move the arm repeatedly: each field contributes
+    its strongest response only, and the motions of several fields are added.
     """
-    strongest = dict(one.strongest)
+    strongest = dict(withdrawal.strongest)
     for response in responses:
         known = strongest.get(response.field.name)
         if known is None or response.gain > known.gain:
             strongest[response.field.name] = response
-    goal = one.origin + total_motion(strongest.values(), facts.size)
-    return replace(one, goal=facts.within(goal, one.origin), strongest=strongest)
+    goal = withdrawal.origin + total_motion(strongest.values(), arm.size)
+    return replace(withdrawal, goal=arm.within(goal, withdrawal.origin), strongest=strongest)
 
 
-def news(before: Withdrawal, after: Withdrawal) -> list[Response]:
-    """The responses in `after` that `before` does not have."""
-    return [one for name, one in after.strongest.items() if before.strongest.get(name) is not one]
+def new_responses(before: Withdrawal, after: Withdrawal) -> list[Response]:
+    """The responses of `after` that are not in `before`."""
+    return [
+        response
+        for name, response in after.strongest.items()
+        if before.strongest.get(name) is not response
+    ]
 
 
-def furthest(one: Floats, other: Floats) -> float:
-    """How far the joint that is furthest has to go between two poses (n,) [rad]."""
-    return float(np.abs(one - other).max(initial=0.0))
+def max_joint_distance(pose: Floats, other: Floats) -> float:
+    """The largest distance of a joint between two poses (n,) [rad]."""
+    return float(np.abs(pose - other).max(initial=0.0))
 
 
-def lasts(pose: Floats, goal: Floats, speed: Floats) -> float:
-    """Seconds that a motion takes at `speed` (n,) [rad/s]; a joint without speed takes none."""
-    way = np.abs(goal - pose)
-    return float(np.divide(way, speed, out=np.zeros_like(way), where=speed > 0.0).max(initial=0.0))
+def duration(pose: Floats, goal: Floats, speed: Floats) -> float:
+    """Duration [s] of a motion at `speed` (n,) [rad/s]; joints with speed 0 are ignored."""
+    distance = np.abs(goal - pose)
+    return float(
+        np.divide(distance, speed, out=np.zeros_like(distance), where=speed > 0.0).max(initial=0.0)
+    )

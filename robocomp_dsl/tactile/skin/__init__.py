@@ -1,1 +1,1 @@
-"""Skin in space: taxels on limbs, the cone that stands for them, touches, sensor values."""
+"""Skin: taxels on limbs, their cone model, touches, sensor values."""

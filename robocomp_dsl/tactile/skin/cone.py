@@ -1,4 +1,4 @@
-"""The truncated cone that stands for a limb's skin (equations 3 and 4 of Ma and Dahl, 2016).
+"""The truncated cone that models a limb's skin (equations 3 and 4 of Ma and Dahl, 2016).
 
 In: positions along the limb and angles around it. Out: Cartesian points and normals in the limb
 frame: origin on the proximal joint, x along the limb, theta = 0 at +z. Metres and radians.
@@ -15,7 +15,7 @@ from robocomp_dsl.tactile.arrays import Floats
 
 @dataclass(frozen=True, slots=True)
 class Cone:
-    """The surface between x0 and x1; its radius goes in a straight line from r0 to r1."""
+    """The surface between x0 and x1; its radius is linear from r0 to r1."""
 
     x0: float
     x1: float
@@ -24,7 +24,7 @@ class Cone:
 
     def __post_init__(self) -> None:
         if not self.x0 < self.x1:
-            raise ValueError("a cone must end behind its start: x0 < x1")
+            raise ValueError("a cone must end after its start: x0 < x1")
         if min(self.r0, self.r1) <= 0.0:
             raise ValueError("the radii of a cone must be positive")
 
@@ -48,18 +48,18 @@ class Cone:
 
     def normals(self, theta: Floats | float) -> Floats:
         """Outward unit normals of the surface at the angles theta, shape (..., 3)."""
-        around = np.asarray(theta, float)
+        angle = np.asarray(theta, float)
         length = np.hypot(1.0, self.slope)
-        along = np.full(around.shape, -self.slope / length)
-        return np.stack((along, np.sin(around) / length, np.cos(around) / length), axis=-1)
+        along = np.full(angle.shape, -self.slope / length)
+        return np.stack((along, np.sin(angle) / length, np.cos(angle) / length), axis=-1)
 
 
 def cartesian(x: Floats | float, theta: Floats | float, rho: Floats | float) -> Floats:
     """Taxel coordinates (x, theta, rho) as points (..., 3) of the limb frame (equation 6)."""
-    along, around, out = np.broadcast_arrays(
+    along, angle, out = np.broadcast_arrays(
         np.asarray(x, float), np.asarray(theta, float), np.asarray(rho, float)
     )
-    return np.stack((along, out * np.sin(around), out * np.cos(around)), axis=-1)
+    return np.stack((along, out * np.sin(angle), out * np.cos(angle)), axis=-1)
 
 
 def cylindrical(points: Floats) -> tuple[Floats, Floats, Floats]:

@@ -1,8 +1,8 @@
 """Fit a truncated cone with a free, tilted axis to measured taxel positions.
 
-In: points (n, 3) in any frame. Out: the axis, the cone along it and how far the points lie from
-it. Gauss-Newton with damping over six numbers: two tilts and two shifts of the axis, the radius in
-the middle and its slope.
+In: points (n, 3) in any frame. Out: the axis, the cone along it and the distances of the
+points. Gauss-Newton with damping over six numbers: two tilts and two shifts of the axis, the radius
+in the middle and its slope.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class ConeFit:
     worst: float
 
     def to_limb(self, points: Floats) -> Floats:
-        """Points (..., 3) carried into the limb frame of this fit."""
-        carried: Floats = (points - self.origin) @ self.axes
-        return carried
+        """Points (..., 3) in the limb frame of this fit."""
+        transformed: Floats = (points - self.origin) @ self.axes
+        return transformed
 
 
 def fit_cone(points: Floats, axis: Floats | None = None) -> ConeFit:
@@ -62,7 +62,7 @@ def _check(points: Floats) -> None:
         raise BadFit(f"{len(different)} different points are too few: {MINIMUM_POINTS} are needed")
     spread = np.linalg.svd(different - different.mean(axis=0), compute_uv=False)
     if spread[2] < 1e-3 * spread[0]:
-        raise BadFit("the points lie in one plane: no cone has them all on its side")
+        raise BadFit("the points are in one plane: no cone surface contains them all")
 
 
 def _descend(points: Floats, start: Floats) -> tuple[tuple[Floats, Floats, Floats], float]:
@@ -96,8 +96,8 @@ def _residual(local: Floats, state: Floats) -> Floats:
     away = local - np.array([0.0, state[2], state[3]])
     along = away @ direction
     radial = np.linalg.norm(away - along[:, None] * direction, axis=1)
-    missing: Floats = radial - (state[4] + state[5] * along)
-    return missing
+    residual: Floats = radial - (state[4] + state[5] * along)
+    return residual
 
 
 def _jacobian(local: Floats, state: Floats) -> Floats:
@@ -118,7 +118,7 @@ def _result(points: Floats, centre: Floats, frame: Floats, state: Floats) -> Con
     x0, x1 = float(along.min()), float(along.max())
     r0, r1 = (float(state[4] + state[5] * (x - middle)) for x in (x0, x1))
     if min(r0, r1) <= 0.0:
-        raise BadFit("the points do not surround an axis: the fitted cone has no radius")
+        raise BadFit("the points do not surround an axis: the fitted cone has no positive radius")
     missing = _residual((points - centre) @ frame, state)
     rms, worst = float(np.sqrt(np.mean(missing**2))), float(np.abs(missing).max())
     return ConeFit(on_axis - middle * axes[:, 0], axes, Cone(x0, x1, r0, r1), rms, worst)

@@ -1,4 +1,4 @@
-"""The list of contacts that a skin tells: one entry for each touch.
+"""The list of contacts of a skin: one entry for each touch.
 
 In: geometry and forces of one frame. Out: centre, normal, force and area of every touch, as iCub's
 skinContact has them, in the frame of the limb.
@@ -12,11 +12,11 @@ import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats, Ints
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from robocomp_dsl.tactile.skin.touches import Neighbours
+from robocomp_dsl.tactile.skin.touches import TaxelGraph
 from robocomp_dsl.tactile.skin.triangle import PITCH
 
 TAXEL_AREA = float(np.sqrt(3.0) / 2.0 * PITCH**2)
-"""Skin that one taxel of the triangular pattern stands for [m²]."""
+"""Skin area per taxel of the triangular pattern [m²]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -69,22 +69,22 @@ class Touches:
 
 def touches(
     geometry: SkinGeometry,
-    neighbours: Neighbours,
+    graph: TaxelGraph,
     force: Floats,
     shear: Floats | None = None,
     threshold: float = 0.0,
 ) -> Touches:
     """The touches of one frame, lowest taxel first; `force` (n,), `shear` (n, 3) or None."""
     active = np.flatnonzero(force > threshold)
-    label = neighbours.labels(active)
+    label = graph.labels(active)
     count = np.bincount(label)
     k, share = len(count), force[active]
 
     def summed(columns: Floats) -> Floats:
-        made = np.empty((k, 3))
+        sums = np.empty((k, 3))
         for i in range(3):
-            made[:, i] = np.bincount(label, columns[:, i], k)
-        return made
+            sums[:, i] = np.bincount(label, columns[:, i], k)
+        return sums
 
     total = np.asarray(np.bincount(label, share, k), dtype=np.float64)
     points = geometry.points[active]
@@ -106,24 +106,24 @@ def touches(
 
 def contacts(
     geometry: SkinGeometry,
-    neighbours: Neighbours,
+    graph: TaxelGraph,
     force: Floats,
     shear: Floats | None = None,
     threshold: float = 0.0,
 ) -> list[SkinContact]:
     """The same as `touches`, one object for each."""
-    found = touches(geometry, neighbours, force, shear, threshold)
+    columns = touches(geometry, graph, force, shear, threshold)
     return [
         SkinContact(
-            limb=geometry.limbs[found.limb[i]],
-            taxels=found.active[found.label == i],
-            centre=found.centre[i],
-            middle=found.middle[i],
-            normal=found.normal[i],
-            force=float(found.force[i]),
-            shear=found.shear[i],
-            pressure=float(found.pressure[i]),
-            area=float(found.area[i]),
+            limb=geometry.limbs[columns.limb[i]],
+            taxels=columns.active[columns.label == i],
+            centre=columns.centre[i],
+            middle=columns.middle[i],
+            normal=columns.normal[i],
+            force=float(columns.force[i]),
+            shear=columns.shear[i],
+            pressure=float(columns.pressure[i]),
+            area=float(columns.area[i]),
         )
-        for i in range(len(found.force))
+        for i in range(len(columns.force))
     ]

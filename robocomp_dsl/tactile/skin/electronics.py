@@ -1,8 +1,8 @@
-"""From the forces on the skin to what its software tells: sensors, raw values, compensation.
+"""From the forces on the skin to its readings: sensors, raw values, compensation.
 
-In: true forces (n,) [N], frame by frame. Out: forces as told and, where asked for, raw values. With
-compensation, forces are worked out from the raw values alone, as on a robot; it calibrates itself
-when it is switched on, and feels nothing until that is done.
+In: true forces (n,) [N], frame by frame. Out: measured forces and, on request, raw values. With
+compensation, forces are computed from the raw values alone, as on a robot; compensation calibrates
+itself when it is switched on, and reads zero until then.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from robocomp_dsl.tactile.skin.manager import Compensation, SkinManager
 from robocomp_dsl.tactile.skin.sensor import COUNTS_PER_NEWTON, Imperfections, Sensor
 from robocomp_dsl.tactile.skin.triangle import Raw
 
-CALIBRATION = 5.0
-"""What the first calibration takes [s]."""
+CALIBRATION_S = 5.0
+"""Duration of the first calibration [s]."""
 
 
-class Electronics:
-    """The sensors of one skin, and the software in front of them."""
+class SkinElectronics:
+    """The sensors of one skin and their software."""
 
     def __init__(
         self, geometry: SkinGeometry, settings: Imperfections, random: np.random.Generator
@@ -34,7 +34,7 @@ class Electronics:
         self._compensating: Compensation | None = None
 
     def adjust(self, settings: Imperfections) -> None:
-        """From now on the sensors are like this; where they have drifted to, they stay."""
+        """Change the settings of the sensors; their drift stays."""
         self.sensor.adjust(settings, self._broken(settings))
 
     def calibrate(self, seconds: float) -> None:
@@ -42,17 +42,17 @@ class Electronics:
         self._left, self._samples = seconds, []
 
     def read(self, force: Floats, noise: float) -> Floats:
-        """What the sensors tell by themselves; `noise` is a factor."""
+        """Readings of the sensors (n,) [N]; `noise` is a factor."""
         return self.sensor.read(force, noise)
 
     def raw(self, force: Floats, dt: float, noise: float) -> Raw:
-        """Raw values (n,); `dt` seconds have passed since the last ones."""
+        """Raw values (n,); `dt` [s] is the time since the last ones."""
         return self.sensor.raw(force, dt, noise)
 
     def compensated(self, raw: Raw, dt: float, settings: Compensation) -> Floats:
-        """Newtons from raw values; nothing is felt while there is no baseline."""
+        """Forces (n,) [N] from raw values; zero as long as there is no baseline."""
         if self._compensating is None and self.manager is None and not self._left:
-            self.calibrate(CALIBRATION)
+            self.calibrate(CALIBRATION_S)
         if self.manager is not None and settings != self._compensating:
             self.manager.settings = settings
         self._compensating = settings
@@ -77,11 +77,12 @@ class Electronics:
 
 
 def counts_per_newton(geometry: SkinGeometry) -> Floats:
-    """How far a newton lowers the raw value of each taxel (n,).
+    """Decrease of each taxel's raw value per newton (n,).
 
-    A patch that gives its values in newtons has electronics of the usual kind.
+    A patch with values in newtons has `COUNTS_PER_NEWTON`.
     """
-    told = [
-        COUNTS_PER_NEWTON if one.gain == 1.0 else 1.0 / one.gain for one in geometry.sensitivities
+    counts = [
+        COUNTS_PER_NEWTON if sensitivity.gain == 1.0 else 1.0 / sensitivity.gain
+        for sensitivity in geometry.sensitivities
     ]
-    return np.array(told, dtype=float)[geometry.patch]
+    return np.array(counts, dtype=float)[geometry.patch]

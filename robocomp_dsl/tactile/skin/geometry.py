@@ -1,7 +1,7 @@
-"""All taxels of a robot as parallel arrays: the order in which every frame lists its values.
+"""All taxels of a robot as parallel arrays, in the order of the values of every frame.
 
-In: a robot's description. Out: `SkinGeometry`. Its version goes up whenever a taxel is added, moved
-or taken away, and every frame names the version that it belongs to.
+In: a robot's description. Out: `SkinGeometry`. Its version increases when a taxel is added, moved
+or removed; every frame holds the version that it belongs to.
 """
 
 from __future__ import annotations
@@ -12,32 +12,32 @@ from typing import Protocol, Self
 import numpy as np
 
 from robocomp_dsl.tactile.arrays import Floats, Ints
-from robocomp_dsl.tactile.description.model import Robot
+from robocomp_dsl.tactile.description.model import RobotDescription
 from robocomp_dsl.tactile.skin.normalise import Normaliser, Sensitivity
 
 
 class LimbFrame(Protocol):
-    """Where the frame of a limb is on the robot; see `description.model.Limb`."""
+    """The frame of a limb on the robot; see `description.model.Limb`."""
 
     @property
     def name(self) -> str:
-        """What the robot calls the limb."""
+        """The name of the limb."""
 
     @property
     def body(self) -> str:
-        """The body that it is on."""
+        """The body that the limb is on."""
 
     @property
     def covers(self) -> tuple[str, ...]:
-        """Further bodies below the same skin."""
+        """Other bodies below the same skin."""
 
     @property
     def origin(self) -> Floats:
-        """Its place in the body, (3,)."""
+        """The frame's position in the body, (3,) [m]."""
 
     @property
     def axes(self) -> Floats:
-        """Its axes as columns, (3, 3)."""
+        """The frame's axes as columns, (3, 3)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +60,7 @@ class SkinGeometry:
     frames: tuple[LimbFrame, ...] = ()
 
     @classmethod
-    def of(cls, robot: Robot, version: int = 1) -> SkinGeometry:
+    def of(cls, robot: RobotDescription, version: int = 1) -> SkinGeometry:
         """The skin of all parts of `robot`, patch by patch in the order of its description."""
         limbs = [(f"{part.name}/{limb.name}", limb) for part in robot.parts for limb in part.limbs]
         index = {name: i for i, (name, _) in enumerate(limbs)}
@@ -82,17 +82,17 @@ class SkinGeometry:
         )
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It never changes: copies of a world share it."""
+        """It is immutable: copies of a world share it."""
         return self
 
     def same_taxels(self, other: SkinGeometry) -> bool:
-        """Whether both, versions aside, have the same taxels in the same places."""
+        """Whether both have the same taxels at the same positions, regardless of the version."""
         mine, theirs = (
             [
-                *(one.ids, one.patch, one.limb, one.points, one.normals),
-                *(array for limb in one.frames for array in (limb.origin, limb.axes)),
+                *(geometry.ids, geometry.patch, geometry.limb, geometry.points, geometry.normals),
+                *(array for limb in geometry.frames for array in (limb.origin, limb.axes)),
             ]
-            for one in (self, other)
+            for geometry in (self, other)
         )
         return (
             (self.patches, self.limbs, self.sensitivities)

@@ -1,8 +1,8 @@
-"""Spread contact forces over taxels so that nothing is lost and nothing counts twice.
+"""Distribute contact forces over taxels; the total force is preserved.
 
-In: taxel positions once; contact points and forces. Out: force per taxel, and what met no taxel.
+In: taxel positions once; contact points and forces. Out: force per taxel, and force off the skin.
 Each force is shared by a Gaussian of the distance, cut off at three sigma, whose weights are
-divided by their sum: the taxels together feel exactly the force that reached the skin. Candidates
+divided by their sum: the taxel forces add up to the force that reached the skin. Candidates
 come from a grid of small cubes prepared beforehand.
 """
 
@@ -19,43 +19,43 @@ SIGMA = 0.005
 """Width of the kernel [m]."""
 
 CUTOFF = 3.0
-"""Taxels further away than this many sigma feel nothing."""
+"""Taxels further away than this many sigma receive no force."""
 
 CELL = 0.005
-"""Edge of the grid's cubes [m]; of a wider kernel they are as wide as that."""
+"""Edge of the grid's cubes [m]; at least the width of the kernel."""
 
 
 @dataclass(frozen=True, eq=False)
-class Share:
-    """What taxels feel (n,) or (n, c), and what no taxel felt, () or (c,)."""
+class ForceShare:
+    """Forces of the taxels (n,) or (n, c), and the force off the skin, () or (c,)."""
 
-    felt: Floats
-    missed: Floats
+    taxel_forces: Floats
+    off_skin: Floats
 
 
-class Kernel:
-    """The skin of several limbs; points of different limbs never meet, whatever their frames."""
+class ForceKernel:
+    """The skin of several limbs; points of different limbs are unrelated."""
 
     def __init__(self, points: Floats, limb: Ints, limbs: int, sigma: float = SIGMA) -> None:
         self._points, self._sigma = points, sigma
         self._reach = CUTOFF * sigma
         self._cell = max(CELL, sigma)
         self._low, self._shape = np.zeros((limbs, 3)), np.zeros((limbs, 3), np.int64)
-        for one in range(limbs):
-            mine = points[limb == one]
+        for index in range(limbs):
+            mine = points[limb == index]
             if len(mine):
-                self._low[one] = mine.min(axis=0) - self._reach
-                extent = mine.max(axis=0) + self._reach - self._low[one]
-                self._shape[one] = np.ceil(extent / self._cell).astype(np.int64) + 1
+                self._low[index] = mine.min(axis=0) - self._reach
+                extent = mine.max(axis=0) + self._reach - self._low[index]
+                self._shape[index] = np.ceil(extent / self._cell).astype(np.int64) + 1
         self._first = np.concatenate(([0], np.cumsum(self._shape.prod(axis=1))))
         self._fill(limb)
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It never changes: copies share it."""
+        """It is immutable: copies share it."""
         return self
 
-    def share(self, points: Floats, limb: Ints, forces: Floats) -> Share:
-        """Spread `forces` (k,) or (k, c) that act at `points` (k, 3) of limbs `limb` (k,)."""
+    def distribute(self, points: Floats, limb: Ints, forces: Floats) -> ForceShare:
+        """Distribute `forces` (k,) or (k, c) that act at `points` (k, 3) of limbs `limb` (k,)."""
         contact, taxel, weight = self._pairs(points, limb)
         total = np.bincount(contact, weight, len(points))
         met = total > 0.0
@@ -66,16 +66,16 @@ class Kernel:
             felt[:, i] = np.bincount(taxel, weight * column[contact], len(self._points))
         missed = columns[~met].sum(axis=0)
         if forces.ndim == 1:
-            return Share(felt[:, 0], missed[0])
-        return Share(felt, missed)
+            return ForceShare(felt[:, 0], missed[0])
+        return ForceShare(felt, missed)
 
     def _pairs(self, points: Floats, limb: Ints) -> tuple[Ints, Ints, Floats]:
-        """Contacts and the taxels within their reach, with the Gaussian's weight."""
+        """Pairs of contact and taxel within reach, with their Gaussian weights."""
         cell = self._cells(points, limb)
         start, count = self._start[cell], self._start[cell + 1] - self._start[cell]
         contact = np.repeat(np.arange(len(points)), count)
-        behind = np.cumsum(count) - count
-        taxel = self._taxels[np.arange(len(contact)) + np.repeat(start - behind, count)]
+        preceding = np.cumsum(count) - count
+        taxel = self._taxels[np.arange(len(contact)) + np.repeat(start - preceding, count)]
         away = self._points[taxel] - points[contact]
         square = np.einsum("ij,ij->i", away, away)
         near = np.flatnonzero(square <= self._reach**2)
@@ -83,7 +83,7 @@ class Kernel:
         return contact[near], taxel[near], weight
 
     def _cells(self, points: Floats, limb: Ints) -> Ints:
-        """Which of the cubes near to taxels holds each point; the empty last one for others."""
+        """The occupied cube of each point; the last, empty one for points off the skin."""
         place = np.floor((points - self._low[limb]) * (1.0 / self._cell)).astype(np.int64)
         shape = self._shape[limb]
         inside = ((place >= 0) & (place < shape)).all(axis=1)
@@ -94,7 +94,7 @@ class Kernel:
         return np.where(inside, cell, len(self._known) - 1)
 
     def _fill(self, limb: Ints) -> None:
-        """For every cube the taxels that any point in it may reach."""
+        """Store for every cube the taxels within reach of any of its points."""
         far = self._reach + self._cell * np.sqrt(3.0) / 2.0
         steps = int(np.ceil(far / self._cell))
         axis = np.arange(-steps, steps + 1)

@@ -1,4 +1,4 @@
-"""Calibration and compensation of raw taxel values, as iCub's skin manager does it.
+"""Calibration and compensation of raw taxel values, as in iCub's skin manager.
 
 In: raw values 0 to 255 (idle high, pressing lowers them, unless `zero_up`). Out: counts of touch
 after removal of the baseline, which follows slow drift. Defaults: the manager's configuration.
@@ -33,7 +33,7 @@ class Compensation:
 
 @dataclass(slots=True, eq=False)
 class SkinManager:
-    """Baseline and threshold per taxel, and what was smoothed so far. All arrays are (n,)."""
+    """Baseline, threshold and smoothed value per taxel. All arrays are (n,)."""
 
     settings: Compensation
     baseline: Floats
@@ -55,13 +55,13 @@ class SkinManager:
         return cls(settings, baseline, np.maximum(spread, 1.0))
 
     def compensate(self, raw: Floats) -> Floats:
-        """Counts of touch (n,), never negative; 100 and 0 when binary. Lets the baseline drift."""
+        """Counts of touch (n,), never negative; 100 or 0 if binary. Updates the baseline."""
         up = raw if self.settings.zero_up else FULL - raw
         change = np.minimum(up - self.baseline, FULL)
         if self.settings.smooth:
             change = self._smoothed(change)
         touch = self.touched(change)
-        self._follow(change, touch)
+        self._update_baseline(change, touch)
         if self.settings.binary:
             return np.where(touch, BINARY_TOUCH, 0.0)
         return np.maximum(change, 0.0)
@@ -72,12 +72,12 @@ class SkinManager:
         return above
 
     def alarms(self) -> Bools:
-        """Taxels whose baseline has drifted so far that they may not be trusted."""
+        """Taxels whose baseline has drifted so far that they are unreliable (n,)."""
         low = self.settings.min_baseline
         out: Bools = (self.baseline < low) | (self.baseline > FULL - low)
         return out
 
-    def _follow(self, change: Floats, touch: Bools) -> None:
+    def _update_baseline(self, change: Floats, touch: Bools) -> None:
         """Move the baseline a little towards the value: slowly, and slower under touch."""
         gain = np.where(touch, self.settings.contact_gain, self.settings.gain)
         self.baseline = self.baseline + DRIFT_GAIN * gain * change / self.threshold

@@ -1,4 +1,4 @@
-"""Forces from sensor values of different skins: the normalisation the paper leaves open.
+"""Forces from sensor values of different skins: a normalisation that the paper leaves open.
 
 In: sensor values in the counts or newtons of each patch. Out: newtons. A value below the noise
 floor of its patch counts as no touch; one at or above the saturation is taken as the saturation.
@@ -15,7 +15,7 @@ from robocomp_dsl.tactile.arrays import Bools, Floats, Ints
 
 @dataclass(frozen=True, slots=True)
 class Sensitivity:
-    """What a patch makes of a force: `gain` [N per unit], `floor` and `saturation` [units]."""
+    """The response of a patch: `gain` [N per unit], `floor` and `saturation` [units]."""
 
     gain: float = 1.0
     floor: float = 0.0
@@ -42,11 +42,11 @@ class Normaliser:
 
     def force(self, values: Floats) -> Floats:
         """Newtons (n,) of sensor values (n,), never negative."""
-        held = np.minimum(values, self.saturation)
-        force: Floats = np.where(held > self.floor, held * self.gain, 0.0)
+        clipped = np.minimum(values, self.saturation)
+        force: Floats = np.where(clipped > self.floor, clipped * self.gain, 0.0)
         return force
 
     def saturated(self, values: Floats) -> Bools:
-        """Taxels whose true force may be larger than the one told."""
+        """Taxels whose true force may be larger than the measured one (n,)."""
         full: Bools = values >= self.saturation
         return full

@@ -1,8 +1,8 @@
-"""Taxel position files of the iCub, read as they are.
+"""Read taxel position files of the iCub.
 
 In: the text of a file. Out: positions and normals by taxel index. Two forms: header words and a
 [calibration] section, or (older) plain rows. A row has six numbers, `x y z nx ny nz` in metres in
-the frame of its link; six zeros mean that no taxel is there, and the index still counts.
+the frame of its link; six zeros mean that the index has no taxel.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ _HEADER = ("name", "spatial_sampling", "taxel2Repr")
 
 @dataclass(frozen=True, eq=False)
 class TaxelPositions:
-    """Row i belongs to taxel i of the published vector.
+    """Positions of taxels; row i belongs to taxel i of the published vector.
 
     `positions` and `normals` are (n, 3); normals have unit length, or are zero where the file has
-    none. `used` (n,) is false where no taxel is.
+    none. `used` (n,) is false for indices without a taxel.
     """
 
     name: str
@@ -36,7 +36,7 @@ class TaxelPositions:
 
 
 def read_positions(text: str, file: Path) -> TaxelPositions:
-    """The content of a position file. Raises `DescriptionError` with every faulty row."""
+    """The content of a position file. Raises `DescriptionError` with all invalid rows."""
     lines = text.splitlines()
     sections = [m.group(1) for line in lines if (m := _SECTION.fullmatch(line.strip()))]
     findings: list[Finding] = []
@@ -53,18 +53,18 @@ def read_positions(text: str, file: Path) -> TaxelPositions:
     if sections and "calibration" not in sections:
         findings.append(Finding(str(file), 1, 1, "the file has no [calibration] section"))
     elif not rows:
-        findings.append(Finding(str(file), max(len(lines), 1), 1, "the file holds no taxel"))
+        findings.append(Finding(str(file), max(len(lines), 1), 1, "the file has no taxel"))
     if findings:
         raise DescriptionError(findings)
     return _positions(name, np.array(rows))
 
 
 def _row(line: str, number: int, file: Path, findings: list[Finding]) -> tuple[float, ...]:
-    """Six numbers of one line; what is wrong with it goes to `findings`."""
+    """The six numbers of a line; zeros, with a finding, if it is invalid."""
     words = list(re.finditer(r"\S+", line))
     if len(words) != 6:
-        said = f"a row has six numbers, x y z nx ny nz; this one has {len(words)}"
-        findings.append(Finding(str(file), number, words[0].start() + 1, said))
+        message = f"a row must have six numbers, x y z nx ny nz; it has {len(words)}"
+        findings.append(Finding(str(file), number, words[0].start() + 1, message))
         return (0.0,) * 6
     return tuple(_number(word, number, file, findings) for word in words)
 
@@ -76,8 +76,8 @@ def _number(word: re.Match[str], line: int, file: Path, findings: list[Finding])
         value = math.nan
     if math.isfinite(value):
         return value
-    said = f"`{word.group()}` is not a number"
-    findings.append(Finding(str(file), line, word.start() + 1, said))
+    message = f"`{word.group()}` is not a number"
+    findings.append(Finding(str(file), line, word.start() + 1, message))
     return 0.0
 
 

@@ -1,4 +1,4 @@
-"""What real taxels make of a force: threshold, saturation, noise, drift, dead taxels, raw counts.
+"""A model of real taxels: threshold, saturation, noise, drift, dead taxels, raw counts.
 
 In: true forces (n,) [N], frame by frame. Out: sensor readings in newtons and as raw values 0 to
 255. Random numbers come from a generator that the caller seeds.
@@ -23,9 +23,10 @@ COUNTS_PER_NEWTON = 20.0
 class Imperfections:
     """A perfect sensor by default.
 
-    Forces below `threshold` [N] read 0, above `saturation` [N] as that; `noise` [N] is the standard
-    deviation of each reading, `drift` [counts per root second] of the wandering baseline, `dead`
-    the share of taxels that never feel anything; those with the ids in `broken` do not, either.
+    Forces below `threshold` [N] read 0, forces above `saturation` [N] read `saturation`. `noise`
+    [N] is the standard deviation of each reading, `drift` [counts per root second] that of the
+    wandering baseline. `dead` is the share of taxels that always read 0; taxels with ids in
+    `broken` do so, too.
     """
 
     threshold: float = 0.0
@@ -46,9 +47,9 @@ PERFECT = Imperfections()
 
 
 class Sensor:
-    """The taxels' state: which are dead, and where their baselines have drifted to.
+    """The state of the taxels: dead taxels and the drift of their baselines.
 
-    `counts` per newton are those of all taxels or of each (n,); `broken` (n,) are dead for sure.
+    `counts` per newton are for all taxels or per taxel (n,); `broken` (n,) taxels are always dead.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class Sensor:
         self.adjust(settings, broken)
 
     def adjust(self, settings: Imperfections, broken: Bools | None = None) -> None:
-        """Be like this from now on; a larger share of dead taxels has the smaller one in it."""
+        """Change the settings; a larger share of dead taxels includes the smaller one."""
         self._settings = settings
         self.dead: Bools = self._lot < settings.dead
         if broken is not None:
@@ -87,7 +88,7 @@ class Sensor:
         return np.minimum(reading, self._settings.saturation)
 
     def raw(self, force: Floats, dt: float, noise: float = 1.0) -> Raw:
-        """Raw values (n,), lower under pressure; `dt` seconds have passed since the last ones."""
+        """Raw values (n,), lower under pressure; `dt` [s] is the time since the last ones."""
         settings, size = self._settings, len(force)
         if settings.drift:
             self.drift += self._random.normal(0.0, settings.drift * noise * np.sqrt(dt), size)

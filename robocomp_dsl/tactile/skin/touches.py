@@ -19,27 +19,27 @@ REACH = 0.015
 
 
 @dataclass(frozen=True, eq=False)
-class Neighbours:
-    """Which taxels may be one touch: those of taxel i are `near[start[i] : start[i + 1]]`."""
+class TaxelGraph:
+    """Neighbours that may share a touch: those of taxel i are `near[start[i] : start[i + 1]]`."""
 
     start: Ints
     near: Ints
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It never changes: copies share it."""
+        """It is immutable: copies share it."""
         return self
 
     @classmethod
-    def of(cls, points: Floats, limb: Ints | None = None, reach: float = REACH) -> Neighbours:
+    def of(cls, points: Floats, limb: Ints | None = None, reach: float = REACH) -> TaxelGraph:
         """Neighbours among `points` (n, 3); only taxels with equal `limb` (n,) are related."""
         where = np.zeros(len(points), np.int64) if limb is None else limb
-        one, other = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+        left, right = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
         for name in np.unique(where):
             members = np.flatnonzero(where == name)
-            i, j = _close(points[members], reach)
-            one += [members[i], members[j]]
-            other += [members[j], members[i]]
-        first, second = np.concatenate(one), np.concatenate(other)
+            i, j = _close_pairs(points[members], reach)
+            left += [members[i], members[j]]
+            right += [members[j], members[i]]
+        first, second = np.concatenate(left), np.concatenate(right)
         counts = np.bincount(first, minlength=len(points))
         start = np.concatenate(([0], np.cumsum(counts)))
         return cls(start, second[np.argsort(first, kind="stable")])
@@ -72,7 +72,7 @@ class Neighbours:
         return np.split(active[order], starts)
 
 
-def _close(points: Floats, reach: float) -> tuple[Ints, Ints]:
+def _close_pairs(points: Floats, reach: float) -> tuple[Ints, Ints]:
     """Index pairs i < j at most `reach` apart, row block by row block to bound the memory."""
     first, second = [], []
     for start in range(0, len(points), 256):
@@ -87,14 +87,14 @@ def _close(points: Floats, reach: float) -> tuple[Ints, Ints]:
 
 
 def _components(count: Ints, near: Ints) -> Ints:
-    """The lowest index that each node is connected with; `near` are `count` neighbours of each."""
+    """The lowest index connected with each node; `near` lists `count` neighbours of each."""
     label = np.arange(len(count))
     lonely = count == 0
     begin = np.cumsum(count)[~lonely] - count[~lonely]
     while len(near):
         grown = label.copy()
         grown[~lonely] = np.minimum(label[~lonely], np.minimum.reduceat(label[near], begin))
-        np.minimum.at(grown, label, grown)  # the lowest node of each group knows what all know
+        np.minimum.at(grown, label, grown)  # propagate labels to the lowest node of each group
         grown = grown[grown]
         if np.array_equal(grown, label):
             break
@@ -103,5 +103,5 @@ def _components(count: Ints, near: Ints) -> Ints:
 
 
 def clusters(points: Floats, reach: float = REACH) -> list[Ints]:
-    """Touches among `points` (n, 3) that are all touched."""
-    return Neighbours.of(points, reach=reach).touches(np.ones(len(points), bool))
+    """The touches of `points` (n, 3), all of which are touched."""
+    return TaxelGraph.of(points, reach=reach).touches(np.ones(len(points), bool))

@@ -1,6 +1,6 @@
 """The triangular sensor module of the iCub and NAO skins.
 
-In: a channel number. Out: where it lies on the module and whether it feels pressure. Numbers:
+In: a channel number. Out: its position on the module and whether it measures pressure. Numbers:
 iCub skin GUI layout; 257.2 layout units are the 6.5 mm measured between neighbours.
 """
 

@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 from lsprotocol import types as lsp
-from real_editor import EDITORS, Project, missing, need, run
-from samples import FILES, MISTAKES, Mistake
 
-from robocomp_dsl.editor.server import FEATURES
+from robocomp_dsl.language_server.server import FEATURES
+from tests.support.real_editor import EDITORS, Project, missing, need, run
+from tests.support.samples import FILES, MISTAKES, Mistake
 
 pytestmark = pytest.mark.editors
 
@@ -31,11 +31,11 @@ def seen(emacs: list[str | Path], project: Project, home: Path) -> dict[str, Any
     """What a user of Emacs sees in the project."""
     result = project.path("result.json")
     run([*emacs, "-l", DRIVE], project.folder, home, {"RESULT": str(result)})
-    made: dict[str, Any] = json.loads(result.read_text())
-    return made
+    report: dict[str, Any] = json.loads(result.read_text())
+    return report
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda one: one.file)
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda case: case.file)
 def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
     ((line, column, message),) = seen["findings"][mistake.file]
     assert (line, column) == (mistake.line, mistake.column)
@@ -89,5 +89,5 @@ def test_without_a_server_the_user_is_told_what_to_do(
 ) -> None:
     asked = "(condition-case told (robocomp--contact) (error (princ (cadr told))))"
     command = [*emacs, "-l", "robocomp", "--eval", asked]
-    said = run(command, tmp_path, home, {"PATH": str(tmp_path)})
-    assert "pip install 'robocomp_dsl[editor]'" in said
+    output = run(command, tmp_path, home, {"PATH": str(tmp_path)})
+    assert "pip install 'robocomp_dsl[editor]'" in output

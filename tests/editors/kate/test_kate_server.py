@@ -19,14 +19,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from real_editor import DEADLINE_S, EDITORS, Project, need
-from samples import MISTAKES, Mistake
+
+from tests.support.real_editor import DEADLINE_S, EDITORS, Project, need
+from tests.support.samples import MISTAKES, Mistake
 
 pytestmark = pytest.mark.editors
 
 RECORDING = """#!/bin/sh
 echo $$ >> '{pids}'
-tee '{asked}' | '{python}' -c 'from robocomp_dsl.cli.rcgen import main; main()' "$@" | tee '{told}'
+tee '{requests}' | '{python}' -m robocomp_dsl.cli.rcgen "$@" | tee '{responses}'
 """
 ALLOWED = """[lspclient]
 AllowedServerCommandLines={server} lsp
@@ -72,17 +73,19 @@ def configure(home: Path, server: Path) -> dict[str, str]:
 
 
 @pytest.mark.parametrize(
-    "mistake", [one for one in MISTAKES if "xml" not in one.file], ids=lambda one: one.file
+    "mistake", [item for item in MISTAKES if "xml" not in item.file], ids=lambda item: item.file
 )
 def test_kate_gets_the_findings(mistake: Mistake, tmp_path: Path) -> None:
     kate, bus = need("kate"), need("dbus-run-session")
     (tmp_path / "project").mkdir()
     project = Project(tmp_path / "project")
     project.path(".kateproject").write_text('{"name": "robot"}')
-    asked, told = tmp_path / "asked", tmp_path / "told"
+    requests, responses = tmp_path / "asked", tmp_path / "told"
     server = project.path(".venv/bin/rcgen")
     server.write_text(
-        RECORDING.format(pids=project.pids, asked=asked, told=told, python=sys.executable)
+        RECORDING.format(
+            pids=project.pids, requests=requests, responses=responses, python=sys.executable
+        )
     )
     process = subprocess.Popen(
         [bus, "--", kate, "--new", "--block", project.path(mistake.file)],
@@ -94,26 +97,28 @@ def test_kate_gets_the_findings(mistake: Mistake, tmp_path: Path) -> None:
         start_new_session=True,
     )
     try:
-        (finding,) = findings(told, process)
+        (finding,) = findings(responses, process)
     finally:
         with suppress(ProcessLookupError):  # Kate itself would ask what to do with the session
             os.killpg(process.pid, signal.SIGKILL)
         process.wait(DEADLINE_S)
     assert finding["range"]["start"] == {"line": mistake.line, "character": mistake.column}
     assert mistake.message in finding["message"]
-    opened = next(one for one in messages(asked) if one.get("method") == "textDocument/didOpen")
+    opened = next(
+        message for message in messages(requests) if message.get("method") == "textDocument/didOpen"
+    )
     assert opened["params"]["textDocument"]["languageId"] == mistake.file.partition(".")[2]
-    assert not [one for one in messages(told) if "error" in one]
+    assert not [message for message in messages(responses) if "error" in message]
     project.assert_no_server_left()
 
 
-def findings(told: Path, process: subprocess.Popen[bytes]) -> list[dict[str, Any]]:
+def findings(responses: Path, process: subprocess.Popen[bytes]) -> list[dict[str, Any]]:
     """What the server told Kate of the file, as soon as it did."""
     end = time.monotonic() + DEADLINE_S
     while True:
-        for one in messages(told):
-            if one.get("method") == "textDocument/publishDiagnostics":
-                found: list[dict[str, Any]] = one["params"]["diagnostics"]
+        for message in messages(responses):
+            if message.get("method") == "textDocument/publishDiagnostics":
+                found: list[dict[str, Any]] = message["params"]["diagnostics"]
                 return found
         assert time.monotonic() < end, "Kate got no findings in time"
         with suppress(subprocess.TimeoutExpired):

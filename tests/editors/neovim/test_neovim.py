@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 from lsprotocol import types as lsp
-from real_editor import EDITORS, Project, missing, run
-from samples import FILES, MISTAKES, Mistake
 
-from robocomp_dsl.editor.server import FEATURES
+from robocomp_dsl.language_server.server import FEATURES
+from tests.support.real_editor import EDITORS, Project, missing, run
+from tests.support.samples import FILES, MISTAKES, Mistake
 
 pytestmark = pytest.mark.editors
 
@@ -32,8 +32,8 @@ def neovims() -> dict[tuple[int, int], str]:
         program = Path(folder) / "nvim"
         if not os.access(program, os.X_OK):
             continue
-        told = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
-        version = re.match(r"NVIM v(\d+)\.(\d+)", told.stdout)
+        version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+        version = re.match(r"NVIM v(\d+)\.(\d+)", version.stdout)
         if version:
             found.setdefault((int(version[1]), int(version[2])), str(program))
     return found
@@ -43,20 +43,20 @@ def neovims() -> dict[tuple[int, int], str]:
 def seen(request: pytest.FixtureRequest, project: Project, home: Path) -> dict[str, Any]:
     """What a user of this Neovim sees in the project."""
     new = request.param == "0.11 or later"
-    fitting = [one for version, one in neovims().items() if (version >= NEWER) == new]
+    fitting = [neovim for version, neovim in neovims().items() if (version >= NEWER) == new]
     nvim = fitting[0] if fitting else missing(f"Neovim {request.param}")
     result = project.folder / f"result-{new}.json"
     config = f"set runtimepath^={EDITORS / 'neovim'} noswapfile"
     command = [nvim, "--headless", "-n", "-i", "NONE", "-u", "NORC", "--cmd", config]
     out = run([*command, "-S", DRIVE], project.folder, home, {"RESULT": str(result)})
     assert result.exists(), out
-    made: dict[str, Any] = json.loads(result.read_text())
-    assert "failure" not in made, f"{made['failure']}\n{out}"
-    assert (tuple(made["version"]) >= NEWER) == new
-    return made
+    report: dict[str, Any] = json.loads(result.read_text())
+    assert "failure" not in report, f"{report['failure']}\n{out}"
+    assert (tuple(report["version"]) >= NEWER) == new
+    return report
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda one: one.file)
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda case: case.file)
 def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
     ((line, column, message),) = seen["findings"][mistake.file]
     assert (line, column) == (mistake.line, mistake.column)
@@ -92,7 +92,7 @@ def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
 def test_without_a_server_the_user_is_told_what_to_do(
     new: bool, home: Path, tmp_path: Path
 ) -> None:
-    fitting = [one for version, one in neovims().items() if (version >= NEWER) == new]
+    fitting = [neovim for version, neovim in neovims().items() if (version >= NEWER) == new]
     nvim = fitting[0] if fitting else missing("this Neovim")
     config = f"set runtimepath^={EDITORS / 'neovim'} noswapfile"
     command = [nvim, "--headless", "-i", "NONE", "-u", "NORC", "--cmd", config, "a.idsl", "+qall!"]

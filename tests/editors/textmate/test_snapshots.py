@@ -28,8 +28,8 @@ def test_scopes_are_those_that_are_kept(
     tester: Path, name: str, tmp_path: Path, update_golden: bool
 ) -> None:
     file = Path(shutil.copy(ROOT / name, tmp_path))
-    kept = HERE / "snapshots" / f"{file.name}.snap"
-    made = file.with_name(kept.name)
+    expected_file = HERE / "snapshots" / f"{file.name}.snap"
+    new_file = file.with_name(expected_file.name)
     grammar = ROOT / "editors/vscode/syntaxes" / f"{file.suffix[1:]}.tmLanguage.json"
     scope = f"source.{file.suffix[1:]}"
     program = tester.with_name("vscode-tmgrammar-snap")
@@ -40,6 +40,6 @@ def test_scopes_are_those_that_are_kept(
         check=True,
     )
     if update_golden:
-        kept.parent.mkdir(exist_ok=True)
-        shutil.copy(made, kept)
-    assert made.read_text(encoding="utf-8") == kept.read_text(encoding="utf-8")
+        expected_file.parent.mkdir(exist_ok=True)
+        shutil.copy(new_file, expected_file)
+    assert new_file.read_text(encoding="utf-8") == expected_file.read_text(encoding="utf-8")

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.real_editor import missing
+
 pytestmark = pytest.mark.editors
 ROOT = Path(__file__).parents[3]
 PLUGIN = ROOT / "editors" / "vim"
@@ -60,8 +62,7 @@ CASES = [
 def vim() -> str:
     found = shutil.which("vim")
     if found is None:
-        assert "CI" not in os.environ, "no vim"
-        pytest.skip("no vim")
+        missing("vim")
     return found
 
 
@@ -69,7 +70,7 @@ def run(vim: str, file: Path, script: Path, *more: str) -> Path:
     """Open a file with the plugin folder and nothing of the user's; what the script wrote."""
     out = file.with_suffix(".out")
     setup = (f"set nocp rtp^={PLUGIN}", "filetype plugin indent on", "syntax on")
-    commands = [part for one in setup for part in ("--cmd", one)]
+    commands = [part for item in setup for part in ("--cmd", item)]
     subprocess.run(
         [vim, "-es", "-u", "NONE", "-i", "NONE", "-n", *commands, file, *more, "-S", script],
         env=os.environ | {"GROUPS_OUT": str(out), "HOME": str(file.parent)},

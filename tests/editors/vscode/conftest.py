@@ -6,7 +6,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from real_editor import EDITORS, need
+
+from tests.support.real_editor import EDITORS, need
 
 
 @pytest.fixture(scope="session")

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from real_editor import EDITORS, need
+
+from tests.support.real_editor import EDITORS, need
 
 pytestmark = pytest.mark.editors
 

@@ -7,11 +7,11 @@ import re
 from pathlib import Path
 
 import pytest
-from real_editor import EDITORS
 
-from robocomp_dsl.check import PARSERS
+from robocomp_dsl.check.languages import PARSERS
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
+from tests.support.real_editor import EDITORS
 
 SNIPPETS = EDITORS / "vscode" / "snippets"
 
@@ -76,4 +76,4 @@ def test_a_snippet_as_proposed_is_right(language: str, name: str) -> None:
     text = before + expanded(snippet["body"]) + after
     report = Report()
     PARSERS[f".{language}"](Source(Path(f"thing.{language}"), text), report)
-    assert [str(one) for one in report] == [], text
+    assert [str(item) for item in report] == [], text

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from real_editor import DEADLINE_S, EDITORS, Project, missing, need, run
-from samples import FILES, MISTAKES, Mistake
+
+from tests.support.real_editor import DEADLINE_S, EDITORS, Project, missing, need, run
+from tests.support.samples import FILES, MISTAKES, Mistake
 
 pytestmark = pytest.mark.editors
 
@@ -33,9 +34,9 @@ def command(vsix: Path, home: Path) -> list[str | Path]:
         missing("VS Code's server")
     main = HOST / "node_modules/code-server/lib/vscode/out/server-main.js"
     own = ("--server-data-dir", home / "data", "--extensions-dir", home / "extensions")
-    made = [need("node"), main, "--accept-server-license-terms", *own]
-    run([*made, "--install-extension", vsix], home, home)
-    return made
+    command = [need("node"), main, "--accept-server-license-terms", *own]
+    run([*command, "--install-extension", vsix], home, home)
+    return command
 
 
 @pytest.fixture(scope="module")
@@ -54,8 +55,8 @@ def url(command: list[str | Path], project: Project, home: Path) -> Iterator[str
     assert server.stdout is not None
     silent = threading.Timer(DEADLINE_S, os.killpg, (server.pid, signal.SIGKILL))
     silent.start()
-    told = (re.search(r"Web UI available at (http://\S+)", line) for line in server.stdout)
-    found = next((one[1] for one in told if one), None)
+    matches = (re.search(r"Web UI available at (http://\S+)", line) for line in server.stdout)
+    found = next((item[1] for item in matches if item), None)
     silent.cancel()
     try:
         assert found, "the server ended"
@@ -73,16 +74,16 @@ def seen(url: str, project: Project, home: Path) -> dict[str, Any]:
     result = project.path("result.json")
     packages = {"NODE_PATH": str(HOST / "node_modules")}
     run([need("node"), DRIVE, url, browser, result], project.folder, home, packages, WORK_S)
-    made: dict[str, Any] = json.loads(result.read_text())
-    assert "failure" not in made, made["failure"]
-    return made
+    command: dict[str, Any] = json.loads(result.read_text())
+    assert "failure" not in command, command["failure"]
+    return command
 
 
-@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda one: one.file)
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda item: item.file)
 def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
     rows = seen["problems"][mistake.file]
     place = f"[Ln {mistake.line + 1}, Col {mistake.column + 1}]"
-    assert [one for one in rows if mistake.message in one and place in one], rows
+    assert [row for row in rows if mistake.message in row and place in row], rows
 
 
 def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from real_editor import EDITORS, need
+
+from tests.support.real_editor import EDITORS, need
 
 pytestmark = pytest.mark.editors
 
@@ -22,51 +23,51 @@ def content(vsix: Path) -> dict[str, str]:
     """The files of the extension by name."""
     with zipfile.ZipFile(vsix) as archive:
         assert archive.testzip() is None
-        names = [one for one in archive.namelist() if one.startswith("extension/")]
-        return {one.removeprefix("extension/"): archive.read(one).decode() for one in names}
+        names = [item for item in archive.namelist() if item.startswith("extension/")]
+        return {name.removeprefix("extension/"): archive.read(name).decode() for name in names}
 
 
 @pytest.fixture(scope="session")
 def manifest(content: dict[str, str]) -> dict[str, Any]:
-    made: dict[str, Any] = json.loads(content["package.json"])
-    return made
+    package: dict[str, Any] = json.loads(content["package.json"])
+    return package
 
 
 def test_everything_that_is_contributed_is_inside(
     content: dict[str, str], manifest: dict[str, Any]
 ) -> None:
     contributed = manifest["contributes"]
-    files = {one["configuration"] for one in contributed["languages"]}
-    files |= {one["path"] for kind in ("grammars", "snippets") for one in contributed[kind]}
+    files = {item["configuration"] for item in contributed["languages"]}
+    files |= {item["path"] for kind in ("grammars", "snippets") for item in contributed[kind]}
     files |= {manifest["main"]}
-    assert {one.removeprefix("./") for one in files} <= content.keys()
+    assert {file.removeprefix("./") for file in files} <= content.keys()
 
 
 def test_nothing_else_is_inside(content: dict[str, str]) -> None:
-    kept = r"package\.json|readme\.md|[\w-]*language-configuration\.json|dist/extension\.js"
+    allowed = r"package\.json|readme\.md|[\w-]*language-configuration\.json|dist/extension\.js"
     folders = r"(snippets|syntaxes|grammars)/[\w.]+\.json"
-    assert [one for one in content if not re.fullmatch(f"{kept}|{folders}", one)] == []
+    assert [item for item in content if not re.fullmatch(f"{allowed}|{folders}", item)] == []
 
 
 def test_every_language_is_contributed_whole(manifest: dict[str, Any]) -> None:
     contributed = manifest["contributes"]
-    languages = {one["id"]: one.get("extensions") for one in contributed["languages"]}
+    languages = {item["id"]: item.get("extensions") for item in contributed["languages"]}
     braces = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl"]
     assert languages == {
-        **{one: [f".{one}"] for one in braces},
+        **{brace: [f".{brace}"] for brace in braces},
         "scxml": [".scxml"],
         "innermodel": None,
     }
-    assert {one["language"] for one in contributed["grammars"]} == set(languages)
-    assert {one["language"] for one in contributed["snippets"]} == set(braces)
+    assert {item["language"] for item in contributed["grammars"]} == set(languages)
+    assert {item["language"] for item in contributed["snippets"]} == set(braces)
 
 
 def test_grammars_have_the_scope_that_the_manifest_says(
     content: dict[str, str], manifest: dict[str, Any]
 ) -> None:
-    for one in manifest["contributes"]["grammars"]:
-        grammar = json.loads(content[one["path"].removeprefix("./")])
-        assert grammar["scopeName"] == one["scopeName"]
+    for item in manifest["contributes"]["grammars"]:
+        grammar = json.loads(content[item["path"].removeprefix("./")])
+        assert grammar["scopeName"] == item["scopeName"]
 
 
 def test_the_program_is_javascript(content: dict[str, str], tmp_path: Path) -> None:
@@ -83,17 +84,17 @@ def test_the_program_is_javascript(content: dict[str, str], tmp_path: Path) -> N
         timeout=60,
     )
     known = {"vscode", *json.loads(builtin.stdout)}
-    assert {one.removeprefix("node:") for one in asked} <= known
+    assert {item.removeprefix("node:") for item in asked} <= known
 
 
 def test_all_commands_exist(content: dict[str, str], manifest: dict[str, Any]) -> None:
-    commands = {one["command"] for one in manifest["contributes"]["commands"]}
+    commands = {item["command"] for item in manifest["contributes"]["commands"]}
     in_menus = {
-        one["command"] for menu in manifest["contributes"]["menus"].values() for one in menu
+        item["command"] for menu in manifest["contributes"]["menus"].values() for item in menu
     }
     assert in_menus <= commands
-    for one in commands:
-        assert f'"{one}"' in content["dist/extension.js"]
+    for command in commands:
+        assert f'"{command}"' in content["dist/extension.js"]
 
 
 def test_versions_are_one() -> None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from robocomp_dsl.check import check_idsl
-from robocomp_dsl.check.workspace import Workspace
-from robocomp_dsl.cli import render
+from robocomp_dsl.check.passes import check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.output import render
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.generate.export import Export, export
+from robocomp_dsl.generate.export import ExportResult, export
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.model.interface import Module
 from robocomp_dsl.resources import INTERFACES
@@ -22,11 +22,11 @@ def modules(path: Path) -> tuple[Module, ...]:
     report = Report()
     found = check_idsl(path, Workspace(environ={}), report)
     assert found, render.full(report)
-    assert not report.failed, render.full(report)
+    assert not report.has_errors, render.full(report)
     return found
 
 
-def exported(text: str, to: str, folder: Path) -> Export:
+def exported(text: str, to: str, folder: Path) -> ExportResult:
     """What becomes of a text."""
     path = folder / "Text.idsl"
     path.write_text(text)
@@ -35,7 +35,7 @@ def exported(text: str, to: str, folder: Path) -> Export:
 
 def put(files: Iterable[OutputFile], folder: Path) -> None:
     """Bring files into a folder."""
-    for one in files:
-        path = folder / one.path
+    for file in files:
+        path = folder / file.path
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(one.data)
+        path.write_bytes(file.data)

@@ -47,7 +47,7 @@ class Drawn:
     errors: list[str] = field(default_factory=list)
     enums: dict[str, list[str]] = field(default_factory=dict)
 
-    def one(self, among: list[str] | tuple[str, ...]) -> str:
+    def choice(self, among: list[str] | tuple[str, ...]) -> str:
         return str(self.draw(st.sampled_from(among)))
 
     def names(self, least: int, most: int) -> list[str]:
@@ -59,21 +59,21 @@ class Drawn:
 
     def type(self) -> str:
         # The newest are drawn more often: that nests them.
-        return self.one(self.types[-4:]) if self.draw(st.booleans()) else self.one(self.types)
+        return self.choice(self.types[-4:]) if self.draw(st.booleans()) else self.choice(self.types)
 
     def fields(self, least: int = 0) -> str:
-        return "".join(f"{self.one(DOCS)}{self.field(name)}" for name in self.names(least, 5))
+        return "".join(f"{self.choice(DOCS)}{self.field(name)}" for name in self.names(least, 5))
 
     def field(self, name: str) -> str:
         type_ = self.type()
         unit = " [mm]" if type_ in PRIMITIVES[1:7] and self.draw(st.booleans()) else ""
         choices = DEFAULTS.get(type_, ()) or tuple(self.enums.get(type_, ()))
-        default = f" = {self.one(choices)}" if choices and self.draw(st.booleans()) else ""
+        default = f" = {self.choice(choices)}" if choices and self.draw(st.booleans()) else ""
         return f"{type_} {name}{unit}{default};"
 
     def declaration(self, name: str, module: str) -> str:
         kinds = ("struct", "struct", "enum", "exception", "sequence", "dictionary", "interface")
-        kind = self.one(kinds)
+        kind = self.choice(kinds)
         text = getattr(self, kind)(name)
         known = f"{module}::{name}"
         if kind in ("struct", "enum", "sequence", "dictionary"):
@@ -83,7 +83,7 @@ class Drawn:
             self.keys.append(known)
         if kind == "exception":
             self.errors.append(known)
-        return f"{self.one(DOCS)}{text}\n"
+        return f"{self.choice(DOCS)}{text}\n"
 
     def struct(self, name: str) -> str:
         return f"struct {name} {{ {self.fields()} }};"
@@ -95,7 +95,7 @@ class Drawn:
         self.enums[name] = self.names(1, 5)
         step = self.draw(st.integers(1, 3))
         numbered = (
-            f"{one} = {number * int(str(step))}" for number, one in enumerate(self.enums[name])
+            f"{value} = {number * int(str(step))}" for number, value in enumerate(self.enums[name])
         )
         return f"enum {name} {{ {', '.join(numbered)} }};"
 
@@ -103,7 +103,7 @@ class Drawn:
         return f"sequence<{self.type()}> {name};"
 
     def dictionary(self, name: str) -> str:
-        return f"dictionary<{self.one(self.keys)}, {self.type()}> {name};"
+        return f"dictionary<{self.choice(self.keys)}, {self.type()}> {name};"
 
     def interface(self, name: str) -> str:
         return f"interface {name} {{ {' '.join(map(self.operation, self.names(0, 4)))} }};"
@@ -117,21 +117,24 @@ class Drawn:
         )
         assert isinstance(thrown, list)
         throws = f" throws {', '.join(thrown)}" if thrown else ""
-        mark = self.one(("", "", "idempotent "))
+        mark = self.choice(("", "", "idempotent "))
         if result == "void" and not any(outs) and not thrown:
-            mark = self.one(("", "[command] ", "[query] "))
+            mark = self.choice(("", "[command] ", "[query] "))
         parameters = ", ".join(
-            f"{'out ' if out else ''}{self.type()} {one}"
-            for one, out in zip(called, outs, strict=True)
+            f"{'out ' if out else ''}{self.type()} {parameter}"
+            for parameter, out in zip(called, outs, strict=True)
         )
-        return f"{self.one(DOCS)}{mark}{result} {name}({parameters}){throws};"
+        return f"{self.choice(DOCS)}{mark}{result} {name}({parameters}){throws};"
 
 
 @st.composite
 def texts(draw: Callable[..., object]) -> dict[str, str]:
     """File name to text; `Text.idsl` is the one to export, and it imports `Base.idsl`."""
     drawn = Drawn(draw)
-    base, text = drawn.one(("Base", "IceBase", "base", "a_b")), drawn.one(("M", "Text", "pose"))
+    base, text = (
+        drawn.choice(("Base", "IceBase", "base", "a_b")),
+        drawn.choice(("M", "Text", "pose")),
+    )
     bodies = {}
     for module in (base, text):
         rows = [drawn.declaration(name, module) for name in drawn.names(1, 8)]

@@ -7,21 +7,20 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-import exported
 import pytest
-import random_idsl
 from hypothesis import given, settings
 from jsonschema import Draft202012Validator
 
 from robocomp_dsl.generate.export import export
 from robocomp_dsl.resources import INTERFACES
+from tests.generate.export import exported, random_idsl
 
 
 def schema_of(path: Path, *, alone: bool = False) -> dict[str, Any]:
     """The schema of a file, in which every reference leads somewhere."""
-    made = export(exported.modules(path), "json-schema", alone=alone)
-    assert not made.findings
-    (file,) = made.files
+    files = export(exported.modules(path), "json-schema", alone=alone)
+    assert not files.findings
+    (file,) = files.files
     schema: dict[str, Any] = json.loads(file.text)
     Draft202012Validator.check_schema(schema)
     for name in schema["$defs"]:
@@ -35,9 +34,9 @@ def schema_of(path: Path, *, alone: bool = False) -> dict[str, Any]:
 def references(schema: Any) -> list[str]:
     if isinstance(schema, dict):
         own = [schema["$ref"]] if isinstance(schema.get("$ref"), str) else []
-        return own + [found for one in schema.values() for found in references(one)]
+        return own + [found for part in schema.values() for found in references(part)]
     return (
-        [found for one in schema for found in references(one)] if isinstance(schema, list) else []
+        [found for part in schema for found in references(part)] if isinstance(schema, list) else []
     )
 
 
@@ -131,6 +130,6 @@ def test_what_is_written_for_people(schema: dict[str, Any]) -> None:
 
 
 def test_alone_leaves_out_what_is_not_used() -> None:
-    whole, alone = (schema_of(INTERFACES / "Laser.idsl", alone=one) for one in (False, True))
+    whole, alone = (schema_of(INTERFACES / "Laser.idsl", alone=name) for name in (False, True))
     assert set(alone["$defs"]) < set(whole["$defs"])
     assert "RoboCompGenericBase.TBaseState" in alone["$defs"]

@@ -8,18 +8,18 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-import exported
 import pytest
-import random_idsl
 from hypothesis import given, settings
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from robocomp_dsl.generate import ros2_names
 from robocomp_dsl.generate.export import export
+from robocomp_dsl.generate.exports import ros2_names
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.resources import INTERFACES
-from robocomp_dsl.runtime import component_interface as rt
-from robocomp_dsl.runtime.codec import compile_decoder, decode, encode
+from robocomp_dsl.runtime.codec.codec import compile_decoder, decode, encode
+from robocomp_dsl.runtime.component import component_interface as rt
+from robocomp_dsl.runtime.data.schema import schema_of
+from tests.generate.export import exported, random_idsl
 
 # The rules of rosidl_adapter's parser.
 PACKAGE = MEMBER = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*")
@@ -30,14 +30,14 @@ CONSTANT = re.compile(r"[A-Z]([A-Z0-9_]?[A-Z0-9]+)*")
 def parsed(files: Iterable[OutputFile]) -> dict[str, Any]:
     """All types of the messages and services, each name within the rules."""
     found: dict[str, Any] = {}
-    for one in files:
-        package, _, rest = one.path.partition("/")
+    for file in files:
+        package, _, rest = file.path.partition("/")
         assert PACKAGE.fullmatch(package)
         stem = Path(rest).stem
         if rest.startswith("msg/"):
-            found |= get_types_from_msg(one.text, f"{package}/msg/{stem}")
+            found |= get_types_from_msg(file.text, f"{package}/msg/{stem}")
         elif rest.startswith("srv/"):
-            request, response = re.split("(?m)^---\n", one.text)
+            request, response = re.split("(?m)^---\n", file.text)
             # Halves of services are read as messages, which is what they are to the parser.
             found |= get_types_from_msg(request, f"{package}/msg/{stem}_Request")
             found |= get_types_from_msg(response, f"{package}/msg/{stem}_Response")
@@ -48,7 +48,7 @@ def parsed(files: Iterable[OutputFile]) -> dict[str, Any]:
             assert CONSTANT.fullmatch(name)
         for name, _ in members:
             assert MEMBER.fullmatch(name)
-            assert name not in ros2_names.WORDS
+            assert name not in ros2_names.RESERVED_WORDS
         for names in ([n for n, *_ in constants], [n for n, _ in members]):
             assert len({*names}) == len(names)
     return found
@@ -66,11 +66,11 @@ def registered(types: dict[str, Any]) -> Any:
 def test_every_shipped_interface_is_read() -> None:
     everything: dict[str, Any] = {}
     for name in exported.SHIPPED:
-        made = export(exported.modules(INTERFACES / name), "ros2")
-        assert not made.findings
-        paths = [one.path.lower() for one in made.files]
+        files = export(exported.modules(INTERFACES / name), "ros2")
+        assert not files.findings
+        paths = [file.path.lower() for file in files.files]
         assert len({*paths}) == len(paths)
-        everything |= parsed(made.files)
+        everything |= parsed(files.files)
     registered(everything)
     assert "robocomp_laser/msg/TLaserData" in everything
     assert "robocomp_laser/msg/LaserGetLaserData_Response" in everything
@@ -83,10 +83,10 @@ def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
         folder = Path(name)
         for file, text in texts.items():
             (folder / file).write_text(text)
-        made = export(exported.modules(folder / "Text.idsl"), "ros2")
-        paths = [one.path.lower() for one in made.files]
+        files = export(exported.modules(folder / "Text.idsl"), "ros2")
+        paths = [written.path.lower() for written in files.files]
         assert len({*paths}) == len(paths)
-        registered(parsed(made.files))
+        registered(parsed(files.files))
 
 
 @pytest.mark.parametrize(
@@ -103,13 +103,13 @@ def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
     ],
 )
 def test_names(name: str, member: str, message: str) -> None:
-    assert (ros2_names.member(name), ros2_names.camel(name)) == (member, message)
+    assert (ros2_names.member_name(name), ros2_names.message_name(name)) == (member, message)
 
 
 def test_the_bytes_are_those_of_the_runtime() -> None:
     """Enum, sequences of texts and structs, long and double: written by either, read by both."""
-    made = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
-    store = registered(parsed(made.files))
+    files = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
+    store = registered(parsed(files.files))
     ports = [rt.PortInfo("implements", "Laser", "M::Laser", "zenoh", ["a", "b"])]
     ours = rt.ComponentInfo(
         name="é", pid=-7, state=rt.LifeState.Emergency, uptime=0.5, ports=ports, reason="x"
@@ -123,10 +123,10 @@ def test_the_bytes_are_those_of_the_runtime() -> None:
 
 
 def test_a_dictionary_has_the_bytes_of_its_entries() -> None:
-    made = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
-    store = registered(parsed(made.files))
+    files = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
+    store = registered(parsed(files.files))
     entry = store.types["robocomp_component/msg/ValuesEntry"]
     values = store.types["robocomp_component/msg/Values"](entries=[entry("a", "1"), entry("b", "")])
     written = bytes(store.serialize_cdr(values, values.__msgtype__))
-    read = compile_decoder((("", rt._Values),), result=True)(written)
+    read = compile_decoder((("", schema_of(rt.Values)),), result=True)(written)
     assert read == {"a": "1", "b": ""}

@@ -8,13 +8,12 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-import exported
 import pytest
-import random_idsl
 from hypothesis import given, settings
 
 from robocomp_dsl.generate.export import export
 from robocomp_dsl.resources import INTERFACES
+from tests.generate.export import exported, random_idsl
 
 SLICE2PY = shutil.which("slice2py")
 compiled = pytest.mark.skipif(
@@ -35,16 +34,16 @@ def slice2py(folder: Path) -> str:
         text=True,
         check=False,
     )
-    said = done.stderr + done.stdout
-    return said or ("failed in silence" if done.returncode else "")
+    output = done.stderr + done.stdout
+    return output or ("failed in silence" if done.returncode else "")
 
 
 @compiled
 def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
     for name in exported.SHIPPED:
-        made = export(exported.modules(INTERFACES / name), "slice")
-        assert not made.findings
-        exported.put(made.files, tmp_path)
+        files = export(exported.modules(INTERFACES / name), "slice")
+        assert not files.findings
+        exported.put(files.files, tmp_path)
     assert {p.stem for p in tmp_path.glob("*.ice")} >= {Path(n).stem for n in exported.SHIPPED}
     assert slice2py(tmp_path) == ""
 
@@ -57,6 +56,6 @@ def test_any_valid_interface_compiles(texts: dict[str, str]) -> None:
         folder = Path(name)
         for file, text in texts.items():
             (folder / file).write_text(text)
-        made = export(exported.modules(folder / "Text.idsl"), "slice")
-        exported.put(made.files, folder)
-        assert slice2py(folder) == "", "\n".join(one.text for one in made.files)
+        files = export(exported.modules(folder / "Text.idsl"), "slice")
+        exported.put(files.files, folder)
+        assert slice2py(folder) == "", "\n".join(written.text for written in files.files)

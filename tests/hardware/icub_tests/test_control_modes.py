@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from simulated_arm import Arm
 
 from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import Fault
+from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
+from tests.support.simulated_arm import Arm
 
 
 def modes(arm: Arm) -> set[tuple[Mode, Interaction]]:
@@ -44,7 +44,7 @@ def test_control_modes_follow_each_other_and_faults_leave_by_force_idle(arm):
     )
     arm.world.advance(0.01)
     assert modes(arm) == {(Mode.HW_FAULT, Interaction.STIFF)}
-    assert {one.code for one in arm.board.faults.last} == {Fault.OVERCURRENT}
+    assert {item.code for item in arm.board.faults.last} == {FaultCode.OVERCURRENT}
     arm.board.motors.set_max_current(
         np.arange(len(arm.spec.joints)), np.full(len(arm.spec.joints), 10.0)
     )

@@ -68,7 +68,7 @@ def test_no_command_gets_past_the_limits_on_its_way_to_a_motor(arm):
         assert drive().all()
         for _ in range(60):
             arm.world.advance(0.001)
-            given = np.abs(arm.world.data.ctrl[arm.part._motor])
-            assert (given <= limits.torque + 1e-9).all(), mode
+            values = np.abs(arm.world.data.ctrl[arm.part._motor])
+            assert (values <= limits.torque + 1e-9).all(), mode
             assert (arm.board.references.position <= limits.high + 1e-9).all(), mode
             assert (np.abs(arm.board.references.velocity) <= limits.speed + 1e-9).all(), mode

@@ -8,15 +8,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from robocomp_dsl.generate.doc.layered.graph import Edge
+from robocomp_dsl.generate.doc.layered.graph import LayoutEdge
 from robocomp_dsl.generate.doc.layered.ranks import Ranks
 
 
 @dataclass(slots=True)
-class Item:
+class ColumnItem:
     """A node, or where an edge passes a column; `node` and `edge` are -1 for the other.
 
-    `before` and `after` are the items it is joined to in the columns beside it.
+    `before` and `after` are the connected items in the neighbouring columns.
     """
 
     column: int
@@ -33,52 +33,54 @@ class Item:
 class Columns:
     """All items; `order` has those of each column, from the top down.
 
-    `ways` are the items between the ends of each edge, from left to right.
+    `edge_items` are the items between the ends of each edge, from left to right.
     """
 
-    items: list[Item]
+    items: list[ColumnItem]
     order: list[list[int]]
-    ways: list[list[int]]
+    edge_items: list[list[int]]
 
 
-def columns_of(
-    sizes: Sequence[tuple[float, float]], edges: Sequence[Edge], ranks: Ranks
+def build_columns(
+    sizes: Sequence[tuple[float, float]], edges: Sequence[LayoutEdge], ranks: Ranks
 ) -> Columns:
-    """Items in the order in which nodes and edges are given; those of nodes come first."""
-    last = max(ranks.of, default=0) * 2
+    """Items in the order of nodes and edges; the items of nodes come first."""
+    last = max(ranks.by_node, default=0) * 2
     items = [
-        Item(rank * 2, *size, node=i)
-        for i, (rank, size) in enumerate(zip(ranks.of, sizes, strict=True))
+        ColumnItem(rank * 2, *size, node=i)
+        for i, (rank, size) in enumerate(zip(ranks.by_node, sizes, strict=True))
     ]
-    made = Columns(items, [[] for _ in range(last + 1)], [])
+    columns = Columns(items, [[] for _ in range(last + 1)], [])
     for i, item in enumerate(items):
-        made.order[item.column].append(i)
+        columns.order[item.column].append(i)
     for i, edge in enumerate(edges):
-        made.ways.append(_way(i, edge, ranks, made) if edge.source != edge.target else [])
-    return made
+        columns.edge_items.append(
+            _add_edge_items(i, edge, ranks, columns) if edge.source != edge.target else []
+        )
+    return columns
 
 
-def _way(index: int, edge: Edge, ranks: Ranks, made: Columns) -> list[int]:
+def _add_edge_items(index: int, edge: LayoutEdge, ranks: Ranks, columns: Columns) -> list[int]:
     left, right = ranks.ends(index, edge)
-    first, last = ranks.of[left] * 2, ranks.of[right] * 2
+    first, last = ranks.by_node[left] * 2, ranks.by_node[right] * 2
     middle = (first + last) // 2
     label = middle if middle % 2 else middle - 1
-    way = []
-    held = left
+    path = []
+    previous = left
     for column in range(first + 1, last):
-        item = Item(column, edge=index)
+        item = ColumnItem(column, edge=index)
         if column == label and edge.width:
-            item = Item(column, edge.width, edge.height, edge=index, labelled=True)
-        made.items.append(item)
-        at = len(made.items) - 1
-        made.order[column].append(at)
-        way.append(at)
-        _join(made.items, held, at)
-        held = at
-    _join(made.items, held, right)
-    return way
+            item = ColumnItem(column, edge.width, edge.height, edge=index, labelled=True)
+        columns.items.append(item)
+        item_index = len(columns.items) - 1
+        columns.order[column].append(item_index)
+        path.append(item_index)
+        _connect(columns.items, previous, item_index)
+        previous = item_index
+    _connect(columns.items, previous, right)
+    return path
 
 
-def _join(items: list[Item], left: int, right: int) -> None:
+def _connect(items: list[ColumnItem], left: int, right: int) -> None:
     items[left].after.append(right)
     items[right].before.append(left)

@@ -9,7 +9,7 @@ Point: TypeAlias = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
-class Node:
+class LayoutNode:
     """A box. `border` "first" or "last" puts it left or right of all nodes that have none."""
 
     width: float
@@ -18,7 +18,7 @@ class Node:
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class LayoutEdge:
     """From one node to another, by their indices; `width` and `height` are those of its label.
 
     `leaves` and `enters` fix where it touches its nodes, as distances from their tops.
@@ -28,12 +28,12 @@ class Edge:
     target: int
     width: float = 0.0
     height: float = 0.0
-    leaves: float | None = None
-    enters: float | None = None
+    source_offset: float | None = None
+    target_offset: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Route:
+class EdgeRoute:
     """Cubic Bézier curves, one after the other: begin, control, control, end, control, ….
 
     `label` is the centre of the label's place.
@@ -44,10 +44,10 @@ class Route:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class GraphLayout:
     """The upper left corners of the nodes and the routes of the edges, in the order given."""
 
     width: float
     height: float
     nodes: tuple[Point, ...]
-    routes: tuple[Route, ...]
+    routes: tuple[EdgeRoute, ...]

@@ -10,89 +10,89 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from robocomp_dsl.generate.doc.layered.columns import Columns
-from robocomp_dsl.generate.doc.layered.graph import Edge, Node, Point, Route
+from robocomp_dsl.generate.doc.layered.graph import EdgeRoute, LayoutEdge, LayoutNode, Point
 from robocomp_dsl.generate.doc.layered.ranks import Ranks
 
-LOOP = 16.0
+LOOP_HEIGHT = 16.0
 """How high an edge from a node to itself rises above it, without its label."""
-FOOT = 12.0
+LOOP_HALF_WIDTH = 12.0
 
 
 @dataclass(slots=True)
-class Loops:
+class SelfLoops:
     """Room above a node for the edges that lead from it to itself."""
 
     width: float = 0.0
     height: float = 0.0
 
 
-def loops_above(count: int, edges: Sequence[Edge]) -> list[Loops]:
+def measure_self_loops(count: int, edges: Sequence[LayoutEdge]) -> list[SelfLoops]:
     """The room that each node needs."""
-    made = [Loops() for _ in range(count)]
+    loops = [SelfLoops() for _ in range(count)]
     for edge in edges:
         if edge.source == edge.target:
-            loop = made[edge.source]
+            loop = loops[edge.source]
             loop.width = max(loop.width, edge.width)
-            loop.height += LOOP + edge.height
-    return made
+            loop.height += LOOP_HEIGHT + edge.height
+    return loops
 
 
-def route_all(
-    nodes: Sequence[Node],
-    edges: Sequence[Edge],
+def route_edges(
+    nodes: Sequence[LayoutNode],
+    edges: Sequence[LayoutEdge],
     corners: Sequence[Point],
     columns: Columns,
     ranks: Ranks,
-    at: Sequence[float],
+    centres: Sequence[float],
     places: Sequence[tuple[float, float]],
-) -> list[Route]:
+) -> list[EdgeRoute]:
     """The routes of all edges, in their order."""
-    ports = _ports(nodes, edges, corners, columns, ranks, at)
+    ports = _assign_ports(nodes, edges, corners, columns, ranks, centres)
     risen = [0.0] * len(nodes)
-    made = []
+    routes = []
     for i, edge in enumerate(edges):
         if edge.source == edge.target:
-            made.append(_loop(edge, nodes[edge.source], corners[edge.source], risen))
+            routes.append(_loop(edge, nodes[edge.source], corners[edge.source], risen))
             continue
         left, right = ranks.ends(i, edge)
         spans = [(x := corners[left][0] + nodes[left].width, x, ports[i][0])]
-        for one in columns.ways[i]:
-            x, width = places[columns.items[one].column]
-            spans.append((x, x + width, at[one]))
+        for item in columns.edge_items[i]:
+            x, width = places[columns.items[item].column]
+            spans.append((x, x + width, centres[item]))
         x = corners[right][0]
         spans.append((x, x, ports[i][1]))
         points = _curve(spans)
-        label = next((one for one in columns.ways[i] if columns.items[one].labelled), None)
+        label = next((item for item in columns.edge_items[i] if columns.items[item].labelled), None)
         centre = points[0]
         if label is not None:
             x, width = places[columns.items[label].column]
-            centre = (x + width / 2, at[label])
-        made.append(Route(points[::-1] if i in ranks.turned else points, centre))
-    return made
+            centre = (x + width / 2, centres[label])
+        routes.append(EdgeRoute(points[::-1] if i in ranks.reversed_edges else points, centre))
+    return routes
 
 
-def _ports(
-    nodes: Sequence[Node],
-    edges: Sequence[Edge],
+def _assign_ports(
+    nodes: Sequence[LayoutNode],
+    edges: Sequence[LayoutEdge],
     corners: Sequence[Point],
     columns: Columns,
     ranks: Ranks,
-    at: Sequence[float],
+    centres: Sequence[float],
 ) -> list[tuple[float, float]]:
     """For each edge the y at which it leaves its left and enters its right node."""
     sides: dict[tuple[int, int], list[tuple[float, int]]] = {}
     for i, edge in enumerate(edges):
         if edge.source != edge.target:
             left, right = ranks.ends(i, edge)
-            way = columns.ways[i]
-            sides.setdefault((left, 0), []).append((at[way[0]], i))
-            sides.setdefault((right, 1), []).append((at[way[-1]], i))
+            path = columns.edge_items[i]
+            sides.setdefault((left, 0), []).append((centres[path[0]], i))
+            sides.setdefault((right, 1), []).append((centres[path[-1]], i))
     ports = {}
-    for (node, side), found in sides.items():
-        for place, (_, i) in enumerate(sorted(found), 1):
-            turned = i in ranks.turned
-            fixed = edges[i].leaves if (side == 0) is not turned else edges[i].enters
-            share = nodes[node].height * place / (len(found) + 1)
+    for (node, side), ends in sides.items():
+        for place, (_, i) in enumerate(sorted(ends), 1):
+            turned = i in ranks.reversed_edges
+            fixed = edges[i].source_offset if (side == 0) is not turned else edges[i].target_offset
+            share = nodes[node].height * place / (len(ends) + 1)
             ports[i, side] = corners[node][1] + (share if fixed is None else fixed)
     return [(ports.get((i, 0), 0.0), ports.get((i, 1), 0.0)) for i in range(len(edges))]
 
@@ -111,12 +111,12 @@ def _curve(spans: Sequence[tuple[float, float, float]]) -> tuple[Point, ...]:
     return tuple(points)
 
 
-def _loop(edge: Edge, node: Node, corner: Point, risen: list[float]) -> Route:
+def _loop(edge: LayoutEdge, node: LayoutNode, corner: Point, risen: list[float]) -> EdgeRoute:
     """Out of the top of a node and back into it; each further one is outside of the last."""
     low = risen[edge.source]
-    risen[edge.source] += LOOP + edge.height
-    foot = min(FOOT * (1 + low / (LOOP + edge.height)), node.width / 2)
+    risen[edge.source] += LOOP_HEIGHT + edge.height
+    foot = min(LOOP_HALF_WIDTH * (1 + low / (LOOP_HEIGHT + edge.height)), node.width / 2)
     x, y = corner[0] + node.width / 2, corner[1]
-    peak = y - low - LOOP  # the curve itself rises to three quarters of it
+    peak = y - low - LOOP_HEIGHT  # the curve itself rises to three quarters of it
     points = ((x - foot, y), (x - foot, peak), (x + foot, peak), (x + foot, y))
-    return Route(points, (x, y - low - LOOP - edge.height / 2))
+    return EdgeRoute(points, (x, y - low - LOOP_HEIGHT - edge.height / 2))

@@ -1,8 +1,8 @@
-"""The calling side: proxies and publishers.
+"""The calling side: channels that call servers and publish topics.
 
-In: a port and the directory of who is there. Out: functions that encode, send and decode. Queries
-go through a declared querier with the channel that it returns: measured 1.3 times as fast as
-`session.get`, and twice as fast as a callback.
+In: a port and the port registry. Out: functions that encode, send and decode. Queries use a
+declared querier with the channel that it returns: measured 1.3 times as fast as `session.get`, and
+twice as fast as a callback.
 """
 
 from __future__ import annotations
@@ -14,16 +14,22 @@ from typing import Any
 
 import zenoh
 
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
+from robocomp_dsl.runtime.component.naming import on_same_branch
+from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL
 from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
-from robocomp_dsl.runtime.interface import Operation, Pattern
-from robocomp_dsl.runtime.middleware.base import Bound, Endpoint, Host, Qos
-from robocomp_dsl.runtime.middleware.calling import GRACE_S, pick, reaches, servers, settled
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
+from robocomp_dsl.runtime.middleware.calling import (
+    DISCOVERY_TIMEOUT_S,
+    discovery_complete,
+    eligible_servers,
+    matches,
+    select_server,
+)
 from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.answers import failure
-from robocomp_dsl.runtime.middleware.zenoh.directory import Directory
-from robocomp_dsl.runtime.middleware.zenoh.keys import Present
-from robocomp_dsl.runtime.naming import related
-from robocomp_dsl.runtime.statistics import TIMED_EACH
+from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
+from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken
+from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 
 PRIORITIES = {
     "realtime": zenoh.Priority.REAL_TIME,
@@ -34,38 +40,38 @@ PRIORITIES = {
 }
 
 
-def sending(qos: Qos) -> dict[str, Any]:
-    """The settings of zenoh for a quality of service; nothing where nothing was said."""
-    made: dict[str, Any] = {}
+def publisher_options(qos: Qos) -> dict[str, Any]:
+    """The options of a zenoh publisher for a quality of service; empty for the defaults."""
+    options: dict[str, Any] = {}
     if qos.reliable is not None:
         control = zenoh.CongestionControl
-        made["congestion_control"] = control.BLOCK if qos.reliable else control.DROP
+        options["congestion_control"] = control.BLOCK if qos.reliable else control.DROP
     if qos.priority:
-        made["priority"] = PRIORITIES[qos.priority]
-    return made
+        options["priority"] = PRIORITIES[qos.priority]
+    return options
 
 
-class ServiceLink:
-    """Calls the one component that serves the interface; follows it when it is started again."""
+class ZenohServiceChannel:
+    """Calls the component that serves the interface, also after a restart of that component."""
 
     def __init__(
         self,
         session: zenoh.Session,
-        directory: Directory,
-        host: Host,
+        directory: PortRegistry,
+        host: MiddlewareContext,
         at: Endpoint,
     ) -> None:
         self._timeout = 10.0
         self._session = session
-        self._directory = directory
+        self._registry = directory
         self._host = host
         self._at = at
         self._hash = at.interface.hash
         self._opened = time.monotonic()
-        self._met = False
-        self._server: Present | None = None
-        self._seen = -1
-        self._queriers: dict[str, tuple[tuple[Present, float], zenoh.Querier]] = {}
+        self._connected_once = False
+        self._server: PortToken | None = None
+        self._registry_version = -1
+        self._queriers: dict[str, tuple[tuple[PortToken, float], zenoh.Querier]] = {}
 
     @property
     def timeout(self) -> float:
@@ -75,21 +81,21 @@ class ServiceLink:
     @timeout.setter
     def timeout(self, seconds: float) -> None:
         self._timeout = seconds
-        # Bound calls look at the directory again when its version is another.
-        self._directory.renew()
+        # Bound calls read the registry again when its version changes.
+        self._registry.invalidate()
 
-    def bind(self, operation: Operation) -> Bound:
-        """See `base.Link`."""
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `base.Channel`."""
         if operation.pattern is Pattern.COMMAND:
             return self._command(operation)
         return self._query(operation)
 
-    def _query(self, operation: Operation) -> Bound:
+    def _query(self, operation: Operation) -> OperationCallable:
         counts = self._host.statistics.of(self._at.port, operation.name)
-        pause, resume = self._host.execution.pause, self._host.execution.resume
-        holders = self._host.execution.holders
+        pause, resume = self._host.callback_group.pause, self._host.callback_group.resume
+        holders = self._host.callback_group.holders
         encode, decode = operation.encode_request, operation.decode_reply
-        directory = self._directory
+        directory = self._registry
         version = -1
         ask: Any = None
         end: Any = None
@@ -99,18 +105,18 @@ class ServiceLink:
             data = encode(arguments)
             counts.calls += 1
             counts.bytes_out += len(data)
-            start = 0 if counts.calls % TIMED_EACH else perf_counter_ns()
+            start = 0 if counts.calls % TIMING_INTERVAL else perf_counter_ns()
             paused = get_ident() in holders and pause()
             try:
                 try:
                     if version != directory.version:
                         seen = directory.version
                         ask = self._querier(operation).get
-                        end = self._end()
-                        version = seen  # only now: where there was no server, the next looks again
+                        end = self._cancellation_token()
+                        version = seen  # set last: without a server, the next call searches again
                     reply = ask(payload=data, cancellation_token=end).recv()
                 except zenoh.ZError:
-                    reply = self._again(operation, data)
+                    reply = self._retry(operation, data)
             except BaseException:
                 counts.failures += 1
                 raise
@@ -129,58 +135,60 @@ class ServiceLink:
 
         return query
 
-    def _again(self, operation: Operation, data: bytes) -> Any:
-        """There was no reply at all: ask the next server, if the question may be asked twice."""
-        if operation.idempotent and not self._directory.over:
+    def _retry(self, operation: Operation, data: bytes) -> Any:
+        """No reply arrived: call the next server if the operation is idempotent."""
+        if operation.idempotent and not self._registry.closed:
             self._find(self._timeout)
             try:
                 ask = self._querier(operation).get
-                return ask(payload=data, cancellation_token=self._end()).recv()
+                return ask(payload=data, cancellation_token=self._cancellation_token()).recv()
             except zenoh.ZError:
                 pass
-        raise self._gone(operation)
+        raise self._server_lost(operation)
 
-    def _end(self) -> zenoh.CancellationToken:
-        """What ends a call when its server goes, or this component."""
+    def _cancellation_token(self) -> zenoh.CancellationToken:
+        """The token that cancels calls when the server or this component exits."""
         assert self._server is not None  # noqa: S101 - `_querier` has found it
-        return self._directory.end_of(self._server)
+        return self._registry.cancellation_token(self._server)
 
     def _failure(self, operation: Operation, reply: zenoh.Reply) -> Exception:
-        """What an answer without a result says."""
+        """The exception for a reply without a result."""
         server = f"{self._server.component}.{self._server.port}" if self._server else self._at.port
         data = reply.err.payload.to_bytes() if reply.err else b""
-        return failure(operation, server, data, self._timeout)
+        return decode_failure(operation, server, data, self._timeout)
 
-    def _gone(self, operation: Operation) -> Exception:
-        """No reply at all: the server ended with the question, or this component is ending."""
+    def _server_lost(self, operation: Operation) -> Exception:
+        """The exception without any reply: the server exited, or this component is stopping."""
         who = f"{self._at.component}, which called {self._at.port}.{operation.name}, is stopping"
-        if self._directory.over:
+        if self._registry.closed:
             return NoServer(who)
-        return NoServer(f"{self._at.port}.{operation.name}: the component that served it has ended")
+        return NoServer(f"{self._at.port}.{operation.name}: the component that served it exited")
 
     def _querier(self, operation: Operation) -> zenoh.Querier:
-        """A querier for the server as it is now. Raises what `pick` raises."""
+        """A querier for the current server. Raises what `select_server` raises."""
         server = self._find()
-        made = self._queriers.get(operation.name)
-        if made is None or made[0] != (server, self._timeout):
+        cached = self._queriers.get(operation.name)
+        if cached is None or cached[0] != (server, self._timeout):
             querier = self._session.declare_querier(
                 self._key("q", server, operation),
                 timeout=self._timeout,
                 consolidation=zenoh.ConsolidationMode.NONE,
-                **sending(self._at.qos),
+                **publisher_options(self._at.qos),
             )
-            made = self._queriers[operation.name] = ((server, self._timeout), querier)
-        return made[1]
+            cached = self._queriers[operation.name] = ((server, self._timeout), querier)
+        return cached[1]
 
-    def _key(self, kind: keys.Kind, server: Present, operation: Operation) -> str:
+    def _key(self, kind: keys.Kind, server: PortToken, operation: Operation) -> str:
         at = Endpoint(self._at.interface, server.component, server.port)
-        return f"{keys.port_key(self._host.domain, kind, at)}/{keys.part(operation.name)}"
+        return f"{keys.port_key(self._host.domain, kind, at)}/{keys.escape_chunk(operation.name)}"
 
-    def _command(self, operation: Operation) -> Bound:
+    def _command(self, operation: Operation) -> OperationCallable:
         counts = self._host.statistics.of(self._at.port, operation.name)
         encode = operation.encode_request
-        settings = {"congestion_control": zenoh.CongestionControl.BLOCK} | sending(self._at.qos)
-        server: Present | None = None
+        settings = {"congestion_control": zenoh.CongestionControl.BLOCK} | publisher_options(
+            self._at.qos
+        )
+        server: PortToken | None = None
         publisher: Any = None
 
         def command(*arguments: Any) -> None:
@@ -196,7 +204,7 @@ class ServiceLink:
                 publisher.put(data)
             except zenoh.ZError:
                 counts.failures += 1
-                raise self._gone(operation) from None
+                raise self._server_lost(operation) from None
             except Exception:
                 counts.failures += 1
                 raise
@@ -204,53 +212,57 @@ class ServiceLink:
 
         return command
 
-    def _find(self, seconds: float | None = None) -> Present:
-        """The server, as the directory has it now. Raises what `pick` raises."""
-        version = self._directory.version
-        if self._server is not None and version == self._seen:
+    def _find(self, seconds: float | None = None) -> PortToken:
+        """The current server of the registry. Raises what `select_server` raises."""
+        version = self._registry.version
+        if self._server is not None and version == self._registry_version:
             return self._server
         found = [
-            p for p in self._directory.find("server", self._at.interface.name) if self._fits(p)
+            p for p in self._registry.find("server", self._at.interface.name) if self._matches(p)
         ]
-        if not settled(self._at, (p.component for p in found)):
-            # One that was there has not yet to start: it is gone.
-            grace = 0.0 if self._met else self._opened + GRACE_S - time.monotonic()
+        if not discovery_complete(self._at, (p.component for p in found)):
+            # A server that was connected before has exited; do not wait for its start.
+            grace = (
+                0.0
+                if self._connected_once
+                else self._opened + DISCOVERY_TIMEOUT_S - time.monotonic()
+            )
             found = self._wait(grace if seconds is None else seconds, grace)
-        found = servers(self._at, found, lambda p: p.component)
+        found = eligible_servers(self._at, found, lambda p: p.component)
         server = found[0]
         if len(found) > 1:
-            name = pick(self._at, [f"{p.component}.{p.port}" for p in found])
+            name = select_server(self._at, [f"{p.component}.{p.port}" for p in found])
             server = next(p for p in found if f"{p.component}.{p.port}" == name)
-        self._met = True
+        self._connected_once = True
         if server != self._server:
-            self._check(server)
+            self._check_version(server)
             self._server = server
-        self._seen = version
+        self._registry_version = version
         return server
 
-    def _wait(self, seconds: float, grace: float) -> list[Present]:
-        """Servers, waiting for one at most so long, and so long for one that is near."""
+    def _wait(self, seconds: float, grace: float) -> list[PortToken]:
+        """Servers, waiting at most `seconds`, of that `grace` for the nearest one."""
         name = self._at.interface.name
         until = time.monotonic() + seconds
-        paused = self._host.execution.pause()
+        paused = self._host.callback_group.pause()
         try:
-            self._directory.wait("server", name, self._beside, min(seconds, grace))
+            self._registry.wait("server", name, self._is_nearest, min(seconds, grace))
             left = until - time.monotonic()
-            found = self._directory.wait("server", name, self._fits, left)
+            found = self._registry.wait("server", name, self._matches, left)
         finally:
             if paused:
-                self._host.execution.resume()
+                self._host.callback_group.resume()
         if not found:
-            pick(self._at, ())
+            select_server(self._at, ())
         return found
 
-    def _fits(self, one: Present) -> bool:
-        return reaches(self._at, one.component, one.port)
+    def _matches(self, token: PortToken) -> bool:
+        return matches(self._at, token.component, token.port)
 
-    def _beside(self, one: Present) -> bool:
-        return self._fits(one) and settled(self._at, (one.component,))
+    def _is_nearest(self, token: PortToken) -> bool:
+        return self._matches(token) and discovery_complete(self._at, (token.component,))
 
-    def _check(self, server: Present) -> None:
+    def _check_version(self, server: PortToken) -> None:
         if server.hash != self._hash.hex():
             raise InterfaceMismatch(
                 f"{self._at.component} and {server.component} were generated from different"
@@ -258,48 +270,52 @@ class ServiceLink:
             )
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Link`."""
-        paused = self._host.execution.pause()
+        """See `base.Channel`."""
+        paused = self._host.callback_group.pause()
         try:
             name = self._at.interface.name
-            found = self._directory.wait("server", name, self._fits, timeout)
+            found = self._registry.wait("server", name, self._matches, timeout)
         finally:
             if paused:
-                self._host.execution.resume()
-        self._met = self._met or settled(self._at, (one.component for one in found))
+                self._host.callback_group.resume()
+        self._connected_once = self._connected_once or discovery_complete(
+            self._at, (token.component for token in found)
+        )
         return bool(found)
 
-    def heard(self) -> bool:
-        """See `base.Link`."""
+    def has_subscribers(self) -> bool:
+        """See `base.Channel`."""
         return self.wait(0.0)
 
 
-class TopicLink:
-    """Publishes to whoever subscribes."""
+class ZenohTopicChannel:
+    """Publishes to all subscribers."""
 
     def __init__(
-        self, session: zenoh.Session, directory: Directory, host: Host, at: Endpoint
+        self, session: zenoh.Session, directory: PortRegistry, host: MiddlewareContext, at: Endpoint
     ) -> None:
         self.timeout = 0.0
         self._session = session
-        self._directory = directory
+        self._registry = directory
         self._host = host
         self._at = at
         self._publishers: list[zenoh.Publisher] = []
         self._listeners: list[Any] = []
-        self._stale, self._heard = True, False
+        self._stale, self._has_subscribers = True, False
 
-    def bind(self, operation: Operation) -> Bound:
-        """See `base.Link`."""
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `base.Channel`."""
         counts = self._host.statistics.of(self._at.port, operation.name)
-        encode, number = operation.encode_request, keys.NUMBER.pack
-        key = f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.part(operation.name)}"
-        publisher = self._session.declare_publisher(key, **sending(self._at.qos))
+        encode, number = operation.encode_request, keys.SEQUENCE_FORMAT.pack
+        key = (
+            f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.escape_chunk(operation.name)}"
+        )
+        publisher = self._session.declare_publisher(key, **publisher_options(self._at.qos))
         self._publishers.append(publisher)
 
         def publish(*arguments: Any) -> None:
             data = encode(arguments)
-            if counts.calls % keys.NUMBERED_EACH:
+            if counts.calls % keys.SEQUENCE_INTERVAL:
                 publisher.put(data)
             else:
                 publisher.put(data, attachment=number(counts.calls & 0xFFFFFFFF))
@@ -309,27 +325,30 @@ class TopicLink:
         return publish
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Link`."""
-        paused = self._host.execution.pause()
+        """See `base.Channel`."""
+        paused = self._host.callback_group.pause()
         try:
             name = self._at.interface.name
-            return bool(self._directory.wait("subscriber", name, self._hears, timeout))
+            return bool(self._registry.wait("subscriber", name, self._is_subscriber, timeout))
         finally:
             if paused:
-                self._host.execution.resume()
+                self._host.callback_group.resume()
 
-    def heard(self) -> bool:
-        """See `base.Link`; foreign subscribers count, too."""
+    def has_subscribers(self) -> bool:
+        """See `base.Channel`; subscribers of other zenoh programs count, too."""
         for publisher in self._publishers[len(self._listeners) :]:
-            told = zenoh.handlers.Callback(self._matched, indirect=False)
-            self._listeners.append(publisher.declare_matching_listener(told))
+            callback = zenoh.handlers.Callback(self._on_matching_changed, indirect=False)
+            self._listeners.append(publisher.declare_matching_listener(callback))
         if self._stale:
             self._stale = False  # first, so that a change that comes meanwhile is not missed
-            self._heard = any(one.matching_status.matching for one in self._publishers)  # type: ignore[attr-defined]
-        return self._heard
+            statuses: list[Any] = [publisher.matching_status for publisher in self._publishers]
+            self._has_subscribers = any(status.matching for status in statuses)
+        return self._has_subscribers
 
-    def _matched(self, _status: object) -> None:
+    def _on_matching_changed(self, _status: object) -> None:
         self._stale = True
 
-    def _hears(self, one: Present) -> bool:
-        return one.component != self._at.component and related(self._at.component, one.component)
+    def _is_subscriber(self, token: PortToken) -> bool:
+        return token.component != self._at.component and on_same_branch(
+            self._at.component, token.component
+        )

@@ -1,10 +1,10 @@
-"""How processes of one user on one machine find each other: a folder of sockets per domain.
+"""Discovery of processes of one user on one machine: a folder of sockets per domain.
 
-In: a domain. Out: an open zenoh session that is connected to every living process of the domain.
-Each process listens on a socket in the folder `robocomp-<uid>/<domain>` of the user's runtime
-directory and, when it starts, connects to all that are there; a lock lets them start one after the
-other, so none is missed. Only the user can enter the folder. There is no multicast and no port,
-unless one was asked for, and that one is on loopback.
+In: a domain. Out: an open zenoh session that is connected to every live process of the domain. Each
+process listens on a socket in the folder `robocomp-<uid>/<domain>` of the user's runtime directory
+and connects to all existing sockets at its start; a lock serialises the starts, so none is missed.
+Only the user can access the folder. There is no multicast and no TCP port, unless a port is
+requested, which is bound to loopback.
 """
 
 from __future__ import annotations
@@ -26,46 +26,46 @@ import zenoh
 from robocomp_dsl.runtime.errors import MiddlewareError
 
 _LOCK = "lock"
-LONGEST_SOCKET = 100
-"""A socket's path has room for 108 bytes, and zenoh adds `.lock` to it."""
+MAX_SOCKET_PATH = 100
+"""A socket path is limited to 108 bytes, and zenoh appends `.lock`."""
 
 
 @dataclass(frozen=True, slots=True)
-class Opened:
+class DomainSession:
     """A session and the socket that it listens on."""
 
     session: zenoh.Session
     socket: Path
 
     def close(self) -> None:
-        """End the session and take the socket away; the last one takes the folder away, too."""
-        # Closing twice, or after the peer is gone, is no failure.
+        """Close the session and delete the socket; the last process also deletes the folder."""
+        # Closing twice, or after the peer has exited, is allowed.
         with contextlib.suppress(zenoh.ZError):
             self.session.close()
         folder = self.socket.parent
-        with contextlib.suppress(OSError), _one_at_a_time(folder):
+        with contextlib.suppress(OSError), _folder_lock(folder):
             _remove(self.socket)
-            # Looking who lives also sweeps what killed processes left.
-            if not list(_living(folder)) and [p.name for p in folder.iterdir()] == [_LOCK]:
+            # `_live_sockets` also deletes the sockets of killed processes.
+            if not list(_live_sockets(folder)) and [p.name for p in folder.iterdir()] == [_LOCK]:
                 (folder / _LOCK).unlink()
                 folder.rmdir()
 
 
-def open_session(domain: str, port: int = 0) -> Opened:
-    """A session in `domain`, listening also at `port` on loopback if that is not 0.
+def open_session(domain: str, port: int = 0) -> DomainSession:
+    """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
 
-    Raises `MiddlewareError` when the folder or the port cannot be used.
+    Raises `MiddlewareError` if the folder or the port cannot be used.
     """
-    folder = _folder(domain)
-    with _one_at_a_time(folder):
-        others = [f"unixsock-stream/{path}" for path in _living(folder)]
-        mine = _free_name(folder)
+    folder = _domain_folder(domain)
+    with _folder_lock(folder):
+        others = [f"unixsock-stream/{path}" for path in _live_sockets(folder)]
+        mine = _unused_socket(folder)
         listen = [f"unixsock-stream/{mine}"]
         if port:
-            _must_be_free(port)
+            _check_port_free(port)
             listen.append(f"tcp/127.0.0.1:{port}")
         try:
-            return Opened(zenoh.open(_config(listen, others)), mine)
+            return DomainSession(zenoh.open(_config(listen, others)), mine)
         except zenoh.ZError as error:
             raise MiddlewareError(f"zenoh cannot listen at {', '.join(listen)}: {error}") from None
 
@@ -76,7 +76,7 @@ def _config(listen: list[str], connect: list[str]) -> zenoh.Config:
         "mode": "peer",
         "listen/endpoints": listen,
         "connect/endpoints": connect,
-        # All that are listed are alive; one that ends just now must not hold up the start.
+        # All listed peers are alive; one that exits right now must not delay the start.
         "connect/timeout_ms": 0,
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
@@ -86,14 +86,14 @@ def _config(listen: list[str], connect: list[str]) -> zenoh.Config:
     return config
 
 
-def _folder(domain: str) -> Path:
+def _domain_folder(domain: str) -> Path:
     base = Path(os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir())
     plain = domain if domain.replace("-", "").replace("_", "").isalnum() else ""
     name = (
         plain if 0 < len(plain) <= 24 else f"{plain[:15]}{sha256(domain.encode()).hexdigest()[:8]}"
     )
     folder = base / f"robocomp-{os.getuid()}" / name
-    if len(str(folder)) + 20 > LONGEST_SOCKET:
+    if len(str(folder)) + 20 > MAX_SOCKET_PATH:
         folder = Path(tempfile.gettempdir()) / f"robocomp-{os.getuid()}" / name
     try:
         folder.parent.mkdir(mode=0o700, exist_ok=True)
@@ -107,19 +107,19 @@ def _folder(domain: str) -> Path:
 
 
 @contextlib.contextmanager
-def _one_at_a_time(folder: Path) -> Iterator[None]:
-    """Hold the lock of the folder while it is looked at; the kernel frees that of the dead."""
-    lock = _locked(folder)
+def _folder_lock(folder: Path) -> Iterator[None]:
+    """Hold the lock of the folder; the kernel releases the lock of a killed process."""
+    lock = _acquire_lock(folder)
     while lock is None:
-        lock = _locked(folder)
+        lock = _acquire_lock(folder)
     try:
         yield
     finally:
         os.close(lock)
 
 
-def _locked(folder: Path) -> int | None:
-    """The lock, or None when the one before took the folder away while this one waited."""
+def _acquire_lock(folder: Path) -> int | None:
+    """The lock; None if the previous holder deleted the folder in the meantime."""
     folder.mkdir(mode=0o700, exist_ok=True)
     try:
         lock = os.open(folder / _LOCK, os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o600)
@@ -135,15 +135,15 @@ def _locked(folder: Path) -> int | None:
     return None
 
 
-def _free_name(folder: Path) -> Path:
+def _unused_socket(folder: Path) -> Path:
     number = 0
     while (path := folder / f"{os.getpid()}-{number}").exists():
         number += 1
     return path
 
 
-def _living(folder: Path) -> Iterator[Path]:
-    """Sockets that somebody listens on; the others are what killed processes left."""
+def _live_sockets(folder: Path) -> Iterator[Path]:
+    """Sockets with a listening process; deletes those of killed processes."""
     for path in sorted(folder.iterdir()):
         if not path.is_socket():
             continue
@@ -157,16 +157,16 @@ def _living(folder: Path) -> Iterator[Path]:
 
 
 def _remove(path: Path) -> None:
-    for one in (path, path.with_name(f"{path.name}.lock")):
-        one.unlink(missing_ok=True)
+    for file in (path, path.with_name(f"{path.name}.lock")):
+        file.unlink(missing_ok=True)
 
 
-def _must_be_free(port: int) -> None:
+def _check_port_free(port: int) -> None:
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind(("127.0.0.1", port))
         except OSError as error:
             raise MiddlewareError(
-                f"port {port} cannot be used: {error.strerror}; choose another, or none"
+                f"port {port} cannot be used: {error.strerror}; use another port, or none"
             ) from None

@@ -1,15 +1,15 @@
-"""The key expressions of a domain, and what goes into the attachment of a message.
+"""Key expressions of a domain, and the attachments of messages.
 
-    rc/<domain>/q/<interface>/<hash>/<component>/<port>/<operation>  queries, answered
+    rc/<domain>/q/<interface>/<hash>/<component>/<port>/<operation>  queries
     rc/<domain>/c/<interface>/<hash>/<component>/<port>/<operation>  commands
     rc/<domain>/t/<interface>/<hash>/<component>/<port>/<operation>  publications
-    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>       token: this port is served
+    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>       token: this port exists
     rc/<domain>/s/<component>/<pid>/<state>                          token: this component is alive
 
-The hash is that of the interface's shape: bytes of another shape are not even routed to a port, and
-the tokens tell both sides that they differ. Every `NUMBERED_EACH`th publication has an attachment:
-how many its publisher has sent before (4 bytes, little endian), from which a subscriber knows what
-it has lost. (An attachment to every message was measured to cost a tenth of a round trip.)
+The hash is the type hash of the interface: messages of another version are not routed to a port,
+and the tokens let both sides detect the difference. Every `SEQUENCE_INTERVAL`th publication has an
+attachment: the number of messages its publisher sent before (4 bytes, little endian), from which a
+subscriber computes its losses. (An attachment on every message costs a tenth of a round trip.)
 """
 
 from __future__ import annotations
@@ -21,39 +21,40 @@ from urllib.parse import quote, unquote
 
 from robocomp_dsl.runtime.middleware.base import Endpoint
 
-NUMBERED_EACH = 16
-NUMBER = Struct("<I")
+SEQUENCE_INTERVAL = 16
+SEQUENCE_FORMAT = Struct("<I")
 Kind = Literal["q", "c", "t"]
 
 
-def part(text: str) -> str:
-    """`text` as one chunk of a key."""
+def escape_chunk(text: str) -> str:
+    """`text` as one chunk of a key expression."""
     return quote(text, safe=":") or "_"
 
 
-def root(domain: str) -> str:
-    """What all keys of a domain begin with."""
-    return f"rc/{part(domain)}"
+def domain_prefix(domain: str) -> str:
+    """The common prefix of all keys of a domain."""
+    return f"rc/{escape_chunk(domain)}"
 
 
 def interface_key(domain: str, kind: Kind, at: Endpoint) -> str:
-    """The key of all ports with an interface of one shape."""
-    return f"{root(domain)}/{kind}/{part(at.interface.name)}/{at.interface.hash.hex()}"
+    """The key prefix of all ports with one version of an interface."""
+    name = escape_chunk(at.interface.name)
+    return f"{domain_prefix(domain)}/{kind}/{name}/{at.interface.hash.hex()}"
 
 
 def port_key(domain: str, kind: Kind, at: Endpoint) -> str:
     """The key of a port, without the operation."""
-    return f"{interface_key(domain, kind, at)}/{part(at.component)}/{part(at.port)}"
+    return f"{interface_key(domain, kind, at)}/{escape_chunk(at.component)}/{escape_chunk(at.port)}"
 
 
 def publisher_of(key: str) -> str:
-    """The component that a publication comes from."""
+    """The component of a publication's key."""
     return unquote(key.split("/")[5])
 
 
 @dataclass(frozen=True, slots=True)
-class Present:
-    """What the token of a port says; `role` is `server`, `publisher` or `subscriber`."""
+class PortToken:
+    """The token of a port; `role` is `server`, `publisher` or `subscriber`."""
 
     role: str
     interface: str
@@ -63,23 +64,23 @@ class Present:
 
     def key(self, domain: str) -> str:
         """The key of the token."""
-        said = (self.role, self.interface, self.component, self.port, self.hash)
-        return f"{root(domain)}/p/{'/'.join(part(one) for one in said)}"
+        chunks = (self.role, self.interface, self.component, self.port, self.hash)
+        return f"{domain_prefix(domain)}/p/{'/'.join(escape_chunk(chunk) for chunk in chunks)}"
 
 
-def parse_present(key: str) -> Present | None:
-    """The inverse of `Present.key`; None for anything else."""
+def parse_port_token(key: str) -> PortToken | None:
+    """The inverse of `PortToken.key`; None for any other key."""
     chunks = [unquote(chunk) for chunk in key.split("/")]
-    return Present(*chunks[3:]) if len(chunks) == 8 and chunks[2] == "p" else None
+    return PortToken(*chunks[3:]) if len(chunks) == 8 and chunks[2] == "p" else None
 
 
 def state_key(domain: str, component: str, pid: int, state: str) -> str:
     """The key of the token of a component in a state."""
-    return f"{root(domain)}/s/{part(component)}/{pid}/{part(state)}"
+    return f"{domain_prefix(domain)}/s/{escape_chunk(component)}/{pid}/{escape_chunk(state)}"
 
 
 def parse_state(key: str) -> tuple[str, int, str] | None:
-    """Component, pid and state of a token; None for any other key."""
+    """Component, pid and state of a state token; None for any other key."""
     chunks = [unquote(chunk) for chunk in key.split("/")]
     if len(chunks) != 6 or chunks[2] != "s" or not chunks[4].isdigit():
         return None

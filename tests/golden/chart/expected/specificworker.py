@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
+from chart_generated.genericworker import GenericWorker
 
 
 class SpecificWorker(GenericWorker):
     """The component chart."""
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
-    # The states of door.scxml. There may also be on_enter_… and on_exit_… methods;
-    # self.machine.go("event") leads from one state to another.
+    # The states of door.scxml. Methods on_enter_… and on_exit_… are optional;
+    # self.machine.send("event") triggers a transition.
 
     def state_closed(self) -> None:
         """Every period while `closed` is active."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
+from my_empty_generated.genericworker import GenericWorker
 
 
 class SpecificWorker(GenericWorker):
     """The component my_empty."""
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 100 ms."""
+        """Called every 100 ms."""

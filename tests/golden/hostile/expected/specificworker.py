@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
-from generated.interfaces import A
+from hostile_generated.genericworker import GenericWorker
+from hostile_generated.interfaces import A
 
 
 class SpecificWorker(GenericWorker):
@@ -13,12 +13,12 @@ class SpecificWorker(GenericWorker):
     """
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 100 ms."""
-        # For example (the types are in generated.interfaces; a call that nobody answers
-        # raises NoServer or Timeout of robocomp_dsl.runtime.types):
+        """Called every 100 ms."""
+        # For example (the types are in hostile_generated.interfaces; a call without
+        # a reply raises NoServer or Timeout of robocomp_dsl.runtime.types):
         # result = self.hostile_proxy.call(A())
         # self.topic_proxy.tell(A())
 
@@ -29,7 +29,7 @@ class SpecificWorker(GenericWorker):
 
         May raise X.
         """
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Hostile_call(a)
 
     # subscribesTo RoboCompHostile::HostileTopic

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
+from arm_generated.genericworker import GenericWorker
 
 
 class SpecificWorker(GenericWorker):
     """The component arm."""
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 1 ms."""
+        """Called every 1 ms."""

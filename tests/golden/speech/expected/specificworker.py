@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
-from generated.interfaces import DatasayReq, DatasayResp
+from speech_generated.genericworker import GenericWorker
+from speech_generated.interfaces import DatasayReq, DatasayResp
 
 
 class SpecificWorker(GenericWorker):
@@ -13,12 +13,12 @@ class SpecificWorker(GenericWorker):
     """
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 20 ms."""
-        # For example (the types are in generated.interfaces; a call that nobody answers
-        # raises NoServer or Timeout of robocomp_dsl.runtime.types):
+        """Called every 20 ms."""
+        # For example (the types are in speech_generated.interfaces; a call without
+        # a reply raises NoServer or Timeout of robocomp_dsl.runtime.types):
         # result = self.range_proxy.getScan()
         # result = self.front_proxy.getScan()
         # self.speechevents_proxy.spoken(DatasayReq())
@@ -31,12 +31,12 @@ class SpecificWorker(GenericWorker):
         Returns the result, resp.
         May raise NoVoice.
         """
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Speech_say(req)
 
     def Speech_isBusy(self) -> bool:
         """Whether something is being said."""
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Speech_isBusy()
 
     def Speech_stop(self) -> None:

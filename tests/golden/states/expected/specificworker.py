@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
+from states_generated.genericworker import GenericWorker
 
 
 class SpecificWorker(GenericWorker):
     """Plays a game."""
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 100 ms."""
+        """Called every 100 ms."""
 
-    # The states of game.smdsl. There may also be on_enter_… and on_exit_… methods;
-    # self.machine.go("event") leads from one state to another.
+    # The states of game.smdsl. Methods on_enter_… and on_exit_… are optional;
+    # self.machine.send("event") triggers a transition.
 
     def state_waiting(self) -> None:
         """Every period while `waiting` is active."""

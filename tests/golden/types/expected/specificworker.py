@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from generated.genericworker import GenericWorker
-from generated.interfaces import (
+from types_generated.genericworker import GenericWorker
+from types_generated.interfaces import (
     ByGear,
     ByName,
     ByPoint,
@@ -24,24 +24,24 @@ class SpecificWorker(GenericWorker):
     """The component types."""
 
     def initialize(self) -> None:
-        """Once at the start; the parameters are in self.params."""
+        """Called once at the start; the parameters are in self.params."""
 
     def compute(self) -> None:
-        """Every 100 ms."""
-        # For example (the types are in generated.interfaces; a call that nobody answers
-        # raises NoServer or Timeout of robocomp_dsl.runtime.types):
+        """Called every 100 ms."""
+        # For example (the types are in types_generated.interfaces; a call without
+        # a reply raises NoServer or Timeout of robocomp_dsl.runtime.types):
         # self.types_proxy.nothing()
 
     # implements RoboCompTypes::Types
 
     def Types_nothing(self) -> None:
         """RoboCompTypes::Types: nothing."""
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         super().Types_nothing()
 
     def Types_one(self, a: int) -> int:
         """RoboCompTypes::Types: one."""
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Types_one(a)
 
     def Types_twoOut(self) -> tuple[int, Texts]:
@@ -49,22 +49,18 @@ class SpecificWorker(GenericWorker):
 
         Returns a, b.
         """
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Types_twoOut()
 
     def Types_all(
-        self,
-        e: Everything,
-        i: Ints,
-        n: NumbersSeq,
-        d: ByName,
+        self, e: Everything, i: Ints, n: NumbersSeq, d: ByName
     ) -> tuple[Gear, Everything, EverythingSeq]:
         """RoboCompTypes::Types: all.
 
         Returns the result, result, more.
         May raise Broken, Late.
         """
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Types_all(e, i, n, d)
 
     def Types_go(self, e: Everything) -> None:
@@ -72,27 +68,24 @@ class SpecificWorker(GenericWorker):
 
     def Types_swap(self, a: Numbers, b: Nested) -> None:
         """RoboCompTypes::Types: swap."""
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         super().Types_swap(a, b)
 
     def Types_emptiness(self, e: Empty) -> Empty:
         """RoboCompTypes::Types: emptiness."""
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Types_emptiness(e)
 
     def Types_aVeryLongNameOfAnOperationThatDoesNotEnd(
-        self,
-        aVeryLongNameOfAParameter: EverythingSeq,
-        another: ByPoint,
+        self, aVeryLongNameOfAParameter: EverythingSeq, another: ByPoint
     ) -> tuple[ByGear, NestedSeq]:
         """RoboCompTypes::Types: aVeryLongNameOfAnOperationThatDoesNotEnd.
 
         Returns aVeryLongNameOfAnOutput, second.
         """
-        # Put your code here. Until then a caller is told that there is none.
+        # Put your code here. Until then callers receive an error.
         return super().Types_aVeryLongNameOfAnOperationThatDoesNotEnd(
-            aVeryLongNameOfAParameter,
-            another,
+            aVeryLongNameOfAParameter, another
         )
 
     # implements RoboCompTypes::Nothing

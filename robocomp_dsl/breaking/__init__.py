@@ -1,0 +1,1 @@
+"""Detection of breaking changes between two versions of descriptions; `compare` is the entry."""

@@ -1,0 +1,1 @@
+"""CDSL: the component, its ports, options and middlewares."""

@@ -1,0 +1,1 @@
+"""DDSL: the instances of a deployment, their settings, connections, order and devices."""

@@ -1,0 +1,180 @@
+"""Resolves one component instance of a deployment: its component, host and settings.
+
+In: an instance and the imported components. Out: an `Instance`, and diagnostics.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.components import ImportedComponents
+from robocomp_dsl.check.ddsl.contexts import config_search_of
+from robocomp_dsl.check.ddsl.devices import resolve_devices
+from robocomp_dsl.check.ddsl.prefixes import prefix_of
+from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
+from robocomp_dsl.check.ddsl.settings import settings_of
+from robocomp_dsl.check.literals import join_names
+from robocomp_dsl.check.names.duplicates import unique_by_name
+from robocomp_dsl.check.workspace.imports import replace_fix
+from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Note, Report, nearest
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.deployment import THIS_MACHINE, Host, Instance
+from robocomp_dsl.record import ValueRecord
+from robocomp_dsl.syntax.ast import ddsl as ast
+from robocomp_dsl.syntax.ast.base import Name, Number, Text
+
+HERE = Host("", "127.0.0.1")
+_LOCAL = Host(THIS_MACHINE, THIS_MACHINE)
+DEFAULT_EXECUTABLE = "python3 main.py"
+_CONFIGURATIONS = (".yaml", ".yml", ".toml")
+_LAST_PORT = 65535
+
+
+class InstanceContext(ValueRecord):
+    """The context for resolving an instance. `path` is the path of the DDSL file."""
+
+    path: Path
+    imported: ImportedComponents
+    hosts: Mapping[str, Host]
+    workspace: Workspace
+
+
+def resolve_instance(
+    tree: ast.Instance, group: str, around: InstanceContext, report: Report
+) -> Instance | None:
+    """Resolve the instance of `tree`; None if its component is unknown."""
+    component = _component(tree.component or tree.name, around, report)
+    host = _host(tree.host, around, report)
+    config = _config(tree.config, around, report)
+    context, searched = config_search_of(tree, report)
+    prefix = prefix_of(tree.prefix, report)
+    executable = _executable(tree.executable, report)
+    port = _port(tree.port, report)
+    restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
+    environment = unique_by_name(tree.environment, "environment variable", report)
+    devices = resolve_devices(tree, report)
+    if component is None:
+        return None
+    return Instance(
+        name=tree.name.text,
+        component=component,
+        span=tree.name.span,
+        host=host,
+        config=config,
+        context=context,
+        config_name=searched,
+        prefix=prefix,
+        settings=settings_of(tree.settings, component, report),
+        devices=devices,
+        environment=tuple((node.name.text, node.value.value) for node in environment),
+        executable=executable,
+        port=port,
+        after=tuple(dict.fromkeys(node.text for node in tree.after)),
+        restart=restart,
+        start_timeout_s=ready,
+        doc=tree.doc,
+        group=group,
+        host_span=tree.host.span if tree.host else None,
+    )
+
+
+def report_shared_ports(trees: Sequence[ast.Instance], report: Report) -> None:
+    """Report two instances that would listen on the same port of the same machine."""
+    first: dict[tuple[str, float], ast.Instance] = {}
+    for tree in trees:
+        if tree.port is None or not tree.port.value:
+            continue
+        key = (tree.host.text if tree.host else "", tree.port.value)
+        earlier = first.setdefault(key, tree)
+        if earlier is not tree and earlier.port is not None:
+            report.add(
+                codes.SHARED_PORT,
+                tree.port.span,
+                f"`{tree.name.text}` and `{earlier.name.text}` both use port {tree.port.span.text}",
+                notes=[Note(earlier.port.span, "already used here")],
+                help="remove `port`: components discover each other without it",
+            )
+
+
+def _component(name: Name, context: InstanceContext, report: Report) -> Component | None:
+    known = context.imported.components
+    if name.text in known:
+        return known[name.text]
+    by_file = next((node for node in known.values() if node.path.stem == name.text), None)
+    guess = by_file.name if by_file else nearest(name.text, known)
+    if context.imported.broken and guess is None:
+        return None
+    report.add(
+        codes.UNKNOWN_COMPONENT,
+        name.span,
+        f"component `{name.text}` is not declared by any import",
+        label=f"did you mean `{guess}`?" if guess else "",
+        notes=[Note(known[guess].span, f"`{guess}` is declared here")] if guess else [],
+        help=f"the imports declare {join_names(list(known))}"
+        if known
+        else 'import its CDSL file: `import "../components/arm/arm.cdsl";`',
+        fix=replace_fix(name.span, guess) if guess else None,
+    )
+    return None
+
+
+def _host(name: Name | None, context: InstanceContext, report: Report) -> Host:
+    if name is None:
+        return HERE
+    if name.text in context.hosts:
+        return context.hosts[name.text]
+    if name.text == THIS_MACHINE:
+        return _LOCAL
+    guess = nearest(name.text, context.hosts)
+    report.add(
+        codes.UNKNOWN_HOST,
+        name.span,
+        f"unknown host `{name.text}`",
+        label=f"did you mean `{guess}`?" if guess else "",
+        help="" if guess else f'declare it: `host {name.text} {{ address "10.0.0.2"; }};`',
+        fix=replace_fix(name.span, guess) if guess else None,
+    )
+    return HERE
+
+
+def _config(written: Text | None, context: InstanceContext, report: Report) -> Path | None:
+    """The absolute path of a configuration file: components run in other folders."""
+    if written is None:
+        return None
+    path = find_referenced_file(written, _CONFIGURATIONS, context.path, context.workspace, report)
+    return Path(os.path.abspath(path)) if path else None  # noqa: PTH100 - keeps symbolic links
+
+
+def _executable(written: Text | None, report: Report) -> str:
+    if written is None:
+        return DEFAULT_EXECUTABLE
+    try:
+        words = shlex.split(written.value)
+        problem = "" if words else "it is empty"
+    except ValueError as error:
+        problem = str(error)[:1].lower() + str(error)[1:]
+    if problem:
+        what = f"invalid command line in `executable`: {problem}"
+        report.add(codes.COMMAND_LINE, written.span, what, help="for example `python3 main.py`")
+        return DEFAULT_EXECUTABLE
+    return written.value
+
+
+def _port(written: Number | None, report: Report) -> int:
+    if written is None:
+        return 0
+    if isinstance(written.value, int) and 1 <= written.value <= _LAST_PORT:
+        return written.value
+    report.add(
+        codes.PORT_NUMBER,
+        written.span,
+        f"a port is a whole number from 1 to {_LAST_PORT}, not `{written.span.text}`",
+        help="without `port` a free port is used",
+    )
+    return 0

@@ -1,0 +1,125 @@
+"""Resolves the deployment of a DDSL file.
+
+In: the tree, a workspace, and the check of a component. Out: a possibly partial `Deployment`, the
+diagnostics of this file, and the errors of the files that it imports.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from ipaddress import ip_address
+
+from robocomp_dsl.check.cdsl.middlewares import component_middleware
+from robocomp_dsl.check.codes import deployment as codes
+from robocomp_dsl.check.ddsl.clocks import resolve_clock
+from robocomp_dsl.check.ddsl.components import CheckComponent, imported_components
+from robocomp_dsl.check.ddsl.connections import explicit_connections
+from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
+from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
+from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
+from robocomp_dsl.check.ddsl.order import start_order
+from robocomp_dsl.check.ddsl.scopes import (
+    DeploymentScope,
+    check_exports,
+    connections_of,
+    flatten,
+    scopes_of,
+)
+from robocomp_dsl.check.names.duplicates import unique_by_name
+from robocomp_dsl.check.workspace.source_cache import Parsed
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model.deployment import THIS_MACHINE, Deployment, Host, Instance
+from robocomp_dsl.syntax.ast import ddsl as ast
+from robocomp_dsl.syntax.ast.base import Name
+
+_ADDRESS = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9_.-]*[A-Za-z0-9])?")
+"""A host name or an IPv4 address."""
+
+
+def resolve_ddsl(
+    file: Parsed[ast.File], workspace: Workspace, check: CheckComponent, report: Report
+) -> Deployment | None:
+    """The deployment of a file; None if it has none."""
+    tree = file.tree.deployment
+    path = file.source.path
+    imported = imported_components(file.tree.imports, path, workspace, check, report)
+    if tree is None:
+        return None
+    hosts = {
+        node.name.text: _host(node, report) for node in unique_by_name(tree.hosts, "host", report)
+    }
+    context = InstanceContext(path, imported, hosts, workspace)
+    scope = scopes_of(tree, report)
+    trees = flatten(scope, report)
+    resolved = {
+        node.name.text: resolve_instance(node, group, context, report) for node, group in trees
+    }
+    known = {name: node for name, node in resolved.items() if node is not None}
+    unclear = resolved.keys() - known.keys()
+    if not trees and not tree.groups:
+        report.add(codes.EMPTY_DEPLOYMENT, tree.name.span, f"`{tree.name.text}` has no components")
+    report_shared_ports([node for node, _ in trees], report)
+    order = [known[name] for name in start_order(scope, report) if name in known]
+    written = explicit_connections(*_connections(scope, known, report), report)
+    check_exports(scope, report)
+    groups = resolve_groups(scope, known, report)
+    complete = not (unclear or imported.broken) and file.tree.complete
+    implied = implicit_connections(
+        list(known.values()), written, imported, visible_exports(scope), report, complete=complete
+    )
+    return Deployment(
+        name=tree.name.text,
+        path=path,
+        span=tree.name.span,
+        middleware=component_middleware(tree.middleware, workspace.middlewares, report),
+        instances=tuple(order),
+        connections=(*written.connections, *implied),
+        hosts=tuple(hosts.values()),
+        doc=tree.doc,
+        groups=groups,
+        clock=resolve_clock(tree.clock, order, complete=complete, report=report),
+    )
+
+
+def _connections(
+    scope: DeploymentScope, known: Mapping[str, Instance], report: Report
+) -> tuple[list[ast.Connection], Mapping[str, Instance], set[str]]:
+    trees, faulty = connections_of(scope, report)
+    return trees, known, faulty
+
+
+def _host(tree: ast.Host, report: Report) -> Host:
+    user = tree.user.text if isinstance(tree.user, Name) else tree.user.value if tree.user else ""
+    labels = tuple(label.text for label in tree.labels)
+    return Host(tree.name.text, _address(tree, report), user, labels, tree.name.span)
+
+
+def _address(tree: ast.Host, report: Report) -> str:
+    """The host name or IP address of a machine."""
+    name = tree.name.text
+    if tree.address is None:
+        if name == THIS_MACHINE:
+            return THIS_MACHINE
+        message = f"the host `{name}` has no address"
+        right = f'write `host {name} {{ address "10.0.0.2"; }};` or a host name'
+        report.add(codes.HOST_ADDRESS, tree.name.span, message, help=right)
+        return ""
+    written = tree.address.value.strip()
+    if not _ADDRESS.fullmatch(written) and not _is_ip_address(written):
+        message = f'"{written:.60}" is not a valid address'
+        right = (
+            "an address is a host name such as `robot.local` or an IP address such as `10.0.0.2`"
+        )
+        report.add(codes.HOST_ADDRESS, tree.address.span, message, help=right)
+        return ""
+    return written
+
+
+def _is_ip_address(written: str) -> bool:
+    try:
+        ip_address(written)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,1 @@
+"""IDSL: types, operations and their patterns."""

@@ -1,0 +1,203 @@
+"""Resolves the names in an IDSL module.
+
+In: the tree and its import scope. Out: `Module` values. Faulty declarations are reported and left
+out; declarations that depend on them are left out without a further diagnostic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from robocomp_dsl.check.codes import types as codes
+from robocomp_dsl.check.idsl.nesting import MAX_DEPTH, MAX_VALUES, Nesting
+from robocomp_dsl.check.idsl.patterns import infer_pattern, response_index
+from robocomp_dsl.check.literals import OutOfRange, TypeMismatch, as_int, as_type
+from robocomp_dsl.check.names.duplicates import unique_by_name
+from robocomp_dsl.check.names.import_scope import ImportScope
+from robocomp_dsl.check.names.type_names import TypeResolver
+from robocomp_dsl.diagnostics import Note, Report
+from robocomp_dsl.model import interface as model
+from robocomp_dsl.model import types
+from robocomp_dsl.record import Record
+from robocomp_dsl.syntax.ast import idsl as ast
+from robocomp_dsl.syntax.ast.base import Node, QualifiedName
+
+
+class ResolvedModule(Record):
+    """A module, and pairs of tree node and resolved declaration for the rules."""
+
+    module: model.Module
+    pairs: list[tuple[Node, object]]
+
+
+def resolve_idsl(
+    tree: ast.Module, path: Path, visible: ImportScope, report: Report
+) -> ResolvedModule:
+    """Resolve the module of `tree`."""
+    return _Resolver(tree, visible, report).run(path)
+
+
+class _Resolver:
+    """Resolves declarations on demand, so that they may be in any order."""
+
+    def __init__(self, tree: ast.Module, visible: ImportScope, report: Report) -> None:
+        self._tree = tree
+        self._scope = visible
+        self._report = report
+        written = unique_by_name(tree.declarations, "declaration", report)
+        self._written = {node.name.text: node for node in written}
+        self._declared: dict[str, types.Declaration | None] = {}
+        self._open: dict[str, QualifiedName | None] = {}
+        self._names = TypeResolver(tree.name.text, self._written, self._own, visible, report)
+        self._nesting = Nesting()
+        self._pairs: list[tuple[Node, object]] = []
+
+    def run(self, path: Path) -> ResolvedModule:
+        declarations = [self._declare(name, None) for name in self._written]
+        module = model.Module(
+            self._tree.name.text,
+            path,
+            self._tree.name.span,
+            self._tree.doc,
+            self._scope.direct,
+            tuple(node for node in declarations if node is not None),
+        )
+        return ResolvedModule(module, self._pairs)
+
+    def _own(self, name: QualifiedName) -> types.Declaration | None:
+        return self._declare(name.name.text, name)
+
+    def _declare(self, name: str, use: QualifiedName | None) -> types.Declaration | None:
+        if name in self._declared:
+            return self._declared[name]
+        if name in self._open:
+            self._report_recursion(name, use)
+            return None
+        self._open[name] = use
+        tree = self._written[name]
+        declaration = self._build(tree) if len(self._open) <= MAX_DEPTH else None
+        if len(self._open) > MAX_DEPTH or (declaration and self._nesting.is_excessive(declaration)):
+            self._report.add(
+                codes.EXCESSIVE_TYPE,
+                tree.name.span,
+                f"`{name}` nests deeper than {MAX_DEPTH} types or holds over {MAX_VALUES} values",
+            )
+            declaration = None
+        del self._open[name]
+        self._declared[name] = declaration
+        self._pairs.append((tree, declaration))
+        return declaration
+
+    def _build(self, tree: ast.Declaration) -> types.Declaration | None:
+        head = (self._tree.name.text, tree.name.text, tree.name.span, tree.doc)
+        match tree:
+            case ast.Struct():
+                return types.Struct(*head, self._fields(tree.fields))
+            case ast.ExceptionDecl():
+                return types.ExceptionType(*head, self._fields(tree.fields))
+            case ast.Enum():
+                return types.Enum(*head, self._enumerators(tree.enumerators))
+            case ast.Sequence():
+                element = self._names.data(tree.element)
+                return types.Sequence(*head, element) if element else None
+            case ast.Dictionary():
+                key, value = self._names.data(tree.key), self._names.data(tree.value)
+                return types.Dictionary(*head, key, value) if key and value else None
+            case ast.Interface():
+                return model.Interface(*head, self._operations(tree.operations))
+
+    def _fields(self, trees: Sequence[ast.Field]) -> tuple[types.Field, ...]:
+        fields = (self._field(node) for node in unique_by_name(trees, "field", self._report))
+        return tuple(node for node in fields if node is not None)
+
+    def _field(self, tree: ast.Field) -> types.Field | None:
+        type_ = self._names.data(tree.type)
+        if type_ is None:
+            return None
+        unit = tree.unit.text if tree.unit else ""
+        default = self._default(tree, type_)
+        field = types.Field(tree.name.text, type_, tree.name.span, default, unit, tree.doc)
+        self._pairs.append((tree, field))
+        return field
+
+    def _default(self, tree: ast.Field, type_: types.Type) -> types.Literal | None:
+        if tree.default is None:
+            return None
+        try:
+            return as_type(tree.default, type_)
+        except TypeMismatch as wrong:
+            code = codes.DEFAULT_VALUE if isinstance(wrong, OutOfRange) else codes.DEFAULT_TYPE
+            self._report.add(
+                code,
+                tree.default.span,
+                f"the default of `{tree.name.text}` does not fit `{type_.name}`: {wrong}",
+                label=wrong.label,
+            )
+            return None
+
+    def _enumerators(self, trees: Sequence[ast.Enumerator]) -> tuple[types.Enumerator, ...]:
+        enumerators: list[types.Enumerator] = []
+        following = 0
+        for tree in unique_by_name(trees, "enumerator", self._report):
+            value = self._enum_value(tree, following)
+            enumerators.append(types.Enumerator(tree.name.text, value, tree.name.span, tree.doc))
+            following = value + 1
+        return tuple(enumerators)
+
+    def _enum_value(self, tree: ast.Enumerator, following: int) -> int:
+        try:
+            return following if tree.value is None else as_int(tree.value, types.INT.bits)
+        except TypeMismatch as wrong:
+            span = tree.value.span if tree.value else tree.span
+            self._report.add(
+                codes.ENUM_VALUE, span, f"`{tree.name.text}` has an invalid value: {wrong}"
+            )
+            return following
+
+    def _operations(self, trees: Sequence[ast.Operation]) -> tuple[model.Operation, ...]:
+        return tuple(
+            self._operation(node) for node in unique_by_name(trees, "operation", self._report)
+        )
+
+    def _operation(self, tree: ast.Operation) -> model.Operation:
+        mark = tree.pattern.text.lower() if tree.pattern else ""
+        result = self._names.data(tree.result) if tree.result else None
+        params = unique_by_name(tree.params, "parameter", self._report)
+        known = [(node, self._param(node)) for node in params]
+        inputs = [param for node, param in known if param and not node.out]
+        outputs = [param for node, param in known if param and node.out]
+        throws = [exception for node in tree.throws if (exception := self._names.exception(node))]
+        if not outputs and (index := response_index(mark, inputs, result)) is not None:
+            outputs = [inputs.pop(index)]
+        operation = model.Operation(
+            tree.name.text,
+            tree.name.span,
+            infer_pattern(mark, has_output=bool(tree.result or outputs or tree.throws)),
+            tuple(inputs),
+            tuple(outputs),
+            result,
+            tuple(dict.fromkeys(throws)),
+            tree.idempotent,
+            bool(mark),
+            tree.doc,
+        )
+        self._pairs.append((tree, operation))
+        return operation
+
+    def _param(self, tree: ast.Param) -> model.Param | None:
+        type_ = self._names.data(tree.type)
+        unit = tree.unit.text if tree.unit else ""
+        return model.Param(tree.name.text, type_, tree.name.span, unit) if type_ else None
+
+    def _report_recursion(self, name: str, use: QualifiedName | None) -> None:
+        chain = [*self._open][[*self._open].index(name) :]
+        shown = " → ".join(f"`{node}`" for node in (*chain, name))
+        uses = [self._open[node] for node in chain[1:]]
+        self._report.add(
+            codes.RECURSIVE_TYPE,
+            use.span if use else self._written[name].name.span,
+            f"`{name}` contains itself: {shown}",
+            notes=[Note(node.span, f"`{node.text}` is used here") for node in uses if node],
+            help="store the elements in one sequence, and refer to them by index",
+        )

@@ -1,0 +1,1 @@
+"""InnerModel worlds, their skin, and tactile descriptions."""

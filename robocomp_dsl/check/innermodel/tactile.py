@@ -1,0 +1,154 @@
+"""Checks tactile descriptions: generic parts, limbs and skin in YAML, or a part in the paper's XML.
+
+In: the path of a file. Out: diagnostics about the file, and about the joints and bodies of the
+model that it names. The readers are in `robocomp_dsl.tactile.description`, because running
+components use them too.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from robocomp_dsl.check.codes import tactile as codes
+from robocomp_dsl.check.innermodel.resolve import resolve_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.model import innermodel as nouns
+from robocomp_dsl.model.innermodel import InnerModel
+from robocomp_dsl.source import Source, Span, UnreadableSource
+from robocomp_dsl.tactile.description.check import RobotStructure, compare
+from robocomp_dsl.tactile.description.model import RobotDescription
+from robocomp_dsl.tactile.description.part_xml import read_part_xml
+from robocomp_dsl.tactile.description.read import read_robot
+from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+
+CODES = {
+    Fault.FORM: codes.TACTILE_SYNTAX,
+    Fault.JOINT: codes.TACTILE_JOINT,
+    Fault.LIMITS: codes.TACTILE_LIMITS,
+    Fault.BODY: codes.TACTILE_BODY,
+    Fault.OFF_BODY: codes.TAXELS_OFF_SURFACE,
+    Fault.TWICE: codes.TACTILE_DUPLICATE,
+}
+_WORD = re.compile(r"[^\s,:{}\[\]<>]*")
+_PARTS = re.compile(r"^parts\s*:", re.MULTILINE)
+_MODELS = (b"mujoco", b"robot")
+
+
+def check_robot(source: Source, report: Report) -> RobotDescription | None:
+    """The robot that a YAML text describes; None if the text has errors."""
+    if not _PARTS.search(source.text):
+        message = f"`{source.path.name}` has no `parts`: it is not a tactile description"
+        help_text = "the configuration of a component is checked when the component starts"
+        report.add(codes.TACTILE_SYNTAX, source.span(0, 0), message, help=help_text)
+        return None
+    try:
+        return read_robot(source.text, source.path)
+    except DescriptionError as error:
+        report_findings(error, source, report)
+        return None
+
+
+def check_part(source: Source, report: Report) -> None:
+    """Check a generic part in XML."""
+    try:
+        read_part_xml(source.text, source.path)
+    except DescriptionError as error:
+        report_findings(error, source, report)
+
+
+def check_against_model(
+    robot: RobotDescription, source: Source, workspace: Workspace, report: Report
+) -> None:
+    """Check the description against the robot model that it names."""
+    try:
+        check_against_facts(robot, _facts(robot, workspace), source, report)
+    except _ModelUnavailable as error:
+        place = Finding("", robot.model_place.line, robot.model_place.column, "")
+        report.add(codes.TACTILE_MODEL, _span(place, source), str(error))
+
+
+def check_against_facts(
+    robot: RobotDescription, facts: RobotStructure, source: Source, report: Report
+) -> None:
+    """Check the description against joints and bodies."""
+    try:
+        compare(robot, facts)
+    except DescriptionError as error:
+        report_findings(error, source, report)
+
+
+class _ModelUnavailable(Exception):
+    """The model cannot be loaded; the message says why."""
+
+
+def _facts(robot: RobotDescription, workspace: Workspace) -> RobotStructure:
+    path = robot.file.parent / robot.model
+    try:
+        head = path.read_bytes()
+    except (OSError, ValueError) as error:
+        why = getattr(error, "strerror", None) or error
+        raise _ModelUnavailable(f"`{robot.model}` cannot be read: {why}") from None
+    if not re.search(rb"<\s*innermodel\b", head, re.IGNORECASE):
+        return _simulated(path, robot.model)
+    try:
+        return _described(resolve_innermodel(path, workspace.sources, Report()))
+    except UnreadableSource:  # reported when the model itself is checked
+        return RobotStructure({}, frozenset())
+
+
+def _described(body: InnerModel) -> RobotStructure:
+    nodes = [node for node, _ in body.nodes()]
+    turning = (nouns.Joint, nouns.PrismaticJoint)
+    joints = {node.id: (node.min, node.max) for node in nodes if isinstance(node, turning)}
+    return RobotStructure(joints, frozenset(node.id for node in nodes))
+
+
+def _simulated(path: Path, name: str) -> RobotStructure:
+    """The joints and bodies of an MJCF or URDF file, loaded with MuJoCo."""
+    try:
+        from robocomp_dsl.hardware.description.findings import ModelFileError  # noqa: PLC0415 - slow
+        from robocomp_dsl.simulation.models.model_file import load_model  # noqa: PLC0415
+    except ImportError as missing:
+        raise _ModelUnavailable(f"`{name}` cannot be loaded without MuJoCo: {missing}") from None
+    try:
+        model = load_model(path).model
+    except (ModelFileError, OSError) as error:
+        raise _ModelUnavailable(f"`{name}` is not a valid model: {error}") from None
+    joints = {}
+    for i in range(model.njnt):
+        free = not model.jnt_limited[i]
+        low, high = (-float("inf"), float("inf")) if free else model.jnt_range[i]
+        joints[model.joint(i).name] = (float(low), float(high))
+    return RobotStructure(joints, frozenset(model.body(i).name for i in range(1, model.nbody)))
+
+
+def report_findings(error: DescriptionError, source: Source, report: Report) -> None:
+    """Report the findings about `source` and the taxel position files that it names."""
+    for finding in error.findings:
+        text_source = source if finding.file == str(source.path) else _opened(Path(finding.file))
+        report.add(
+            CODES[finding.fault], _span(finding, text_source), finding.message, help=finding.help
+        )
+
+
+def _opened(path: Path) -> Source:
+    try:
+        return Source.read(path)
+    except UnreadableSource:  # deleted in the meantime
+        return Source(path, "")
+
+
+def _span(found: Finding, source: Source) -> Span:
+    """The word at the position of a finding, or the rest of its line."""
+    lines = source.line_starts
+    start = min(lines[min(found.line, len(lines)) - 1] + found.column - 1, len(source.text))
+    word = _WORD.match(source.text, start)
+    end = word.end() if word and word.end() > start else _end_of_line(source.text, start)
+    return source.span(start, max(end, start))
+
+
+def _end_of_line(text: str, start: int) -> int:
+    end = text.find("\n", start)
+    return len(text) if end < 0 else end

@@ -1,0 +1,1 @@
+"""Name lookup: import scopes, duplicates, and suggestions for unknown names."""

@@ -1,0 +1,131 @@
+"""The passes of each language, as functions from a file to its model.
+
+In: a path, a `Workspace` and a `Report`. Out: the model, as far as the file could be understood.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from robocomp_dsl.check.workspace.loaded import transitive_errors
+from robocomp_dsl.check.workspace.source_cache import Parsed, Parser
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.source import Source, UnreadableSource
+from robocomp_dsl.syntax.codes import file as form
+from robocomp_dsl.syntax.parse import parse_cdsl, parse_ddsl, parse_pdsl
+
+if TYPE_CHECKING:  # start-up time: modules are imported in the functions that need them
+    from robocomp_dsl.model.component import Component
+    from robocomp_dsl.model.deployment import Deployment
+    from robocomp_dsl.model.innermodel import InnerModel
+    from robocomp_dsl.model.interface import Module
+    from robocomp_dsl.model.parameter import ParameterSet
+    from robocomp_dsl.model.statemachine import StateMachine
+
+Tree = TypeVar("Tree")
+
+
+def check_idsl(path: Path, workspace: Workspace, report: Report) -> tuple[Module, ...] | None:
+    """The modules of an interface description (legacy files may have several)."""
+    workspace.modules.start_run(path)
+    try:
+        loaded = workspace.modules.load(path)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return None
+    report.extend(loaded.diagnostics)
+    report.extend(transitive_errors(loaded.imports))
+    return loaded.modules
+
+
+def check_cdsl(path: Path, workspace: Workspace, report: Report) -> Component | None:
+    """The component of a component description."""
+    from robocomp_dsl.check.cdsl.resolve import resolve_cdsl  # noqa: PLC0415 - on first use
+    from robocomp_dsl.check.cdsl.rules import check_cdsl_rules  # noqa: PLC0415
+
+    workspace.modules.start_run(path)
+    file = parse(path, parse_cdsl, workspace, report)
+    if file is None or file.tree.component is None:
+        return None
+    resolved = resolve_cdsl(file, file.tree.component, workspace, report)
+    check_cdsl_rules(file.tree.component, resolved, report)
+    return resolved.component
+
+
+def check_pdsl(path: Path, workspace: Workspace, report: Report) -> ParameterSet | None:
+    """The parameters of a parameter description."""
+    from robocomp_dsl.check.pdsl.resolve import resolve_pdsl  # noqa: PLC0415
+
+    file = parse(path, parse_pdsl, workspace, report)
+    return resolve_pdsl(file, report) if file else None
+
+
+def check_ddsl(path: Path, workspace: Workspace, report: Report) -> Deployment | None:
+    """The deployment of a deployment description."""
+    from robocomp_dsl.check.ddsl.resolve import resolve_ddsl  # noqa: PLC0415
+
+    file = parse(path, parse_ddsl, workspace, report)
+    return resolve_ddsl(file, workspace, check_cdsl, report) if file else None
+
+
+def check_state_machine(path: Path, workspace: Workspace, report: Report) -> StateMachine | None:
+    """The state machine of an SMDSL or SCXML file."""
+    from robocomp_dsl.check.states.state_machines import MACHINES  # noqa: PLC0415
+
+    try:
+        return MACHINES[path.suffix.lower()](path, workspace, report)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return None
+
+
+def check_innermodel(path: Path, workspace: Workspace, report: Report) -> InnerModel | None:
+    """The InnerModel of a file, with all included files."""
+    from robocomp_dsl.check.innermodel.resolve import resolve_innermodel  # noqa: PLC0415
+    from robocomp_dsl.check.innermodel.rules import check_innermodel_rules  # noqa: PLC0415
+
+    try:
+        body = resolve_innermodel(path, workspace.sources, report)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return None
+    check_innermodel_rules(body, report)
+    return body
+
+
+def check_tactile(
+    path: Path, workspace: Workspace, report: Report, *, syntax_only: bool = False
+) -> None:
+    """Check a tactile description; `syntax_only`: not against the robot model that it names."""
+    from robocomp_dsl.check.innermodel import tactile  # noqa: PLC0415 - numpy and YAML
+
+    try:
+        source = workspace.sources.read(path)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return
+    if path.suffix.lower() == ".xml":
+        tactile.check_part(source, report)
+        return
+    robot = tactile.check_robot(source, report)
+    if robot and robot.model and not syntax_only:
+        tactile.check_against_model(robot, source, workspace, report)
+
+
+def parse(
+    path: Path, parser: Parser[Tree], workspace: Workspace, report: Report
+) -> Parsed[Tree] | None:
+    """The tree of a file, with its syntax errors in the report; None if it cannot be read."""
+    try:
+        file = workspace.sources.parse(path, parser)
+    except UnreadableSource as error:
+        _report_unreadable(path, error, report)
+        return None
+    report.extend(file.diagnostics)
+    return file
+
+
+def _report_unreadable(path: Path, error: UnreadableSource, report: Report) -> None:
+    report.add(form.UNREADABLE, Source(path, "").file_span, f"cannot read `{path}`: {error}")

@@ -1,0 +1,1 @@
+"""PDSL: parameters, their types, ranges and defaults."""

@@ -1,0 +1,1 @@
+"""The files of a run: sources, imports and what was loaded from them."""

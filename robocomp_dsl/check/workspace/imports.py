@@ -1,0 +1,140 @@
+"""Import statements: finds the imported file or reports where it was searched.
+
+In: a statement and the file that contains it. Out: an existing path, or None and a diagnostic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from robocomp_dsl.check.codes import names as codes
+from robocomp_dsl.check.workspace.import_resolver import SUFFIX, ImportResolver, base_name
+from robocomp_dsl.diagnostics import Edit, Fix, Note, Report
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.ast.base import Import
+
+_SLICE = "ice"
+
+CycleStep = tuple[str, Import]
+"""A file and the statement that imports the next file of the cycle."""
+
+
+def locate_import(statement: Import, root: Path, search: ImportResolver) -> Path | None:
+    """The IDSL file of an import in the checked file `root`, or None."""
+    name = _idsl_name(base_name(statement.path.value))
+    return search.find(name, root) if name.lower().endswith(SUFFIX) else None
+
+
+def find_import(
+    statement: Import, root: Path, search: ImportResolver, report: Report
+) -> Path | None:
+    """As `locate`; a missing file is reported."""
+    found = locate_import(statement, root, search)
+    name = base_name(statement.path.value)
+    if found is None:
+        if name.lower().endswith(SUFFIX):
+            _report_missing(name, statement, root, search, report)
+        else:
+            _report_no_idsl(name, statement, root, search, report)
+    elif _idsl_name(name) != name:
+        _report_slice(name, statement, report)
+    return found
+
+
+def report_duplicate_imports(statements: Sequence[Import], report: Report) -> None:
+    """Report files that are imported twice."""
+    first: dict[str, Import] = {}
+    for statement in statements:
+        earlier = first.setdefault(base_name(statement.path.value), statement)
+        if earlier is not statement:
+            report.add(
+                codes.DUPLICATE_IMPORT,
+                statement.path.span,
+                f"`{base_name(statement.path.value)}` is imported twice",
+                notes=[Note(earlier.path.span, "first imported here")],
+                fix=Fix("remove the second import", (Edit(statement.span, ""),)),
+            )
+
+
+def report_cycle(steps: Sequence[CycleStep], report: Report) -> None:
+    """Report files that import each other.
+
+    The same cycle gives the same finding whichever of its files was read first.
+    """
+    start = min(range(len(steps)), key=lambda i: steps[i][0])
+    turned = [*steps[start:], *steps[:start]]
+    names = [Path(file).name for file, _ in turned]
+    if len(names) == 1:
+        statement = turned[0][1]
+        report.add(
+            codes.IMPORT_CYCLE,
+            statement.path.span,
+            f"`{names[0]}` imports itself",
+            fix=Fix("remove the import", (Edit(statement.span, ""),)),
+        )
+        return
+    chain = " → ".join(f"`{name}`" for name in (*names, names[0]))
+    links = list(zip(turned, (*names[1:], names[0]), strict=True))
+    report.add(
+        codes.IMPORT_CYCLE,
+        turned[0][1].path.span,
+        f"`{names[0]}` imports itself: {chain}",
+        notes=[Note(s.path.span, f"`{name}` is imported here") for (_, s), name in links[1:]],
+        help="move the common declarations to a third file, and import that from both",
+    )
+
+
+def replace_fix(span: Span, text: str) -> Fix:
+    """A fix that replaces `span` by `text`."""
+    return Fix(f"change to `{text}`", (Edit(span, text),))
+
+
+def _idsl_name(name: str) -> str:
+    """The IDSL file of `name`: RoboComp generates `X.ice` from `X.idsl`."""
+    stem, dot, suffix = name.rpartition(".")
+    return stem + SUFFIX if dot and suffix.lower() == _SLICE else name
+
+
+def _report_slice(name: str, statement: Import, report: Report) -> None:
+    report.add(
+        codes.SLICE_IMPORT,
+        statement.path.span,
+        f"`{name}` is generated for Ice; the import uses `{_idsl_name(name)}`",
+        fix=replace_fix(statement.path.span, f'"{_idsl_name(name)}"'),
+    )
+
+
+def _report_missing(
+    name: str, statement: Import, root: Path, search: ImportResolver, report: Report
+) -> None:
+    guess = search.suggest(name, root)
+    looked = ", ".join(str(folder) for folder in search.search_path(root))
+    written = statement.path.value
+    outside = "" if name == written else f"; only the last part, `{name}`, is looked for"
+    place = statement.path.span
+    option = "" if place.text.startswith('"') else f", which the option `{place.text}` imports"
+    report.add(
+        codes.MISSING_IMPORT,
+        place,
+        f"cannot find `{name}`{option}",
+        label=f"did you mean `{guess}`?" if guess else "",
+        help=f"looked in {looked}{outside}; `-I` and ROBOCOMP_INTERFACES add folders",
+        fix=replace_fix(statement.path.span, f'"{guess}"') if guess else None,
+    )
+
+
+def _report_no_idsl(
+    name: str, statement: Import, root: Path, search: ImportResolver, report: Report
+) -> None:
+    with_suffix = f"{name}{SUFFIX}"
+    guess = with_suffix if search.find(with_suffix, root) else None
+    report.add(
+        codes.NOT_IMPORTABLE,
+        statement.path.span,
+        f"`{statement.path.value}` is not an `{SUFFIX}` file" if name else "no file is named here",
+        label=f"did you mean `{guess}`?" if guess else "",
+        help=f"an import names an interface description, such as `Laser{SUFFIX}`; it is looked for "
+        "beside the file and in the interface folders only, wherever the written path leads",
+        fix=replace_fix(statement.path.span, f'"{guess}"') if guess else None,
+    )

@@ -1,0 +1,36 @@
+"""The workspace: the sources, import folders and loaded modules that all passes share.
+
+In: folders, the environment, unsaved buffers. One workspace lives as long as a command or an editor
+session: unchanged files are not read, parsed or resolved again.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+from robocomp_dsl.check.workspace.import_resolver import ImportResolver
+from robocomp_dsl.check.workspace.module_loader import ModuleLoader
+from robocomp_dsl.check.workspace.source_cache import SourceCache
+from robocomp_dsl.resources import INTERFACES
+
+MIDDLEWARES = ("inproc", "zenoh")
+"""The shipped middlewares; a caller may pass further ones."""
+
+
+class Workspace:
+    """The sources, the import folders and the loaded interface descriptions."""
+
+    def __init__(
+        self,
+        folders: Iterable[Path] = (),
+        environ: Mapping[str, str] = os.environ,
+        middlewares: Iterable[str] = MIDDLEWARES,
+        shipped: Path = INTERFACES,
+        files: SourceCache | None = None,
+    ) -> None:
+        self.sources = SourceCache() if files is None else files
+        self.import_resolver = ImportResolver(self.sources, folders, environ, shipped)
+        self.modules = ModuleLoader(self.sources, self.import_resolver)
+        self.middlewares = tuple(middlewares)

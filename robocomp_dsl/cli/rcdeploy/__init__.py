@@ -1,0 +1,1 @@
+"""The sub-commands of `rcdeploy`, one module each."""

@@ -1,0 +1,52 @@
+"""`rcdeploy`: runs deployments. In: the command line. Out: an exit code.
+
+0: stopped on request, or all components ended well; 1: findings, or a component failed; 2: usage.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import click
+
+from robocomp_dsl import __version__
+from robocomp_dsl.cli.program import LazyGroup, run
+
+TABLE = {
+    "up": ("rcdeploy.up", "Run a deployment in the foreground; Ctrl-C stops it in order."),
+    "plan": ("rcdeploy.plan", "Show which processes would be started, and how."),
+    "check": ("rcdeploy.check", "Check a deployment; start nothing."),
+    "status": ("rcdeploy.status", "Show the components of a running deployment."),
+    "logs": ("rcdeploy.logs", "Show the logs of a running deployment."),
+    "param": ("rcdeploy.param", "Read and change parameters of running components."),
+    "stop": ("rcdeploy.stop", "Stop a running deployment and wait until it has exited."),
+}
+
+program = LazyGroup(
+    "rcdeploy",
+    table=TABLE,
+    help="Run a deployment: `rcdeploy app.ddsl` starts all its components on this machine and "
+    "shows their logs. The command may follow the file: `rcdeploy app.ddsl status`.",
+)
+click.version_option(__version__, prog_name="rcdeploy")(program)
+
+
+def normalise_arguments(arguments: Sequence[str]) -> list[str]:
+    """`app.ddsl status -f` as `status app.ddsl -f`, and `app.ddsl` alone as `up app.ddsl`.
+
+    The word after the file counts as a command even if it is unknown, so that this is reported.
+    """
+    words = list(arguments)
+    if not words or words[0] in TABLE or not any(w.lower().endswith(".ddsl") for w in words):
+        return words
+    command_index = 1 + next(i for i, word in enumerate(words) if word.lower().endswith(".ddsl"))
+    if words[command_index:] and not words[command_index].startswith("-"):
+        return [words[command_index], *words[:command_index], *words[command_index + 1 :]]
+    return ["up", *words]
+
+
+def main() -> None:
+    """Entry point of the command."""
+    sys.argv[1:] = normalise_arguments(sys.argv[1:])
+    run(program, "rcdeploy")

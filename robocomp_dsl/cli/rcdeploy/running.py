@@ -1,0 +1,67 @@
+"""Which running deployment a command means. In: a name, a file or nothing. Out: a `Running`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.diagnostics import did_you_mean
+
+which = click.argument("which", metavar="[APP.ddsl|NAME]", required=False)
+
+
+def resolve_deployment(which: str | None) -> instances.RunningDeployment:
+    """The running deployment with that name or file, or the only one. Raises `CliError`."""
+    try:
+        known = instances.running()
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    matches = [deployment for deployment in known if which is None or _matches(deployment, which)]
+    if len(matches) != 1:
+        raise CliError(EXIT_FINDINGS, _selection_problem(which, matches, known))
+    return matches[0]
+
+
+def _selection_problem(
+    which: str | None,
+    matches: list[instances.RunningDeployment],
+    known: list[instances.RunningDeployment],
+) -> str:
+    names = ", ".join(
+        f"{deployment.name} (pid {deployment.pid})" for deployment in matches or known
+    )
+    if matches:
+        return f"several deployments are running: {names}; select one by name"
+    what = f"`{which}` is not running" if which else "no deployment is running"
+    return what + (f"; running: {names}" if names else "")
+
+
+def _matches(deployment: instances.RunningDeployment, which: str) -> bool:
+    return which == deployment.name or str(Path(which).resolve()) == deployment.path
+
+
+def components(deployment: instances.RunningDeployment) -> list[str]:
+    """The whole names of its components."""
+    try:
+        answer = next(control.send_request(deployment.name, {"verb": "status"}))
+    except (instances.Unavailable, StopIteration):
+        raise CliError(
+            EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
+        ) from None
+    return [str(row["name"]) for row in answer["rows"]]
+
+
+def resolve_component(name: str, known: Sequence[str]) -> str:
+    """The full name of a component, given with or without its prefix. Raises `CliError`."""
+    found = [
+        deployment for deployment in known if name in (deployment, deployment.rpartition("/")[2])
+    ]
+    exact = [deployment for deployment in found if deployment == name]
+    if len(exact or found) == 1:
+        return (exact or found)[0]
+    hint = did_you_mean(name, known) or f"it has {', '.join(known)}"
+    raise CliError(EXIT_FINDINGS, f"there is no component `{name}` in the deployment; {hint}")

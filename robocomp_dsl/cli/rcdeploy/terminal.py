@@ -1,0 +1,124 @@
+"""A deployment on a terminal: lines of all components, and below them a table that stays.
+
+In: records and the wish to see the status anew, from the event loop. Out: text on one stream,
+written by a thread of its own, so that a terminal that is held (Ctrl-S) holds nothing else.
+"""
+
+from __future__ import annotations
+
+import shutil
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import TextIO
+
+from robocomp_dsl.deploy.logs import LogRecord, format_record
+from robocomp_dsl.deploy.session import Display
+from robocomp_dsl.deploy.status import ProcessStatus, format_table
+
+MAX_QUEUED_LINES = 50_000
+"""Maximum lines in the queue of a slow terminal; then the oldest are dropped with a message."""
+_REFRESH_S = 1.0
+FLUSH_TIMEOUT_S = 2.0
+
+
+class Terminal(Display):
+    """Shows one deployment until `close`. `live`: with the table; `as_json`: one record a line."""
+
+    def __init__(
+        self, stream: TextIO, names: list[str], *, live: bool, colours: bool, as_json: bool
+    ) -> None:
+        self._stream = stream
+        self._width = max(map(len, [*names, "rcdeploy"]))
+        self._live = live
+        self._colours = colours
+        self._as_json = as_json
+        self._waiting: deque[LogRecord] = deque()
+        self._lost = 0
+        self._dirty = True
+        self._ending = False
+        self._shown = 0
+        self._wake = threading.Condition()
+        self._rows: Callable[[], list[ProcessStatus]] = list
+        self._stop: Callable[[str], object] = lambda _: None
+        self._thread = threading.Thread(target=self._run, name="terminal", daemon=True)
+        self._thread.start()
+
+    def record(self, record: LogRecord) -> None:
+        """Show a line, soon."""
+        with self._wake:
+            if len(self._waiting) >= MAX_QUEUED_LINES:
+                self._waiting.popleft()
+                self._lost += 1
+            self._waiting.append(record)
+            self._wake.notify()
+
+    def attach(
+        self, rows: Callable[[], list[ProcessStatus]], stop: Callable[[str], object]
+    ) -> None:
+        """Where the table comes from."""
+        self._rows, self._stop = rows, stop
+
+    def changed(self) -> None:
+        """Show the table anew, soon."""
+        if self._live:
+            with self._wake:
+                self._dirty = True
+                self._wake.notify()
+
+    def close(self) -> None:
+        """Show what is waiting; a terminal that takes nothing is not waited for long."""
+        with self._wake:
+            self._ending = True
+            self._wake.notify()
+        self._thread.join(FLUSH_TIMEOUT_S)
+
+    def _run(self) -> None:
+        try:
+            while self._refresh():
+                pass
+        except OSError:  # the output is closed, as in `| head`
+            self._stop("output closed (broken pipe)")
+
+    def _refresh(self) -> bool:
+        with self._wake:
+            self._wake.wait_for(self._needs_refresh, timeout=_REFRESH_S if self._live else None)
+            records, self._waiting = self._waiting, deque()
+            lost, self._lost = self._lost, 0
+            ending = self._ending
+            self._dirty = False
+        self._write("".join(self._screen(records, lost, ending)))
+        return not ending
+
+    def _needs_refresh(self) -> bool:
+        return bool(self._waiting) or (self._dirty and self._live) or self._ending
+
+    def _screen(self, records: deque[LogRecord], lost: int, ending: bool) -> Iterator[str]:
+        if self._shown:
+            yield f"\x1b[{self._shown}F\x1b[J"
+        self._shown = 0
+        if lost:
+            yield f"… {lost} lines were dropped: the terminal was too slow\n"
+        for record in records:
+            if self._as_json:
+                yield record.to_json() + "\n"
+            else:
+                yield format_record(record, self._width, colours=self._colours) + "\n"
+        if self._live and not ending:
+            yield from self._table()
+
+    def _table(self) -> Iterator[str]:
+        columns, lines = shutil.get_terminal_size()
+        rows = format_table(self._rows(), columns - 1, colours=self._colours)
+        room = max(lines // 2, 2)
+        if len(rows) > room:
+            rows = [*rows[: room - 1], f"… and {len(rows) - room + 1} more (rcdeploy status)"]
+        if len(rows) > 1:
+            self._shown = len(rows)
+            yield "".join(f"{row}\n" for row in rows)
+
+    def _write(self, text: str) -> None:
+        if text:
+            encoding = self._stream.encoding or "utf-8"
+            self._stream.write(text.encode(encoding, "backslashreplace").decode(encoding))
+            self._stream.flush()

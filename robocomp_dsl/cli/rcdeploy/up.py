@@ -1,0 +1,121 @@
+"""`rcdeploy up`: run a deployment. In: a DDSL file. Out: its outcome as an exit code."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
+from robocomp_dsl.deploy import instances, session
+from robocomp_dsl.deploy.plan import Plan
+from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsupported_reason
+
+
+@click.command()
+@rcdeploy_app.app
+@options.folders
+@rcdeploy_app.group
+@click.option(
+    "--name", metavar="NAME", help="Name of the running deployment; default: its name in the file."
+)
+@click.option("--domain", metavar="NAME", help="Communication domain; default: a new one.")
+@click.option(
+    "--duration",
+    type=click.FloatRange(min=0),
+    metavar="S",
+    help="Stop S seconds after all components are ready.",
+)
+@click.option(
+    "--grace",
+    type=click.FloatRange(min=0),
+    default=5.0,
+    show_default=True,
+    metavar="S",
+    help="Time for a component to exit after a stop request.",
+)
+@click.option(
+    "--keep-going",
+    is_flag=True,
+    help="Keep the other components running after a permanent failure.",
+)
+@click.option(
+    "--log-format",
+    "output_format",
+    type=click.Choice(["text", "json"]),
+    default="text",
+    help="Format of the log lines.",
+)
+@click.option(
+    "--table/--no-table",
+    "live",
+    default=None,
+    help="Show the status table below the log; default: on a terminal.",
+)
+def command(
+    app: Path,
+    folders: tuple[Path, ...],
+    group: str | None,
+    name: str | None,
+    domain: str | None,
+    **how: Any,
+) -> None:
+    """Check the deployment, start its components in order, and supervise them.
+
+    The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
+    findings or a failed component.
+    """
+    checked = rcdeploy_app.check(app, folders, name, domain, group)
+    options.print_findings(checked.findings, "full", sys.stderr)
+    if checked.plan is None or not checked.ready:
+        raise CliError(
+            EXIT_FINDINGS, f"{app}: nothing was started ({options.summary(checked.findings)})"
+        )
+    if reason := unsupported_reason():
+        raise CliError(EXIT_FINDINGS, reason)
+    try:
+        claim = instances.acquire(checked.plan.name)
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    try:
+        outcome = _run(checked.plan, claim, **how)
+    finally:
+        claim.release()
+    if outcome.code:
+        raise CliError(EXIT_FINDINGS, outcome.reason)
+
+
+def _run(
+    plan: Plan,
+    claim: instances.InstanceLock,
+    *,
+    output_format: str,
+    live: bool | None,
+    duration: float | None,
+    grace: float,
+    keep_going: bool,
+) -> Outcome:
+    from robocomp_dsl.cli.rcdeploy.terminal import Terminal  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.deploy.supervisor.zenoh_monitor import ZenohMonitor  # noqa: PLC0415
+    from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
+
+    try:
+        watch = ZenohMonitor(plan.domain)
+    except MiddlewareError as error:
+        return Outcome(EXIT_FINDINGS, str(error))
+    terminal = Terminal(
+        sys.stdout,
+        [process.name for process in plan.processes],
+        live=output_format == "text" and (sys.stdout.isatty() if live is None else live),
+        colours=options.use_colours(sys.stdout),
+        as_json=output_format == "json",
+    )
+    how = Options(grace_s=grace, duration_s=duration, keep_going=keep_going)
+    try:
+        return session.run(plan, claim, watch, terminal, how)
+    finally:
+        terminal.close()

@@ -1,0 +1,1 @@
+"""The sub-commands of `rcgen`, one module each."""

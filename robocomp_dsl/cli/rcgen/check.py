@@ -1,0 +1,84 @@
+"""`rcgen check`: checks files. In: files and folders. Out: findings; exit code 1 for errors."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.check.languages import check_file, check_syntax
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.inputs import expand_inputs
+from robocomp_dsl.cli.output.limit import limit_findings
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.diagnostics import Report
+
+Check = Callable[[Path, Workspace, Report], object]
+
+
+@click.command()
+@options.files
+@click.option("--syntax", is_flag=True, help="Check syntax only; do not resolve imports.")
+@click.option(
+    "--fix",
+    "fixing",
+    is_flag=True,
+    help="Apply safe fixes, such as updates of legacy syntax, first.",
+)
+@click.option("--diff", is_flag=True, help="With --fix: show the changes; write nothing.")
+@options.output_format
+@click.option("-q", "quiet", is_flag=True, help="Print no summary.")
+@options.folders
+def command(
+    *,
+    files: tuple[Path, ...],
+    syntax: bool,
+    fixing: bool,
+    diff: bool,
+    output_format: str,
+    quiet: bool,
+    folders: tuple[Path, ...],
+) -> None:
+    """Check IDSL, CDSL, PDSL, DDSL, SMDSL, SCXML and InnerModel files, also of whole folders.
+
+    The exit code is 1 if there are errors, else 0; warnings do not count.
+    """
+    if diff and not fixing:
+        raise click.UsageError("--diff requires --fix")
+    report = Report()
+    workspace = Workspace(folders)
+    check = check_syntax if syntax else check_file
+    paths = expand_inputs(files)
+    if fixing:
+        _fix(paths, check, workspace, diff)
+    if diff:
+        return
+    for path in paths:
+        check(path, workspace, report)
+    findings = report.sorted()
+    is_human = output_format in options.HUMAN_FORMATS
+    shown, unlisted = limit_findings(findings) if is_human else (findings, [])
+    options.print_findings(shown, output_format, sys.stdout)
+    sys.stdout.flush()
+    for line in unlisted:
+        print(line, file=sys.stderr)
+    if output_format == "full" and not quiet:
+        count = f"{len(paths)} file{'s' if len(paths) != 1 else ''}"
+        print(f"{count} checked: {options.summary(findings)}", file=sys.stderr)
+    if report.has_errors:
+        raise CliError(EXIT_FINDINGS)
+
+
+def _fix(paths: list[Path], check: Check, workspace: Workspace, diff: bool) -> None:
+    """Fix all files. Raises `CliError` for the first file that cannot be written."""
+    from robocomp_dsl.cli.rcgen.apply_fixes import apply_fixes  # noqa: PLC0415 - most runs fix nothing
+    from robocomp_dsl.generate.write import CannotWrite  # noqa: PLC0415
+
+    for path in paths:
+        try:
+            apply_fixes(path, check, workspace, diff=diff)
+        except CannotWrite as error:
+            raise CliError(EXIT_FINDINGS, str(error)) from None

@@ -1,0 +1,121 @@
+"""`rcgen migrate`: migrates existing RoboComp components and deployments.
+
+In: component folders and manager files. Out: a new folder with `MIGRATION.md`; exit code 1 if a
+part could not be migrated.
+"""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+
+from robocomp_dsl.cli import options
+from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.diagnostics import Report, Severity
+
+
+@click.command()
+@click.argument(
+    "inputs",
+    nargs=-1,
+    required=True,
+    type=click.Path(exists=True, readable=False, path_type=Path),
+    metavar="DIR|MANAGER.xml…",
+)
+@click.option(
+    "-o",
+    "output",
+    type=click.Path(readable=False, path_type=Path),
+    metavar="DIR",
+    help="Output folder, new or empty; default: the first name with `-migrated` appended.",
+)
+@click.option("-q", "quiet", is_flag=True, help="Print findings only.")
+@options.output_format
+@options.folders
+def command(
+    *,
+    inputs: tuple[Path, ...],
+    output: Path | None,
+    quiet: bool,
+    output_format: str,
+    folders: tuple[Path, ...],
+) -> None:
+    """Migrate existing RoboComp components and deployments.
+
+    DIR is the folder of a component: its CDSL, etc/config (text or TOML), src/specificworker.py.
+    MANAGER.xml is a file of rcmanager, or sub.toml; name the folders of its components, too. The
+    old folders are never changed. MIGRATION.md lists what was migrated, and what was not.
+
+    The exit code is 0 if everything was carried over, 1 if something was not.
+    """
+    out = output or _default_output(inputs[0])
+    _validate_output(inputs, out)
+    _migrate(inputs, out, folders, output_format, quiet)
+
+
+def _default_output(first: Path) -> Path:
+    absolute = Path(os.path.abspath(first))  # noqa: PTH100 - symbolic links stay
+    name = absolute.name if first.is_dir() else absolute.stem
+    return first.parent / f"{name}-migrated" if first.name else absolute.parent / f"{name}-migrated"
+
+
+def _validate_output(inputs: tuple[Path, ...], out: Path) -> None:
+    """Leave with 2 where writing would touch something that is there."""
+    real = out.resolve()
+    for folder in inputs:
+        if folder.is_dir() and real.is_relative_to(folder.resolve()):
+            raise click.UsageError(f"`{out}` is in `{folder}`, which stays as it is; use -o")
+    if out.exists() and not out.is_dir():
+        raise click.UsageError(f"`{out}` is a file; -o names a new folder")
+    if out.is_dir() and any(out.iterdir()):
+        raise click.UsageError(f"`{out}` is not empty; remove it, or name another folder with -o")
+
+
+def _migrate(
+    inputs: tuple[Path, ...], out: Path, folders: tuple[Path, ...], output_format: str, quiet: bool
+) -> None:
+    from robocomp_dsl.generate.write import CannotWrite, write  # noqa: PLC0415 - not for --help
+    from robocomp_dsl.migrate.finish import (  # noqa: PLC0415
+        check_migrated_deployment,
+        generate_components,
+        migration_report,
+    )
+    from robocomp_dsl.migrate.migration import plan_migration  # noqa: PLC0415
+
+    report = Report()
+    try:
+        plan = plan_migration(inputs, out, folders, report)
+        if plan.files:
+            write(out, plan.files)
+            for place, files in generate_components(plan, out, folders, report):
+                write(out / place, files)
+            check_migrated_deployment(plan, out, folders, report)
+            write(out, [migration_report(plan, report, _path_formatter(inputs, out))])
+    except CannotWrite as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    people = output_format in options.HUMAN_FORMATS
+    shown = [d for d in report.sorted() if not people or d.severity is not Severity.NOTE]
+    options.print_findings(shown, output_format, sys.stderr)
+    if plan.files and not quiet:
+        print(f"{out}: {len(plan.files)} files; {options.summary(report.sorted())}")
+        print(f"next: read {shlex.quote(str(out / 'MIGRATION.md'))}")
+    if report.has_errors or not plan.files:
+        raise CliError(EXIT_FINDINGS)
+
+
+def _path_formatter(inputs: tuple[Path, ...], out: Path) -> Callable[[Path], str]:
+    """How the report writes paths: from the folder that an input or the output is in."""
+
+    def shown(path: Path) -> str:
+        absolute = path.resolve()
+        for folder in (*inputs, out):
+            if absolute.is_relative_to(folder.resolve()):
+                return absolute.relative_to(folder.resolve().parent).as_posix()
+        return path.name
+
+    return shown

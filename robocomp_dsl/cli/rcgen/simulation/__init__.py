@@ -1,0 +1,1 @@
+"""`rcgen simulator`, `hardware` and `view`: commands that work on worlds and models."""

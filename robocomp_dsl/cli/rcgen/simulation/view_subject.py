@@ -1,0 +1,127 @@
+"""What `rcgen view` looks at: a file in InnerModel, URDF or MJCF, or a robot that ships.
+
+In: what the user named. Out: a compiled model, and findings with their places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from robocomp_dsl.check.passes import check_innermodel
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.cli.rcgen.simulation.model_findings import (
+    code_of,
+    read_source,
+    report_faults,
+    report_findings,
+)
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate import codes_model as codes
+from robocomp_dsl.generate.scene.scene import lower_body
+from robocomp_dsl.generate.scene.scene_files import resolve_files
+from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
+from robocomp_dsl.hardware.description.scene import Scene
+from robocomp_dsl.hardware.devices.errors import SceneError
+from robocomp_dsl.simulation.models.model_file import compiled, read_spec
+from robocomp_dsl.simulation.models.model_state import initial_data
+from robocomp_dsl.simulation.robots.build import add_robot, new_world
+from robocomp_dsl.simulation.robots.catalog import ROBOTS
+from robocomp_dsl.simulation.scene.scene_spec import build_spec
+from robocomp_dsl.simulation.view.picture import add_lighting
+from robocomp_dsl.simulation.world.limits import clamp_scene
+from robocomp_dsl.source import Source, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """`start` is what the joints have at first, by name, where that is not 0.
+
+    A model file starts at the first of its key frames.
+    """
+
+    name: str
+    model: Any
+    start: dict[str, float]
+
+    def data(self) -> Any:
+        """Its state at the start, an `MjData`."""
+        return initial_data(self.model, self.start)
+
+
+def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
+    """The model that `path` names; None after errors that leave nothing to look at."""
+    if not path.exists() and str(path) in ROBOTS:
+        return _robot(str(path))
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        message = f"`{path}` cannot be read: {error.strerror or error}"
+        report.add(codes.MODEL_FILE, Source(path, "").file_span, message)
+        return None
+    if root_tag(data) in MODELS:
+        return _model(path, packages, report)
+    return _world(path, report)
+
+
+def _robot(name: str) -> Subject:
+    robot = ROBOTS[name]()
+    spec = new_world()
+    add_robot(spec, robot)
+    add_lighting(spec)
+    return Subject(name, spec.compile(), dict(robot.start))
+
+
+def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
+    source = read_source(path)
+    try:
+        spec, findings = read_spec(path, packages)
+        add_lighting(spec)
+        model = compiled(spec, findings)
+    except ModelFileError as error:
+        report_faults(error, source, report)
+        return None
+    report_findings(findings, source, report)
+    return Subject(path.stem, model, {})
+
+
+def _world(path: Path, report: Report) -> Subject | None:
+    """The model of a world; errors are reported, and the valid part is shown."""
+    body = check_innermodel(path, Workspace(()), report)
+    if body is None or not body.has_root:
+        return None
+    if not body.root.children:
+        return _empty(path)
+    spans = {node.id: node.span for node, _ in body.nodes()}
+    findings: list[ModelFinding] = []
+    try:
+        data = lower_body(body)
+        resolve_files(data, path.parent)
+        scene, limit_notes = clamp_scene(Scene.of_data(data))
+        spec, notes = build_spec(scene)
+        add_lighting(spec)
+        model = compiled(spec, findings)
+    except SceneError as error:
+        report.add(codes.MODEL_FILE, _named(str(error), spans, body.root.span), str(error))
+        return None
+    for note in limit_notes + notes:
+        report.add(codes.MODEL_SIMPLIFIED, _named(note, spans, body.root.span), note)
+    for finding in findings:
+        report.add(code_of(finding), _named(str(finding), spans, body.root.span), finding.message)
+    return Subject(path.stem, model, {})
+
+
+def _empty(path: Path) -> Subject:
+    spec = new_world()
+    add_lighting(spec)
+    return Subject(path.stem, spec.compile(), {})
+
+
+def _named(message: str, spans: dict[str, Span], otherwise: Span) -> Span:
+    """The tag of the node whose id a message names first."""
+    found = next((spans[name] for name in message.split("`")[1::2] if name in spans), otherwise)
+    line = found.source.text.find("\n", found.start, found.end)
+    return found.source.span(found.start, found.end if line < 0 else line)

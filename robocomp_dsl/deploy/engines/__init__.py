@@ -1,1 +1,0 @@
-"""What runs a plan: today `local`, the supervisor of one machine."""

@@ -1,0 +1,1 @@
+"""Runs a plan: starts, monitors, restarts and stops the processes of one machine."""

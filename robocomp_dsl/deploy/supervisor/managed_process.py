@@ -1,0 +1,233 @@
+"""Manages the process of one component: start, readiness, restarts, termination.
+
+In: its `Process`, and the state changes that the lifecycle monitor reports. Out: its status.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import time
+from typing import Protocol
+
+from robocomp_dsl.deploy import status
+from robocomp_dsl.deploy.logs import LogRecord
+from robocomp_dsl.deploy.plan import Process
+from robocomp_dsl.deploy.status import ProcessStatus
+from robocomp_dsl.deploy.supervisor import lifecycle_monitor
+from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
+from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
+
+CLEAN_EXIT_CODES = (0, -signal.SIGTERM, 128 + signal.SIGTERM)
+"""Exit codes of a process that exited as requested."""
+EXIT_NOT_FOUND = 127
+EXIT_TIMEOUT = 124
+"""Exit codes as in a shell: the program cannot be started; it was not ready in time."""
+KILL_TIMEOUT_S = 5.0
+"""Wait at most this long for a process to exit after SIGKILL (it may hang in a driver)."""
+
+
+class SupervisorContext(Protocol):
+    """What a managed process needs from the supervisor."""
+
+    token: str
+    grace_s: float
+    stopping: asyncio.Event
+
+    def log(self, text: str, level: str = "INFO") -> None:
+        """Log a message of rcdeploy."""
+
+    def emit(self, record: LogRecord) -> None:
+        """Emit a log record of a component."""
+
+    def changed(self) -> None:
+        """A status has changed."""
+
+
+class ManagedProcess:
+    """The process of one component.
+
+    `done` is set when it will not run again; `failed` is then true after a permanent failure.
+    """
+
+    def __init__(self, process: Process, context: SupervisorContext) -> None:
+        self.process = process
+        self.name = process.name
+        self.context = context
+        self.child: ChildProcess | None = None
+        self.ready = asyncio.Event()
+        self.done = asyncio.Event()
+        self.failed = False
+        self.restart_times: list[float] = []
+        self._state = status.WAITING
+        self._note = ""
+        self._lifecycle_state = ""
+        self._started = False
+        self._was_ready = False
+        self._killed = False
+
+    def status(self) -> ProcessStatus:
+        """The current status."""
+        child = self.child
+        if child is None:
+            return ProcessStatus(
+                self.name, self._state, restarts=len(self.restart_times), note=self._note
+            )
+        child.usage.sample()
+        return ProcessStatus(
+            self.name,
+            self._state,
+            child.pid,
+            time.monotonic() - child.started,
+            len(self.restart_times),
+            child.usage.cpu,
+            child.usage.memory,
+            self._note,
+            self._lifecycle_state,
+        )
+
+    def on_state_changed(self, pid: int, state: str) -> None:
+        """Handle a state change that the monitor reports; events of earlier runs are ignored."""
+        child = self.child
+        if child is None or self._state == status.STOPPING or not child.owns(pid):
+            return
+        self._lifecycle_state = state
+        if state in lifecycle_monitor.READY_STATES:
+            self.ready.set()
+        if self.ready.is_set():
+            self._transition_to(status.READY if state else status.UNKNOWN, "")
+        else:
+            self._transition_to(status.STARTING, "")
+
+    async def run(self, dependencies: list[ManagedProcess]) -> None:
+        """Run until it will not run again. All `dependencies` must be ready before it starts."""
+        try:
+            if await self._wait_for_dependencies(dependencies):
+                await self._restart_loop()
+        finally:
+            self.child = None
+            self.done.set()
+            self.context.changed()
+
+    async def _wait_for_dependencies(self, dependencies: list[ManagedProcess]) -> bool:
+        for dependency in dependencies:
+            self._transition_to(status.WAITING, f"for {dependency.name}")
+            await wait_any(dependency.ready, dependency.done, self.context.stopping)
+            available = dependency.is_available and not dependency.failed
+            if self.context.stopping.is_set() or not available:
+                reason = f"not started: {dependency.name} was not ready"
+                self._transition_to(status.EXITED, reason)
+                return False
+        return not self.context.stopping.is_set()
+
+    @property
+    def is_available(self) -> bool:
+        """Whether dependents can start: it is ready, or has exited successfully."""
+        return self.ready.is_set() or (self.done.is_set() and self._started and not self.failed)
+
+    async def _restart_loop(self) -> None:
+        """Run the process and restart it as its policy requires."""
+        while not self.context.stopping.is_set():
+            code = await self._run_once()
+            if self.context.stopping.is_set():
+                self._on_stopped(code)
+                return
+            decision = self._decide_restart(code)
+            if decision.delay_s is None or (self._killed and not self._was_ready):
+                self._on_final_exit(code, decision.reason)
+                return
+            message = f"{self.name}: {self._note}, restarting in {decision.delay_s:g} s"
+            self.context.log(message, "WARNING")
+            self._transition_to(status.BACKOFF, self._note)
+            await wait_any(self.context.stopping, timeout=decision.delay_s)
+            self.restart_times.append(time.monotonic())
+        self._transition_to(status.EXITED, self._note)
+
+    def _decide_restart(self, code: int) -> RestartDecision:
+        now, policy = time.monotonic(), self.process.restart
+        return decide_restart(policy, self.restart_times, now, failed=code != 0)
+
+    async def _run_once(self) -> int:
+        """Start the process and wait for its exit; returns the exit code."""
+        self.ready.clear()
+        self._killed = False
+        try:
+            self.child = ChildProcess(self.process, self.context.token, self.context.emit)
+        except OSError as error:
+            self._note = f"cannot be started: {error.strerror or error}"
+            return EXIT_NOT_FOUND
+        self._started = True
+        self._lifecycle_state = ""
+        self._transition_to(status.STARTING, "")
+        child = self.child
+        await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
+        if self.ready.is_set():
+            self._was_ready = True
+            up = time.monotonic() - child.started
+            self.context.log(f"{self.name} is ready after {up:.2f} s (pid {child.pid})")
+        elif not child.exited.is_set() and not self.context.stopping.is_set():
+            await self._on_start_timeout()
+        await child.exited.wait()
+        self.child = None
+        if self._killed:
+            return EXIT_TIMEOUT
+        self._note = describe_exit(child.code)
+        return child.code
+
+    async def _on_start_timeout(self) -> None:
+        assert self.child is not None  # noqa: S101 - called while it runs
+        state = f" (state: {self._lifecycle_state})" if self._lifecycle_state else ""
+        reason = f"not ready within {self.process.start_timeout_s:g} s{state}"
+        self.context.log(f"{self.name}: {reason}", "ERROR")
+        self._killed = True
+        await self.terminate(self.context.grace_s)
+        self._note = reason
+
+    async def terminate(self, grace_s: float, kill_now: asyncio.Event | None = None) -> bool:
+        """Send SIGTERM, and SIGKILL after `grace_s` seconds or when `kill_now` is set.
+
+        Returns False if SIGKILL was needed.
+        """
+        if self.child is None:
+            return True
+        child = self.child
+        self._transition_to(status.STOPPING, self._note)
+        child.signal(signal.SIGTERM)
+        await wait_any(child.exited, *filter(None, [kill_now]), timeout=grace_s)
+        if child.exited.is_set():
+            return True
+        child.signal(signal.SIGKILL)
+        await wait_any(child.exited, timeout=KILL_TIMEOUT_S)
+        return False
+
+    def _on_stopped(self, code: int) -> None:
+        if code in CLEAN_EXIT_CODES:
+            self._transition_to(status.EXITED, "stopped")
+            return
+        self.failed = True
+        self._transition_to(status.FAILED, f"{describe_exit(code)} while stopping")
+        self.context.log(f"{self.name}: {self._note}", "ERROR")
+
+    def _on_final_exit(self, code: int, reason: str) -> None:
+        if code == 0:
+            self.context.log(f"{self.name} exited")
+            self._transition_to(status.EXITED, "")
+            return
+        self.failed = True
+        self._transition_to(status.FAILED, self._note)
+        details = f" ({reason})" if reason else ""
+        self.context.log(f"{self.name} failed permanently: {self._note}{details}", "ERROR")
+
+    def _transition_to(self, state: str, reason: str) -> None:
+        self._state, self._note = state, reason
+        self.context.changed()
+
+
+async def wait_any(*events: asyncio.Event, timeout: float | None = None) -> None:
+    """Wait until one of `events` is set, at most `timeout` seconds."""
+    tasks = [asyncio.ensure_future(event.wait()) for event in events]
+    try:
+        await asyncio.wait(tasks, timeout=timeout, return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        for task in tasks:
+            task.cancel()

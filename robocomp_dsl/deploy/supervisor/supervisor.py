@@ -1,0 +1,179 @@
+"""Supervises the processes of a deployment on one machine, in the foreground.
+
+In: a plan, a lifecycle monitor, a function that receives log records. Out: the outcome, when all
+processes have exited. Everything runs in one event loop; only the monitor calls from other threads.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from asyncio import FIRST_COMPLETED
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_dsl.deploy.logs import RCDEPLOY, LogRecord
+from robocomp_dsl.deploy.plan import Plan
+from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
+from robocomp_dsl.deploy.supervisor import reaper
+from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess, wait_any
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """Options of one run, times in s.
+
+    `grace_s`: time between SIGTERM and SIGKILL of one component; `stop_timeout_s`: the limit for
+    all components together. `duration_s` counts from the moment when all are ready. `keep_going`:
+    a permanent failure of one component does not stop the others.
+    """
+
+    grace_s: float = 5.0
+    stop_timeout_s: float = 15.0
+    duration_s: float | None = None
+    keep_going: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """How a run ended. `code` 0: stopped on request, or all exited successfully; 1: a failure."""
+
+    code: int
+    reason: str
+
+
+def unsupported_reason() -> str:
+    """Why this system cannot supervise processes; empty if it can."""
+    try:
+        os.close(os.pidfd_open(os.getpid()))
+    except (AttributeError, OSError):
+        return "rcdeploy requires Linux 5.3 or newer (system call pidfd_open)"
+    return ""
+
+
+class Supervisor:
+    """Supervises one plan."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        token: str,
+        monitor: LifecycleMonitor,
+        *,
+        emit: Callable[[LogRecord], None],
+        changed: Callable[[], None],
+        options: Options,
+    ) -> None:
+        self.plan = plan
+        self.token = token
+        self.emit = emit
+        self.changed = changed
+        self.options = options
+        self.grace_s = options.grace_s
+        self.stopping = asyncio.Event()
+        self._kill_now = asyncio.Event()
+        self._reason = ""
+        self._monitor = monitor
+        self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
+
+    def statuses(self) -> list[ProcessStatus]:
+        """The status of all components."""
+        return [process.status() for process in self._processes.values()]
+
+    def simulated_time(self) -> SimulatedTime | None:
+        """The simulated time; None without a simulated clock."""
+        return self._monitor.simulated_time()
+
+    def log(self, text: str, level: str = "INFO") -> None:
+        """Emit a log record of rcdeploy."""
+        self.emit(LogRecord(time.time(), RCDEPLOY, level, text))
+
+    def stop(self, reason: str) -> None:
+        """Stop all processes in order; a second call kills the remaining processes."""
+        if self.stopping.is_set():
+            if not self._kill_now.is_set():
+                self.log("second stop request: killing the remaining processes", "WARNING")
+            self._kill_now.set()
+            return
+        self._reason = reason
+        self.log(f"stopping: {reason}")
+        self.stopping.set()
+
+    async def run(self) -> Outcome:
+        """Start all processes and supervise them until all have exited."""
+        loop = asyncio.get_running_loop()
+        self._monitor.start(lambda *change: _call_in_loop(loop, self._on_state_changed, *change))
+        tasks = [loop.create_task(self._supervise(p)) for p in self._processes.values()]
+        duration = loop.create_task(self._stop_after_duration())
+        stopping = loop.create_task(self._shut_down())
+        try:
+            all_done = asyncio.gather(*tasks)
+            either: list[asyncio.Future[Any]] = [all_done, stopping]
+            await asyncio.wait(either, return_when=FIRST_COMPLETED)
+            if all_done.done():
+                all_done.result()  # raises an internal error of a task
+        finally:
+            for task in (duration, stopping, *tasks):
+                task.cancel()
+            self._monitor.close()
+            await asyncio.to_thread(self._kill_leftovers)
+        return self._outcome()
+
+    def _on_state_changed(self, name: str, pid: int, state: str) -> None:
+        if (process := self._processes.get(name)) is not None:
+            process.on_state_changed(pid, state)
+
+    async def _supervise(self, process: ManagedProcess) -> None:
+        await process.run([self._processes[name] for name in process.process.after])
+        if process.failed and not self.stopping.is_set() and not self.options.keep_going:
+            self.stop(f"{process.name} failed")
+
+    async def _stop_after_duration(self) -> None:
+        """Log when all are ready; with a duration, stop after it."""
+        started = time.monotonic()
+        for process in self._processes.values():
+            await wait_any(process.ready, process.done)
+        if not all(process.is_available for process in self._processes.values()):
+            return
+        elapsed = time.monotonic() - started
+        count = len(self._processes)
+        subject = f"all {count} components are" if count > 1 else "the component is"
+        self.log(f"{subject} ready after {elapsed:.2f} s")
+        if self.options.duration_s is not None:
+            await asyncio.sleep(self.options.duration_s)
+            self.stop(f"duration of {self.options.duration_s:g} s is over")
+
+    async def _shut_down(self) -> None:
+        """Terminate batch after batch; processes that exceed the grace period are killed."""
+        await self.stopping.wait()
+        deadline = time.monotonic() + self.options.stop_timeout_s
+        for batch in self.plan.shutdown_batches():
+            left = max(0.0, min(self.grace_s, deadline - time.monotonic()))
+            await asyncio.gather(*(self._terminate(self._processes[name], left) for name in batch))
+        for process in self._processes.values():
+            await wait_any(process.done, timeout=KILL_TIMEOUT_S)
+
+    async def _terminate(self, process: ManagedProcess, grace_s: float) -> None:
+        if not await process.terminate(grace_s, self._kill_now):
+            self.log(f"{process.name} did not exit within {grace_s:g} s and was killed", "WARNING")
+
+    def _kill_leftovers(self) -> None:
+        """Kill processes that components started outside their process groups."""
+        for pid in reaper.terminate_all(self.token, 0.0 if self._kill_now.is_set() else 1.0):
+            self.log(f"killed process {pid}, which a component left behind", "WARNING")
+
+    def _outcome(self) -> Outcome:
+        failed = [process.name for process in self._processes.values() if process.failed]
+        if failed:
+            return Outcome(1, f"failed: {', '.join(failed)}")
+        return Outcome(0, self._reason or "all components exited")
+
+
+def _call_in_loop(
+    loop: asyncio.AbstractEventLoop, call: Callable[..., object], *arguments: object
+) -> None:
+    if not loop.is_closed():
+        loop.call_soon_threadsafe(call, *arguments)

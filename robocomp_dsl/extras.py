@@ -1,0 +1,22 @@
+"""Libraries that only an optional extra of `robocomp_dsl` installs.
+
+In: a failed import. Out: an error whose message says how to install what is missing.
+"""
+
+from __future__ import annotations
+
+import sys
+
+
+class MissingExtra(ModuleNotFoundError):
+    """A library of an optional extra is not installed; the message says what to do."""
+
+    def __init__(self, purpose: str, extra: str, error: ModuleNotFoundError) -> None:
+        """`purpose` begins the message: what needs the library, as in "the language server"."""
+        module = (error.name or "").partition(".")[0]
+        super().__init__(
+            f"{purpose} needs the module `{module}`, which {sys.executable} does not have; "
+            f"install it: {sys.executable} -m pip install 'robocomp_dsl[{extra}]'",
+            name=module,
+        )
+        self.extra = extra

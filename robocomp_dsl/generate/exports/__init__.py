@@ -1,0 +1,1 @@
+"""Interfaces for other toolchains: Slice, ROS 2 packages, JSON Schema."""

@@ -1,0 +1,1 @@
+"""The target language Python: `component_files` lists the files of a component."""

@@ -1,0 +1,228 @@
+"""IDSL types in Python: their names, which schema they have, what their zero value is.
+
+In: the types that a component can meet. Out: `PythonTypes`, which answers for each of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from robocomp_dsl.generate import names
+from robocomp_dsl.generate.literals import python_value
+from robocomp_dsl.model.interface import Module, Operation
+from robocomp_dsl.model.types import (
+    BOOL,
+    BYTE,
+    DOUBLE,
+    FLOAT,
+    INT,
+    LONG,
+    SHORT,
+    STRING,
+    Declaration,
+    Dictionary,
+    Enum,
+    Enumerator,
+    ExceptionType,
+    Field,
+    Literal,
+    Primitive,
+    Sequence,
+    Struct,
+    Type,
+    is_fixed,
+)
+from robocomp_dsl.record import ValueRecord
+
+_ANNOTATION = {BOOL: "bool", STRING: "str", FLOAT: "float", DOUBLE: "float"}  # others: int
+_ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
+
+
+class NumpyArray(ValueRecord):
+    """The annotation of an array, that of a column of structs, and the type of the elements."""
+
+    alias: str
+    column: str
+    dtype: str
+
+
+_NUMPY = {
+    BOOL: NumpyArray("rt.BoolArray", "rt.BoolColumn", "np.bool_"),
+    BYTE: NumpyArray("rt.UInt8Array", "rt.UInt8Column", "np.uint8"),
+    SHORT: NumpyArray("rt.Int16Array", "rt.Int16Column", "np.int16"),
+    INT: NumpyArray("rt.Int32Array", "rt.Int32Column", "np.int32"),
+    LONG: NumpyArray("rt.Int64Array", "rt.Int64Column", "np.int64"),
+    FLOAT: NumpyArray("rt.Float32Array", "rt.Float32Column", "np.float32"),
+    DOUBLE: NumpyArray("rt.Float64Array", "rt.Float64Column", "np.float64"),
+}
+
+
+class Zero(ValueRecord):
+    """The value of a field that nobody gave; a `fresh` one must be made anew each time."""
+
+    text: str
+    fresh: bool = False
+
+
+class PythonTypes:
+    """The types of some modules, named."""
+
+    def __init__(self, modules: Iterable[Module]) -> None:
+        found = [
+            d
+            for module in modules
+            for d in module.declarations
+            if isinstance(d, Struct | Enum | Sequence | Dictionary | ExceptionType)
+        ]
+        self.names, self.scope = names.of_declarations(found)
+        self.ordered = tuple(_dependencies_first(found))
+        self.hidden = frozenset(_hidden(found, self.names))
+        self._enumerators = {
+            declaration: name
+            for d in found
+            if isinstance(d, Enum)
+            for declaration, name in _enumerator_names(d)
+        }
+
+    def enumerator(self, enumerator: Enumerator) -> str:
+        """Its name in Python."""
+        return self._enumerators[enumerator]
+
+    def annotation(self, type_: Type) -> str:
+        """How it is written behind a colon."""
+        if isinstance(type_, Primitive):
+            return _ANNOTATION.get(type_, "int")
+        return self.names[type_]
+
+    def declared(self, type_: Type, inside: Struct | ExceptionType | None = None) -> str:
+        """How generated types and operations state it: an annotation that names the wire type.
+
+        In the class of the struct `inside` a field may be called as its type and hide that.
+        """
+        if isinstance(type_, Primitive):
+            return f"rt.{type_.name.capitalize()}"
+        name = self.names[type_]
+        return f"_{name}" if inside is not None and name in field_names(inside) else name
+
+    def default(self, field: Field, inside: Struct | ExceptionType) -> str:
+        """The default of a field of the struct `inside`."""
+        zero = self.zero(field.type, field.default)
+        if zero.fresh:
+            return "rt.default()"
+        if isinstance(field.type, Enum):
+            return f"{self.declared(field.type, inside)}.{zero.text.rpartition('.')[2]}"
+        return zero.text
+
+    def zero(self, type_: Type, default: Literal | None = None) -> Zero:
+        """The value of a field of this type for which nobody gives one."""
+        if isinstance(type_, Primitive):
+            return Zero(_primitive(type_, default))
+        if isinstance(type_, Enum):
+            return Zero(self._first(type_, default))
+        if isinstance(type_, Struct) or record_element(type_):
+            return Zero(f"{self.names[type_]}()", fresh=True)
+        if array := numpy_of(type_):
+            return Zero(f"np.zeros(0, {array.dtype})", fresh=True)
+        return Zero("{}" if isinstance(type_, Dictionary) else "[]", fresh=True)
+
+    def _first(self, type_: Enum, default: Literal | None) -> str:
+        """The default, else the enumerator 0, else the first one."""
+        by_rank = sorted(type_.enumerators, key=lambda e: (e.name != default, e.value != 0))
+        return f"{self.names[type_]}.{self._enumerators[by_rank[0]]}"
+
+    def results(self, operation: Operation) -> tuple[tuple[str, Type], ...]:
+        """What a call gives: the return value under the name "", then the `out` parameters."""
+        returned = (("", operation.result),) if operation.result is not None else ()
+        return (*returned, *((p.name, p.type) for p in operation.outputs))
+
+    def returns(self, operation: Operation) -> str:
+        """The annotation of what a call gives."""
+        annotations = [self.annotation(type_) for _, type_ in self.results(operation)]
+        if len(annotations) > 1:
+            return f"tuple[{', '.join(annotations)}]"
+        return annotations[0] if annotations else "None"
+
+    def arguments(self, operation: Operation) -> list[tuple[str, str]]:
+        """Name and annotation of each input."""
+        argument_names = names.unique([p.name for p in operation.inputs], names.ARGUMENTS)
+        return [
+            (name, self.annotation(p.type))
+            for name, p in zip(argument_names, operation.inputs, strict=True)
+        ]
+
+
+def _primitive(type_: Primitive, default: Literal | None) -> str:
+    if default is None:
+        return _ZERO.get(type_, "0")
+    return python_value(float(default) if type_ in (FLOAT, DOUBLE) else default)
+
+
+def numpy_of(type_: Type) -> NumpyArray | None:
+    """The numpy array that a sequence of numbers or bools is; None for other types."""
+    if isinstance(type_, Sequence) and isinstance(type_.element, Primitive):
+        return _NUMPY.get(type_.element)
+    return None
+
+
+def column_of(type_: Type) -> str:
+    """What makes one column of an array of structs; that of an enum holds its ints."""
+    return _NUMPY[type_ if isinstance(type_, Primitive) else INT].column
+
+
+def record_element(type_: Type) -> Struct | None:
+    """The struct of a sequence that is one structured array, because its layout is fixed."""
+    if (
+        isinstance(type_, Sequence)
+        and isinstance(type_.element, Struct)
+        and is_fixed(type_.element)
+    ):
+        return type_.element
+    return None
+
+
+def field_names(type_: Struct | ExceptionType) -> tuple[str, ...]:
+    """The attributes of a struct or exception."""
+    reserved = names.STRUCT_MEMBERS if isinstance(type_, Struct) else names.ERROR_MEMBERS
+    return names.unique([f.name for f in type_.fields], reserved)
+
+
+def _hidden(found: Iterable[Declaration], type_names: dict[Declaration, str]) -> Iterator[str]:
+    """Names of types that a field of the same struct is called by, as in `Pose Pose;`."""
+    for declaration in found:
+        if isinstance(declaration, Struct | ExceptionType):
+            needed = {
+                type_names[f.type] for f in declaration.fields if isinstance(f.type, Declaration)
+            }
+            yield from needed & set(field_names(declaration))
+
+
+def _enumerator_names(type_: Enum) -> Iterator[tuple[Enumerator, str]]:
+    enumerator_names = names.unique([e.name for e in type_.enumerators], names.ENUM_MEMBERS)
+    return zip(type_.enumerators, enumerator_names, strict=True)
+
+
+def _mentioned(declaration: Declaration) -> Iterator[Type]:
+    match declaration:
+        case Struct() | ExceptionType():
+            yield from (f.type for f in declaration.fields)
+        case Sequence():
+            yield declaration.element
+        case Dictionary():
+            yield from (declaration.key, declaration.value)
+
+
+def _dependencies_first(declarations: Iterable[Declaration]) -> Iterator[Declaration]:
+    """Each after what it mentions, else in the order given; the checks exclude cycles."""
+    done: set[Declaration] = set()
+
+    def visit(enumerator: Declaration) -> Iterator[Declaration]:
+        if enumerator in done:
+            return
+        done.add(enumerator)
+        for type_ in _mentioned(enumerator):
+            if isinstance(type_, Declaration):
+                yield from visit(type_)
+        yield enumerator
+
+    for declaration in declarations:
+        yield from visit(declaration)

@@ -1,0 +1,149 @@
+"""One IDSL type as Python source: a class or an alias.
+
+In: a declaration and the names of all types. Out: `TypeCode`, plain data for the template of
+`interfaces.py`.
+"""
+
+from __future__ import annotations
+
+from robocomp_dsl.generate import docs, literals, names
+from robocomp_dsl.generate.python.layout import INNER, WIDTH
+from robocomp_dsl.generate.python.python_types import (
+    PythonTypes,
+    column_of,
+    field_names,
+    numpy_of,
+    record_element,
+)
+from robocomp_dsl.model.types import (
+    Declaration,
+    Dictionary,
+    Enum,
+    ExceptionType,
+    Field,
+    Sequence,
+    Struct,
+)
+from robocomp_dsl.record import ValueRecord
+
+
+class FieldCode(ValueRecord):
+    """One field of a struct or exception. What its doc comment says is above it or behind it."""
+
+    name: str
+    type: str
+    default: str
+    above: tuple[str, ...]
+    behind: str
+
+
+class EnumeratorCode(ValueRecord):
+    """One value of an enumeration, with the comment lines above it."""
+
+    name: str
+    value: int
+    comments: tuple[str, ...]
+
+
+class ColumnCode(ValueRecord):
+    """The attribute for one field of all elements of an array: its name and what makes it."""
+
+    name: str
+    definition: str
+
+
+class TypeCode(ValueRecord):
+    """One type. `kind`: struct, enum, array, alias; what a kind lacks is empty.
+
+    `base` is that of a struct, the element of an array, what an alias stands for. `rename` is empty
+    where all attributes are called as on the wire. `is_hidden`: a field is called as the type.
+    """
+
+    kind: str
+    name: str
+    base: str = ""
+    doc: str = ""
+    comments: tuple[str, ...] = ()
+    is_hidden: bool = False
+    rename: str = ""
+    fields: tuple[FieldCode, ...] = ()
+    values: tuple[EnumeratorCode, ...] = ()
+    columns: tuple[ColumnCode, ...] = ()
+
+
+def type_code(declaration: Declaration, types: PythonTypes) -> TypeCode:
+    """The class or the alias of one type."""
+    name = types.names[declaration]
+    is_hidden = name in types.hidden
+    comments = tuple(literals.comment(declaration.doc))
+    doc = literals.docstring(declaration.doc, INNER, f"{declaration.qualified}.")
+    match declaration:
+        case Struct() | ExceptionType():
+            return _struct(name, declaration, types, is_hidden=is_hidden)
+        case Enum():
+            values = tuple(
+                EnumeratorCode(types.enumerator(e), e.value, tuple(literals.comment(e.doc, INNER)))
+                for e in declaration.enumerators
+            )
+            return TypeCode("enum", name, doc=doc, is_hidden=is_hidden, values=values)
+        case Dictionary():
+            pair = ", ".join(map(types.declared, (declaration.key, declaration.value)))
+            return TypeCode("alias", name, f"dict[{pair}]", "", comments, is_hidden)
+        case Sequence():
+            if element := record_element(declaration):
+                columns = tuple(_columns(element, types))
+                base = types.names[element]
+                return TypeCode("array", name, base, doc, (), is_hidden, columns=columns)
+            array = numpy_of(declaration)
+            base = array.alias if array else f"list[{types.declared(declaration.element)}]"
+            return TypeCode("alias", name, base, "", comments, is_hidden)
+    raise TypeError(f"{declaration.qualified} is no type")
+
+
+def _struct(
+    name: str, struct: Struct | ExceptionType, types: PythonTypes, *, is_hidden: bool
+) -> TypeCode:
+    attributes = field_names(struct)
+    pairs = list(zip(attributes, struct.fields, strict=True))
+    renamed = [
+        f"{literals.quoted(attribute)}: {literals.quoted(field.name)}"
+        for attribute, field in pairs
+        if attribute != field.name
+    ]
+    return TypeCode(
+        "struct",
+        name,
+        "rt.Struct" if isinstance(struct, Struct) else "rt.DeclaredError",
+        literals.docstring(struct.doc, INNER, f"{struct.qualified}."),
+        is_hidden=is_hidden,
+        rename=f"{{{', '.join(renamed)}}}" if renamed else "",
+        fields=tuple(_field(attribute, field, struct, types) for attribute, field in pairs),
+    )
+
+
+def _field(
+    name: str, field: Field, inside: Struct | ExceptionType, types: PythonTypes
+) -> FieldCode:
+    type_, default = types.declared(field.type, inside), types.default(field, inside)
+    doc = docs.of_field(field)
+    behind = f"  # {literals.printable(doc)}" if doc else ""
+    if len(f"{INNER}{name}: {type_} = {default}{behind}") <= WIDTH:
+        return FieldCode(name, type_, default, (), behind)
+    rows = literals.wrapped(literals.printable(doc), WIDTH - len(f"{INNER}# "))
+    return FieldCode(name, type_, default, tuple(f"{INNER}# {row}" for row in rows if row), "")
+
+
+def _columns(element: Struct, types: PythonTypes) -> list[ColumnCode]:
+    attributes = field_names(element)
+    # The columns share their scope with the list's own methods, the fields do not.
+    column_names = names.unique(
+        attributes, names.ARRAY_MEMBERS | names.ANNOTATION | set(types.names.values())
+    )
+    columns = []
+    for name, attribute, field in zip(column_names, attributes, element.fields, strict=True):
+        arguments = [] if name == attribute else [literals.quoted(attribute)]
+        column_class = column_of(field.type)
+        if isinstance(field.type, Struct):
+            column_class, arguments = "rt.NestedColumn", [types.names[field.type], *arguments]
+        columns.append(ColumnCode(name, f"{column_class}({', '.join(arguments)})"))
+    return columns

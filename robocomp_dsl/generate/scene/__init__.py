@@ -1,0 +1,1 @@
+"""InnerModel worlds and skin as plain data for the simulation."""

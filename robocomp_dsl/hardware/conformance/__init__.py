@@ -1,0 +1,1 @@
+"""Conformance rules for devices, simulated or real, listed in `rules`."""

@@ -1,0 +1,33 @@
+"""What every device of a kind keeps to, simulated or real: one rule, one function.
+
+In: a device and a way to let time pass. Out: nothing, or `Broken` with what is wrong. `rcgen
+hardware` writes a test that holds these against a new driver and against its simulated twin.
+"""
+
+from __future__ import annotations
+
+from robocomp_dsl.hardware.conformance import base, joints, pictures, ranges, sensors
+from robocomp_dsl.hardware.conformance.rule import ConformanceRule, Violation
+
+__all__ = ["RULES", "ConformanceRule", "Violation"]
+
+RULES: dict[str, tuple[ConformanceRule, ...]] = {
+    "laser": ranges.LASER,
+    "ultrasound": ranges.ULTRASOUND,
+    "differentialrobot": base.BASE,
+    "omnirobot": base.BASE,
+    "imu": sensors.IMU,
+    "gps": sensors.GPS,
+    "battery": sensors.BATTERY,
+    "touchsensor": sensors.TOUCH,
+    "camera": pictures.CAMERA,
+    "rgbd": pictures.RGBD,
+    "model_camera": pictures.CAMERA,
+    "model_rgbd": pictures.RGBD,
+    "model_imu": sensors.IMU,
+    "model_touch": sensors.TOUCH,
+    "model_range": ranges.ULTRASOUND,
+    "joint": joints.JOINTS,
+    "prismaticjoint": joints.JOINTS,
+}
+"""The rules of each kind of device, by the tag of InnerModel, or as MJCF has it (`model_`)."""

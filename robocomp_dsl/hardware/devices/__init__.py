@@ -1,0 +1,1 @@
+"""Device data and the Protocols of their drivers, one module per kind of device."""

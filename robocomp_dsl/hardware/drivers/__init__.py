@@ -1,0 +1,1 @@
+"""Hosts for drivers of real devices."""

@@ -1,0 +1,1 @@
+"""Readers of URDF, COLLADA, mesh and picture files."""

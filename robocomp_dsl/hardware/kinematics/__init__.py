@@ -1,0 +1,1 @@
+"""Rotations, transform trees, Jacobians and inverse kinematics in numpy."""

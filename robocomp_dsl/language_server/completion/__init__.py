@@ -1,0 +1,1 @@
+"""Completion: the context of the cursor, and the candidates of each language."""

@@ -1,0 +1,50 @@
+"""Completion of paths in strings: imports, parameters, state machines and configurations."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+
+from lsprotocol import types as lsp
+
+from robocomp_dsl.language_server.completion.candidates import CompletionCandidate
+from robocomp_dsl.language_server.completion.context import CompletionContext
+from robocomp_dsl.language_server.session import Session
+
+SUFFIXES = {
+    "PARAMETERS": (".pdsl",),
+    "STATEMACHINE": (".smdsl", ".scxml"),
+    "CONFIG": (".yaml", ".yml", ".toml"),
+}
+"""Keyword before the string to the suffixes of the files that it accepts."""
+
+
+def candidates(session: Session, context: CompletionContext) -> Iterator[CompletionCandidate]:
+    """The paths of the accepted files, as they are written in the file."""
+    if context.previous_kind == "IMPORT":
+        paths = _imports(session, context)
+    else:
+        paths = _files_in_folder(session, context, SUFFIXES.get(context.previous_kind, ()))
+    for path in paths:
+        yield CompletionCandidate(path, lsp.CompletionItemKind.File)
+
+
+def _imports(session: Session, context: CompletionContext) -> Iterator[str]:
+    if context.path.suffix.lower() != ".ddsl":
+        known = session.workspace.import_resolver.importable_files(context.path)
+        yield from (name for name in known if name != context.path.name)
+        return
+    yield from _files_in_folder(session, context, (".cdsl",))
+    for path in session.known_files():
+        if path.suffix.lower() == ".cdsl":
+            yield os.path.relpath(path, context.path.parent).replace(os.sep, "/")
+
+
+def _files_in_folder(
+    session: Session, context: CompletionContext, suffixes: tuple[str, ...]
+) -> Iterator[str]:
+    """Files in the folder of the file and in its `etc` folder."""
+    for below in ("", "etc"):
+        for name in session.files.names_in(context.path.parent / below):
+            if name.lower().endswith(suffixes) and suffixes:
+                yield f"{below}/{name}".lstrip("/")

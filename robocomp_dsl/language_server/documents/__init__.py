@@ -1,0 +1,1 @@
+"""Open documents: synchronization, file watching, and when files are checked."""

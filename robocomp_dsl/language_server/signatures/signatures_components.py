@@ -1,0 +1,102 @@
+"""Signatures of parameters, components and deployments. In: objects of the model. Out: text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from robocomp_dsl.language_server.signatures.signatures_block import format_block
+from robocomp_dsl.language_server.signatures.signatures_idsl import format_interface
+from robocomp_dsl.model.component import Component, Port
+from robocomp_dsl.model.deployment import Deployment, Host, Instance
+from robocomp_dsl.model.parameter import Kind, Parameter, ParameterSet
+
+
+def format_parameter(parameter: Parameter) -> str:
+    """A parameter as a PDSL statement."""
+    if parameter.kind is Kind.GROUP:
+        count = "" if parameter.single else f"[{_range(parameter)}]"
+        members = [format_parameter(member) for member in parameter.members]
+        return format_block(f"{parameter.name}{count}", members)
+    choices = f"{{{', '.join(parameter.choices)}}}"
+    parts = [
+        parameter.name,
+        choices if parameter.kind is Kind.CHOICE else parameter.kind.value,
+        "" if parameter.default is None else _literal(parameter),
+        f"[{parameter.unit}]" if parameter.unit else "",
+        _range(parameter),
+        "live" if parameter.live else "",
+    ]
+    return " ".join(part for part in parts if part) + ";"
+
+
+def _parameter_set(parameters: ParameterSet) -> str:
+    lines = [format_parameter(parameter) for parameter in parameters.parameters]
+    return format_block(f"ComponentParams {parameters.name}", lines)
+
+
+def _literal(parameter: Parameter) -> str:
+    if isinstance(parameter.default, bool):
+        return str(parameter.default).lower()
+    is_string = parameter.kind is Kind.STRING
+    return f'"{parameter.default}"' if is_string else str(parameter.default)
+
+
+def _range(parameter: Parameter) -> str:
+    if parameter.low is None and parameter.high is None:
+        return ""
+    low = "" if parameter.low is None else f"{parameter.low:g}"
+    high = "" if parameter.high is None else f"{parameter.high:g}"
+    return f"{low}:{high}"
+
+
+def _component(component: Component) -> str:
+    lines = [_port(port) for port in component.ports]
+    lines += [f"period {component.period};", f"middleware {component.middleware};"]
+    return format_block(f"Component {component.name}", lines)
+
+
+def _port(port: Port) -> str:
+    name = "" if port.name == port.interface.name else f" as {port.name}"
+    middleware = f"({port.middleware})" if port.middleware else ""
+    return f"{port.role} {port.interface.qualified}{middleware}{name};"
+
+
+def _port_with_interface(port: Port) -> str:
+    return f"{_port(port)}\n{format_interface(port.interface)}"
+
+
+def _instance(instance: Instance) -> str:
+    host = f" on {instance.host.name}" if instance.host.name else ""
+    head = f"component {instance.name} : {instance.component.name}{host}\n"
+    return head + _prefix(instance) + _component(instance.component)
+
+
+def _prefix(instance: Instance) -> str:
+    if not instance.prefix:
+        return ""
+    return f'prefix "{instance.prefix}";    // runs as {instance.full_name}\n'
+
+
+def _host(host: Host) -> str:
+    return f'host {host.name} {{ address "{host.address}"; }};'
+
+
+def _deployment(deployment: Deployment) -> str:
+    connections = [
+        f"connect {c.source.name}.{c.source_port.name} -> {c.target.name}.{c.target_port.name};"
+        for c in deployment.connections
+    ]
+    instances = [f"component {i.name} : {i.component.name};" for i in deployment.instances]
+    return format_block(f"Deployment {deployment.name}", instances + connections)
+
+
+SIGNATURES: dict[type, Callable[[Any], str]] = {
+    Parameter: format_parameter,
+    ParameterSet: _parameter_set,
+    Component: _component,
+    Port: _port_with_interface,
+    Instance: _instance,
+    Host: _host,
+    Deployment: _deployment,
+}

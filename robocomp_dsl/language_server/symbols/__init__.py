@@ -1,0 +1,1 @@
+"""Symbols and their occurrences: `index` answers most features, one reader per language."""

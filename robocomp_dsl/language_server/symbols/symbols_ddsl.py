@@ -1,0 +1,151 @@
+"""Indexer of DDSL files: instances, hosts, groups, components, ports and parameters."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from robocomp_dsl.check.ddsl.components import imported_components
+from robocomp_dsl.check.passes import check_cdsl, check_ddsl
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.language_server.symbols.symbol import Occurrence, Symbol
+from robocomp_dsl.language_server.symbols.symbols_cdsl import (
+    component_symbol,
+    has_alias,
+    port_symbol,
+)
+from robocomp_dsl.language_server.symbols.symbols_idsl import declaration_symbol
+from robocomp_dsl.language_server.symbols.symbols_pdsl import parameter_symbol
+from robocomp_dsl.model.component import Component
+from robocomp_dsl.model.parameter import Parameter
+from robocomp_dsl.source import Source
+from robocomp_dsl.syntax.ast import ddsl as ast
+from robocomp_dsl.syntax.ast.base import Name
+from robocomp_dsl.syntax.parse import parse_ddsl
+
+_PART = re.compile(r"[A-Za-z_]\w*")
+
+
+def index_file(path: Path, workspace: Workspace) -> tuple[Source, bool, list[Occurrence]]:
+    """The occurrences in the file at `path`. Raises `UnreadableSource`."""
+    file = workspace.sources.parse(path, parse_ddsl)
+    tree = file.tree.deployment
+    if tree is None:
+        return file.source, file.tree.complete, []
+    imported = imported_components(file.tree.imports, path, workspace, check_cdsl, Report())
+    deployment = check_ddsl(path, workspace, Report())
+    model_objects: dict[int, object] = {}
+    if deployment:
+        model_objects = {instance.span.start: instance for instance in deployment.instances}
+        model_objects |= {host.span.start: host for host in deployment.hosts if host.span}
+    symbol = Symbol(tree.name.text, "deployment", tree.name.span, deployment)
+    collector = _OccurrenceCollector(imported.components, model_objects, tree.name.text, workspace)
+    occurrences = [Occurrence(symbol.span, symbol, declares=True), *collector.of_hosts(tree)]
+    occurrences += collector.of_block(tree)
+    return file.source, file.tree.complete, occurrences
+
+
+class _OccurrenceCollector:
+    """`model_objects` are the instances and hosts of the model by the offset of their names."""
+
+    def __init__(
+        self,
+        components: Mapping[str, Component],
+        model_objects: Mapping[int, object],
+        container: str,
+        workspace: Workspace,
+    ) -> None:
+        self._components = components
+        self._model_objects = model_objects
+        self._container = container
+        self._workspace = workspace
+        self._hosts: dict[str, Symbol] = {}
+
+    def of_hosts(self, tree: ast.Deployment) -> Iterator[Occurrence]:
+        """The hosts, which are also visible in groups."""
+        for host in tree.hosts:
+            self._hosts[host.name.text] = self._symbol(host.name, "host")
+            yield Occurrence(host.name.span, self._hosts[host.name.text], declares=True)
+
+    def of_block(self, tree: ast.Deployment | ast.Group) -> Iterator[Occurrence]:
+        """All occurrences in a deployment or a group."""
+        instances = {i.name.text: self._symbol(i.name, "instance") for i in tree.instances}
+        for group in tree.groups:
+            instances[group.name.text] = self._symbol(group.name, "group")
+            yield Occurrence(group.name.span, instances[group.name.text], declares=True)
+            yield from self.of_block(group)
+        kinds = {i.name.text: (i.component or i.name).text for i in tree.instances}
+        for instance in tree.instances:
+            yield from self._instance(instance, instances)
+        ends = [end for c in tree.connections for end in (c.source, c.target)]
+        if isinstance(tree, ast.Group):
+            ends += [export.target for export in tree.exports]
+        for end in ends:
+            yield from _name_occurrence(end.instance, instances)
+            component = self._components.get(kinds.get(end.instance.text, ""))
+            if component:
+                yield from _port_occurrence(end.port, component, self._workspace)
+
+    def _symbol(self, name: Name, kind: str) -> Symbol:
+        model_object = self._model_objects.get(name.span.start)
+        return Symbol(name.text, kind, name.span, model_object, self._container)
+
+    def _instance(self, tree: ast.Instance, known: Mapping[str, Symbol]) -> Iterator[Occurrence]:
+        own, name = tree.name.text, tree.component or tree.name
+        component = self._components.get(name.text)
+        short = component is not None and tree.component is None
+        if component:
+            template = f"{own} : {{}}" if short else "{}"
+            yield Occurrence(name.span, component_symbol(component), rename_template=template)
+        template = f"{{}} : {own}" if short else "{}"
+        yield Occurrence(tree.name.span, known[own], declares=True, rename_template=template)
+        if tree.host:
+            yield from _name_occurrence(tree.host, self._hosts)
+        for name in tree.after:
+            yield from _name_occurrence(name, known)
+        if component and component.parameters:
+            for setting in tree.settings:
+                yield from _key_occurrences(
+                    setting.key, component.parameters.parameters, component.name
+                )
+
+
+def _name_occurrence(name: Name, symbols: Mapping[str, Symbol]) -> Iterator[Occurrence]:
+    if name.text in symbols:
+        yield Occurrence(name.span, symbols[name.text])
+
+
+def _port_occurrence(
+    name: Name, component: Component, workspace: Workspace
+) -> Iterator[Occurrence]:
+    port = next((port for port in component.ports if port.name == name.text), None)
+    if port is None:
+        return
+    definition = port_symbol(port, component)
+    if has_alias(port, component, workspace):
+        yield Occurrence(name.span, definition)
+    else:
+        # `Laser1` is the second port of `Laser`: a rename keeps the number.
+        template = f"{{}}{name.text.removeprefix(port.interface.name)}"
+        yield Occurrence(
+            name.span,
+            declaration_symbol(port.interface),
+            rename_template=template,
+            definition=definition,
+        )
+
+
+def _key_occurrences(
+    name: Name, parameters: Sequence[Parameter], container: str
+) -> Iterator[Occurrence]:
+    """The parameters in a key such as `motors[2].min`, up to the first unknown name."""
+    for part in _PART.finditer(name.span.text):
+        parameter = next((p for p in parameters if p.name == part[0]), None)
+        if parameter is None:
+            return
+        start = name.span.start + part.start()
+        span = name.span.source.span(start, start + len(part[0]))
+        yield Occurrence(span, parameter_symbol(parameter, container))
+        parameters, container = parameter.members, parameter.name

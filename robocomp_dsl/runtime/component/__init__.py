@@ -1,0 +1,1 @@
+"""The running component: lifecycle, execution, ports, introspection, logs."""

@@ -1,0 +1,68 @@
+"""The base class of all components: hooks of the lifecycle, and attributes for user code.
+
+Generated code extends it; the user's class extends the generated one. The runner sets the
+attributes.
+"""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.component.spec import ComponentSpec
+from robocomp_dsl.runtime.machine import Machine
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.component.runner import Runner
+
+
+class Component:
+    """One component. Handlers, `compute` and the other hooks run one at a time (`threads 1`).
+
+    `name` is the name of this instance, `params` are its parameters, `config_file` is their file
+    (None: no file), `log` is its logger, `clock` its clock. These attributes and the proxies are
+    available from `initialize` on, not in `__init__`. A component with a state machine also has
+    `machine`, which starts after `initialize`.
+    """
+
+    SPEC: ClassVar[ComponentSpec]
+    name: str
+    params: Any  # of the class `SPEC.parameters`; generated code declares which
+    config_file: Path | None
+    log: logging.Logger
+    clock: Clock
+    machine: Machine
+    _runner: Runner
+
+    def initialize(self) -> None:
+        """Called once at the start, before other components can call."""
+
+    def compute(self) -> None:
+        """Called every period."""
+
+    def emergency(self) -> None:
+        """Called every period of an emergency, instead of `compute`."""
+
+    def restore(self) -> None:
+        """Called before an emergency ends; the emergency continues if this raises."""
+
+    def finalize(self) -> None:
+        """Called once at the end; other components can still be called."""
+
+    def declare_emergency(self, reason: str) -> None:
+        """Enter an emergency: `compute` is not called until `end_emergency`."""
+        self._runner.lifecycle.declare_emergency(reason)
+
+    def end_emergency(self) -> None:
+        """Leave a declared emergency: `restore`, then `compute` again."""
+        self._runner.lifecycle.end_emergency()
+
+    def set_period(self, milliseconds: int) -> None:
+        """Change the period of `compute`, in ms; 0: event-driven."""
+        self._runner.lifecycle.set_period(milliseconds)
+
+    def quit(self) -> None:
+        """Stop the component normally, after the current hook."""
+        self._runner.stop()

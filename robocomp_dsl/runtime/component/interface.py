@@ -1,0 +1,123 @@
+"""Interfaces as the middleware sees them: operations, how they travel, and the hash of their shape.
+
+In: the declarations of generated code. Out: `Interface` and `Operation`, whose codecs are compiled
+on first use.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
+
+from robocomp_dsl.runtime.codec.codec import (
+    compile_decoder,
+    compile_encoder,
+    compile_error_decoder,
+    compile_error_encoder,
+)
+from robocomp_dsl.runtime.data.schema import Declared, fields_of
+from robocomp_dsl.runtime.data.type_hash import digest, interface_shape
+from robocomp_dsl.runtime.errors import DeclaredError
+
+
+class Pattern(enum.StrEnum):
+    """How an operation travels.
+
+    `COMMAND`: one way, one to one. `QUERY`: request and reply. `PUBLISH`: one way, one to many.
+    `UNMARKED`: a publication on a topic, a query with an empty reply on a service.
+    """
+
+    COMMAND = "command"
+    QUERY = "query"
+    PUBLISH = "publish"
+    UNMARKED = "unmarked"
+
+
+class Operation:
+    """One operation. `outputs`: the result under the name "", then the `out` parameters in order.
+
+    Generated code states inputs and outputs as names with annotations, and the result as `returns`.
+    The codecs take and give what the Python methods do: a request is the tuple of the arguments; a
+    reply is None without outputs, the output itself if there is one, else the tuple of them.
+    Encoders raise `EncodeError`, decoders `MalformedMessage` and nothing else.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        pattern: Pattern = Pattern.QUERY,
+        inputs: Declared = (),
+        outputs: Declared = (),
+        throws: tuple[type[DeclaredError], ...] = (),
+        *,
+        returns: object = None,
+        idempotent: bool = False,
+    ) -> None:
+        self.name = name
+        self.pattern = pattern
+        self.inputs = fields_of(inputs)
+        result = () if returns is None else fields_of((("", returns),))
+        self.outputs = (*result, *fields_of(outputs))
+        self.throws = throws
+        self.idempotent = idempotent
+
+    @cached_property
+    def encode_request(self) -> Callable[[tuple[Any, ...]], bytes]:
+        """Arguments to bytes."""
+        return compile_encoder(self.inputs)
+
+    @cached_property
+    def decode_request(self) -> Callable[[bytes], tuple[Any, ...]]:
+        """Bytes to arguments."""
+        return compile_decoder(self.inputs)
+
+    @cached_property
+    def encode_reply(self) -> Callable[[Any], bytes]:
+        """What a servant returns to bytes."""
+        return compile_encoder(self.outputs, result=True)
+
+    @cached_property
+    def decode_reply(self) -> Callable[[bytes], Any]:
+        """Bytes to what a proxy returns."""
+        return compile_decoder(self.outputs, result=True)
+
+    @cached_property
+    def encode_error(self) -> Callable[[DeclaredError], bytes]:
+        """A declared exception to bytes: its index in `throws`, then its fields.
+
+        Raises `EncodeError` for one that the operation does not declare.
+        """
+        return compile_error_encoder(self.throws)
+
+    @cached_property
+    def decode_error(self) -> Callable[[bytes], DeclaredError]:
+        """Bytes to the declared exception, to be raised."""
+        return compile_error_decoder(self.throws)
+
+
+class Interface:
+    """One interface, `name` as in `Module::Interface`."""
+
+    def __init__(self, name: str, *operations: Operation) -> None:
+        self.name = name
+        self.operations = operations
+
+    @cached_property
+    def hash(self) -> bytes:
+        """8 bytes that are equal for interfaces of equal shape and, but for chance, only for them.
+
+        The shape: the names of the interface, its operations, parameters, fields and enumerators,
+        their types on the wire, and the patterns. Names of types are not in it: a component that
+        knows two modules with a type of the same name calls them otherwise than its peer.
+        """
+        return digest(interface_shape(self))
+
+    @cached_property
+    def _by_name(self) -> dict[str, Operation]:
+        return {operation.name: operation for operation in self.operations}
+
+    def operation(self, name: str) -> Operation:
+        """The operation called `name`. Raises `KeyError`."""
+        return self._by_name[name]

@@ -1,0 +1,145 @@
+"""Run settings of one component, parsed from the command line.
+
+In: items such as `laser=base1` and `laser=best_effort,depth=1`. Out: `RunSettings`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from robocomp_dsl.runtime.component.naming import ANY, resolve_name
+from robocomp_dsl.runtime.middleware.base import Qos
+from robocomp_dsl.runtime.time.clock_settings import ClockSettings
+
+NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]{0,99}")
+PORT = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,99}")
+MAX_PREFIX_DEPTH = 8
+"""Maximum depth of nested namespaces."""
+PRIORITIES = ("background", "low", "normal", "high", "realtime")
+
+
+class InvalidSetting(ValueError):
+    """An invalid setting; the message shows the valid form."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunSettings:
+    """How to run a component. Empty values: the defaults of the component.
+
+    `prefix` is the namespace of the component and its peers (see `naming.resolve_name`); `remaps`
+    renames ports: a served port is visible under the new name, any other port looks for it.
+    """
+
+    name: str = ""
+    prefix: str = ""
+    domain: str = "default"
+    middleware: str = ""
+    config: Path | None = None
+    overrides: tuple[str, ...] = ()
+    connections: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    qos: dict[str, Qos] = field(default_factory=dict)
+    remaps: dict[str, str] = field(default_factory=dict)
+    listen_port: int = 0
+    clock: ClockSettings = field(default_factory=ClockSettings)
+
+    def full_name(self, component: str) -> str:
+        """The full name of the instance; `component` is the default name."""
+        return resolve_name(self.prefix, self.name or component)
+
+    def peers_of(self, port: str) -> tuple[str, ...]:
+        """The peers that an outgoing port is connected to, by full names."""
+        name = self.remaps.get(port)
+        peers = self.connections.get(port, (f"{ANY}.{name}",) if name else ())
+        names = (resolve_name(self.prefix, peer) for peer in peers)
+        return tuple(
+            peer_name if not name or "." in peer_name.rpartition("/")[2] else f"{peer_name}.{name}"
+            for peer_name in names
+        )
+
+
+def parse_name(text: str, kind: str) -> str:
+    """`text` as a name. Raises `InvalidSetting`."""
+    if not NAME.fullmatch(text):
+        raise InvalidSetting(
+            f"`{text}` is not a valid {kind} name: use letters, digits, `_`, `-` and `.`,"
+            " not starting with a digit"
+        )
+    return text
+
+
+def parse_prefix(text: str) -> str:
+    """`left` or `/left/hand` as the prefix of names; `/` is none. Raises `InvalidSetting`."""
+    parts = text.strip("/").split("/") if text.strip("/") else []
+    if len(parts) > MAX_PREFIX_DEPTH:
+        raise InvalidSetting(f"`{text:.80}` has more than {MAX_PREFIX_DEPTH} parts")
+    return "/".join(parse_name(part, "prefix") for part in parts)
+
+
+def parse_remaps(texts: Iterable[str]) -> dict[str, str]:
+    """`PORT=NAME`: the names of ports for others. Raises `InvalidSetting`."""
+    parsed: dict[str, str] = {}
+    for text in texts:
+        port, _, name = text.partition("=")
+        if not port or not PORT.fullmatch(name):
+            raise InvalidSetting(
+                f"`{text:.80}` is not a remap; write PORT=NAME, such as Laser=front"
+            )
+        if parsed.setdefault(port, name) != name:
+            raise InvalidSetting(f"`{port}` has two names, {parsed[port]} and {name}")
+    return parsed
+
+
+def parse_peer(text: str) -> str:
+    """Check a peer: `base`, `base.Laser`, `hand/base`, or `/right/base` from the root."""
+    for name in text.removeprefix("/").split("/"):
+        parse_name(name, "component")
+    return text
+
+
+def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:
+    """`PORT=COMPONENT` or `PORT=COMPONENT.PORT`, several for a port. Raises `InvalidSetting`."""
+    parsed: dict[str, tuple[str, ...]] = {}
+    for text in texts:
+        port, separator, peer = text.partition("=")
+        if not separator or not port:
+            raise InvalidSetting(
+                f"`{text}` is not a connection; write PORT=COMPONENT, such as Laser=base"
+            )
+        parsed[port] = (*parsed.get(port, ()), parse_peer(peer))
+    return parsed
+
+
+def parse_qos(texts: Iterable[str]) -> dict[str, Qos]:
+    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`."""
+    parsed: dict[str, Qos] = {}
+    for text in texts:
+        port, separator, items = text.partition("=")
+        if not separator or not port:
+            raise InvalidSetting(
+                f"`{text}` is not a quality of service; write PORT=reliable,depth=10"
+            )
+        for word in filter(None, items.split(",")):
+            parsed[port] = _with_qos_item(parsed.get(port, Qos()), word)
+    return parsed
+
+
+def _with_qos_item(qos: Qos, word: str) -> Qos:
+    key, _, value = word.partition("=")
+    if word in ("reliable", "best_effort"):
+        return replace(qos, reliable=word == "reliable")
+    if key == "priority" and value in PRIORITIES:
+        return replace(qos, priority=value)
+    try:
+        if key == "depth" and int(value) > 0:
+            return replace(qos, depth=int(value))
+        if key == "deadline" and float(value) > 0:
+            return replace(qos, deadline=float(value) / 1000)
+    except ValueError:
+        pass
+    raise InvalidSetting(
+        f"`{word}` is not a quality of service; valid items: reliable, best_effort, depth=N,"
+        f" deadline=MS, and priority= with one of {', '.join(PRIORITIES)}"
+    )

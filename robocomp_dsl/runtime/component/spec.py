@@ -1,0 +1,48 @@
+"""What a component is made of: the constant that generated code writes and the runtime reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from robocomp_dsl.runtime.component.interface import Interface
+from robocomp_dsl.runtime.component.proxy import Proxy
+from robocomp_dsl.runtime.machine.spec import MachineSpec
+from robocomp_dsl.runtime.parameters import Parameters
+
+
+@dataclass(frozen=True, slots=True)
+class ServedPort:
+    """An interface that others call or publish to; `methods` maps its operations to methods."""
+
+    name: str
+    interface: Interface
+    methods: Mapping[str, str] = field(default_factory=dict)
+    middleware: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CalledPort:
+    """An interface that this component calls or publishes, through the proxy at `attribute`."""
+
+    name: str
+    proxy: type[Proxy]
+    attribute: str
+    middleware: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class ComponentSpec:
+    """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time."""
+
+    name: str
+    period: int = 100
+    threads: int = 1
+    middleware: str = "zenoh"
+    implements: tuple[ServedPort, ...] = ()
+    requires: tuple[CalledPort, ...] = ()
+    publishes: tuple[CalledPort, ...] = ()
+    subscribes: tuple[ServedPort, ...] = ()
+    parameters: type[Parameters] = Parameters
+    version: str = ""
+    machine: MachineSpec | None = None

@@ -1,0 +1,68 @@
+"""Statistics of a component: counts of calls, bytes and losses, and durations.
+
+Counting uses no lock: a figure may miss a concurrent call, but counting never delays a call.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+TIMING_INTERVAL = 4
+"""One of so many calls is timed: reading the clock twice is a large part of the cost of a call."""
+WINDOW = 512
+"""Number of latest durations over which percentiles are computed."""
+
+
+class Durations:
+    """The latest durations in ns, and how many there were."""
+
+    __slots__ = ("_latest", "count")
+
+    def __init__(self) -> None:
+        self._latest = [0] * WINDOW
+        self.count = 0
+
+    def add(self, nanoseconds: int) -> None:
+        """Add a duration."""
+        self._latest[self.count % WINDOW] = nanoseconds
+        self.count += 1
+
+    def milliseconds(self, *percents: float) -> tuple[float, ...]:
+        """Percentiles of the latest durations in ms; zeros without any."""
+        latest = self._latest[: min(self.count, WINDOW)]
+        if not latest:
+            return tuple(0.0 for _ in percents)
+        return tuple(float(v) / 1e6 for v in np.percentile(latest, percents))
+
+
+@dataclass(slots=True)
+class OperationCounts:
+    """Counts of one operation of one port. `durations`: call to reply, or of the handler."""
+
+    port: str
+    operation: str
+    calls: int = 0
+    failures: int = 0
+    bytes_in: int = 0
+    bytes_out: int = 0
+    drops: int = 0
+    malformed: int = 0
+    missed: int = 0
+    durations: Durations = field(default_factory=Durations)
+
+
+@dataclass(slots=True)
+class Statistics:
+    """All counts of a component. `periods`: between two starts of `compute`; `computes`: of it."""
+
+    operations: dict[tuple[str, str], OperationCounts] = field(default_factory=dict)
+    periods: Durations = field(default_factory=Durations)
+    computes: Durations = field(default_factory=Durations)
+    overruns: int = 0
+    failures: int = 0
+
+    def of(self, port: str, operation: str) -> OperationCounts:
+        """The counts of one operation, created on first use."""
+        return self.operations.setdefault((port, operation), OperationCounts(port, operation))

@@ -1,0 +1,1 @@
+"""Values of IDSL types: structs, struct arrays, conversion, type hashes."""

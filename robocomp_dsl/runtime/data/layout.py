@@ -1,0 +1,138 @@
+"""How the elements of a sequence of fixed structs lie in memory and on the wire.
+
+In: a struct class whose leaves are numbers, bools and enums. Out: `RowLayout`.
+
+In XCDR1 every leaf is aligned by itself to its size, counted from the start of the message; a
+struct has no alignment or padding of its own. So behind the first element, which may begin at
+another residue, all elements have the same layout and the same distance, and the last one has no
+padding behind it. The numpy type has that layout, so elements are copied as one block.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, TypeGuard
+
+import numpy as np
+
+from robocomp_dsl.runtime.data.per_class_cache import once
+from robocomp_dsl.runtime.data.schema import INT, STRING, Enum, Primitive, Type
+from robocomp_dsl.runtime.data.struct import Struct
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """One number of an element. `path`: the attributes that lead to it."""
+
+    path: tuple[str, ...]
+    type: Primitive | type[Enum]
+
+    @property
+    def primitive(self) -> Primitive:
+        """What is on the wire; an enum is an int there."""
+        return self.type if isinstance(self.type, Primitive) else INT
+
+
+@dataclass(frozen=True, eq=False)
+class RowLayout:
+    """Layout of the elements from the second on. Sizes and offsets in bytes.
+
+    `offsets` of the leaves from the start of the element; `residue`: where an element begins,
+    modulo `alignment`, the largest of its leaves; `stride`: distance of two elements, the size of
+    `dtype`; `size`: without the padding behind; `direct`: no padding anywhere and the first element
+    lies as the others do, once its start is aligned.
+    """
+
+    dtype: np.dtype[Any]
+    leaves: tuple[Leaf, ...]
+    offsets: tuple[int, ...]
+    residue: int
+    alignment: int
+    stride: int
+    size: int
+    direct: bool
+
+    @property
+    def first_alignment(self) -> int:
+        """That of the first leaf; the padding before an element follows from it."""
+        return self.leaves[0].primitive.size
+
+    def first(self, start: int) -> tuple[tuple[int, ...], int]:
+        """Offsets and size of a first element that begins at `start`, aligned for it."""
+        return _placed(self.leaves, start)
+
+
+def padding(position: int, alignment: int) -> int:
+    """Bytes from `position` to the next multiple of `alignment`."""
+    return -position % alignment
+
+
+@once
+def row_layout(element: type[Struct]) -> RowLayout:
+    """The layout of a sequence of `element`. Raises `TypeError` for one without fixed size."""
+    leaves = tuple(_leaves(element, ()))
+    if not leaves:
+        raise TypeError(f"{element.__name__} has no fields to make an array of")
+    first, alignment = leaves[0].primitive.size, max(leaf.primitive.size for leaf in leaves)
+    size = _placed(leaves, 0)[1]
+    residue = (size + padding(size, first)) % alignment
+    offsets, size = _placed(leaves, residue)
+    stride = size + padding(residue + size, first)
+    solid = stride == sum(leaf.primitive.size for leaf in leaves)
+    return RowLayout(
+        dtype=_dtype(element, iter(offsets), stride)[0],
+        leaves=leaves,
+        offsets=offsets,
+        residue=residue,
+        alignment=alignment,
+        stride=stride,
+        size=size,
+        # The count before the first element ends at a multiple of 4.
+        direct=solid and residue == 0 and (alignment <= 4 or first == alignment),
+    )
+
+
+def _leaves(type_: Type, path: tuple[str, ...]) -> Iterator[Leaf]:
+    if _is_leaf(type_):
+        yield Leaf(path, type_)
+    elif isinstance(type_, type) and issubclass(type_, Struct) and type_._fields_:
+        for name, (_, inner) in zip(type_._names_, type_._fields_, strict=True):
+            yield from _leaves(inner, (*path, name))
+    else:
+        raise TypeError(f"{'.'.join(path) or type_}: no number, so no fixed size")
+
+
+def _is_leaf(type_: Type) -> TypeGuard[Primitive | type[Enum]]:
+    if isinstance(type_, Primitive):
+        return type_ is not STRING
+    return isinstance(type_, type) and issubclass(type_, Enum)
+
+
+def _placed(leaves: tuple[Leaf, ...], start: int) -> tuple[tuple[int, ...], int]:
+    """Offsets of the leaves and size of an element that begins at `start`."""
+    offsets, at = [], start
+    for leaf in leaves:
+        at += padding(at, leaf.primitive.size)
+        offsets.append(at - start)
+        at += leaf.primitive.size
+    return tuple(offsets), at - start
+
+
+def _dtype(type_: Type, offsets: Iterator[int], size: int = 0) -> tuple[np.dtype[Any], int, int]:
+    """The numpy type with its begin and end; leaves take their offsets from the iterator."""
+    if not (isinstance(type_, type) and issubclass(type_, Struct)):
+        primitive = type_ if isinstance(type_, Primitive) else INT
+        at = next(offsets)
+        return primitive.dtype, at, at + primitive.size
+    fields = [_dtype(inner, offsets) for _, inner in type_._fields_]
+    begin, end = fields[0][1], fields[-1][2]
+    dtype = np.dtype(
+        {
+            "names": list(type_._names_),
+            "formats": [format_ for format_, _, _ in fields],
+            "offsets": [at - begin for _, at, _ in fields],
+            "itemsize": size or end - begin,
+        }
+    )
+    return dtype, begin, end

@@ -1,0 +1,130 @@
+"""The types of IDSL as the runtime sees them: what the codec encodes and the shape hash covers.
+
+In: what generated code declares, also as annotations. Out: immutable schema objects; structs,
+exceptions, enums and struct arrays are described by their classes themselves.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias, get_args, get_origin
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.data.arrays import StructArray
+    from robocomp_dsl.runtime.data.struct import Struct
+
+
+@dataclass(frozen=True, slots=True)
+class Primitive:
+    """A built-in type. `code` is its letter in `struct` formats, empty for a string.
+
+    `size` in bytes is also its alignment on the wire (OMG CDR, section 15.3.1.1 of CORBA 3.0).
+    """
+
+    name: str
+    code: str
+    size: int
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The numpy type of an array of it, in wire order."""
+        return np.dtype(f"<{self.code}" if self.size > 1 else self.code)
+
+
+BOOL = Primitive("bool", "?", 1)
+BYTE = Primitive("byte", "B", 1)  # unsigned, as ROS and YARP have it
+SHORT = Primitive("short", "h", 2)
+INT = Primitive("int", "i", 4)
+LONG = Primitive("long", "q", 8)
+FLOAT = Primitive("float", "f", 4)
+DOUBLE = Primitive("double", "d", 8)
+STRING = Primitive("string", "", 4)  # it begins with its length
+
+
+class Enum(enum.IntEnum):
+    """Base of the enumerations that an IDSL file declares; 32 bits on the wire."""
+
+
+@dataclass(frozen=True, slots=True)
+class Array:
+    """A sequence of numbers or bools; one-dimensional numpy array in Python."""
+
+    element: Primitive
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.element, Primitive) or self.element is STRING:
+            raise TypeError(f"an Array is of numbers or bools, not of {self.element!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A sequence of anything else; a list in Python."""
+
+    element: Type
+
+    def __post_init__(self) -> None:
+        if isinstance(self.element, Primitive) and self.element is not STRING:
+            raise TypeError(f"a sequence of {self.element.name} is an Array")
+
+
+@dataclass(frozen=True, slots=True)
+class Dictionary:
+    """Keys and values; a dict in Python, a sequence of (key, value) structs on the wire."""
+
+    key: Type
+    value: Type
+
+    def __post_init__(self) -> None:
+        if isinstance(self.key, Array | Sequence | Dictionary):
+            raise TypeError("the key of a dictionary is a primitive, an enum or a struct")
+
+
+Type: TypeAlias = (
+    "Primitive | Array | Sequence | Dictionary | type[Enum | Struct | StructArray[Any]]"
+)
+Fields: TypeAlias = tuple[tuple[str, Type], ...]
+
+Declared: TypeAlias = "Mapping[str, object] | Iterable[tuple[str, object]]"
+"""Fields as generated code states them: a name and an annotation for each."""
+
+_OBJECTS = (Primitive, Array, Sequence, Dictionary)
+
+
+def schema_of(annotation: Any) -> Type:
+    """The type that an annotation of generated code stands for; a schema object is one itself.
+
+    `Annotated[float, FLOAT]` is FLOAT, `list[X]` a sequence, `dict[K, V]` a dictionary. Raises
+    `TypeError` for what IDSL has no type for.
+    """
+    if metadata := getattr(annotation, "__metadata__", None):
+        annotation = metadata[0]
+    if isinstance(annotation, type(list[int])):
+        origin, inner = (
+            get_origin(annotation),
+            [schema_of(argument) for argument in get_args(annotation)],
+        )
+        if origin is list:
+            return Sequence(*inner)
+        if origin is dict:
+            return Dictionary(*inner)
+    elif isinstance(annotation, _OBJECTS) or _is_declared(annotation):
+        schema: Type = annotation
+        return schema
+    raise TypeError(f"{annotation!r} is no type of IDSL; fields are annotated as in `rt.Int`")
+
+
+def _is_declared(cls: Any) -> bool:
+    """Whether it is an enum, a struct or an array of structs, whose classes know their fields."""
+    if not isinstance(cls, type):
+        return False
+    return issubclass(cls, Enum) or hasattr(cls, "_fields_") or hasattr(cls, "_element_")
+
+
+def fields_of(declared: Declared) -> Fields:
+    """The fields with their schema."""
+    pairs = declared.items() if isinstance(declared, Mapping) else declared
+    return tuple((name, schema_of(type_)) for name, type_ in pairs)

@@ -1,0 +1,106 @@
+"""zenoh middleware: components in any processes of one machine, each with its own session.
+
+In: a `MiddlewareContext`. Out: its `Middleware`. Components are discovered through liveliness
+tokens, one per port.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+import zenoh
+
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
+from robocomp_dsl.runtime.middleware.zenoh import keys
+from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
+from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
+from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
+from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
+
+
+def open_for(host: MiddlewareContext) -> ZenohMiddleware:
+    """A session for one component."""
+    return ZenohMiddleware(host, open_session(host.domain, host.listen_port))
+
+
+class ZenohMiddleware:
+    """All connections of one component."""
+
+    def __init__(self, host: MiddlewareContext, opened: DomainSession) -> None:
+        self._host = host
+        self._opened = opened
+        self._session = opened.session
+        self._registry = PortRegistry(self._session, host.domain)
+        self._ports: list[ServedZenohPort] = []
+        self._tokens: list[zenoh.LivelinessToken] = []
+        self._state: zenoh.LivelinessToken | None = None
+
+    def serve(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
+        """See `base.Middleware`."""
+        port = ServedZenohPort(self._host, at, handlers, execution)
+        port.serve(self._session)
+        self._ports.append(port)
+        self._declare("server", at)
+
+    def proxy(self, at: Endpoint) -> ZenohServiceChannel:
+        """See `base.Middleware`."""
+        return ZenohServiceChannel(self._session, self._registry, self._host, at)
+
+    def advertise(self, at: Endpoint) -> ZenohTopicChannel:
+        """See `base.Middleware`."""
+        self._declare("publisher", at)
+        self._registry.warn_on_mismatch("subscriber", at)
+        return ZenohTopicChannel(self._session, self._registry, self._host, at)
+
+    def subscribe(
+        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+    ) -> None:
+        """See `base.Middleware`."""
+        port = ServedZenohPort(self._host, at, handlers, execution)
+        port.subscribe(self._session)
+        self._ports.append(port)
+        self._declare("subscriber", at)
+        self._registry.warn_on_mismatch("publisher", at)
+
+    def _declare(self, role: str, at: Endpoint) -> None:
+        """Declare the token of a port; after the port, so that it can be used when it is seen."""
+        port_token = keys.PortToken(
+            role, at.interface.name, at.component, at.port, at.interface.hash.hex()
+        )
+        token = self._session.liveliness().declare_token(port_token.key(self._host.domain))
+        self._tokens.append(token)
+
+    def publish_state(self, state: str) -> None:
+        """See `base.Middleware`."""
+        before = self._state
+        self._state = None
+        if state:
+            key = keys.state_key(self._host.domain, self._host.component, os.getpid(), state)
+            try:
+                self._state = self._session.liveliness().declare_token(key)
+            except zenoh.ZError:
+                # A hook that outlived the shutdown may get here later.
+                if not self._registry.closed:
+                    raise
+        # The new state comes first; otherwise a monitor would see the component exit in between.
+        if before:
+            before.undeclare()
+
+    def interrupt(self) -> None:
+        """See `base.Middleware`."""
+        self._registry.interrupt()
+
+    def close(self) -> None:
+        """See `base.Middleware`."""
+        self.interrupt()
+        tokens, self._tokens = self._tokens, []
+        for token in tokens:
+            token.undeclare()
+        ports, self._ports = self._ports, []
+        for port in ports:
+            port.close()
+        self._opened.close()

@@ -1,0 +1,1 @@
+"""Clocks: wall time, simulated time, its source, and lock-step."""

@@ -1,0 +1,23 @@
+"""The physics engine, MuJoCo: loaded once, its warnings sent to the logger `robocomp.mujoco`.
+
+By default MuJoCo writes its warnings into a file in the working folder. `connect` runs when the
+package is imported, before any other module of it can use the engine.
+"""
+
+from __future__ import annotations
+
+import logging
+
+from robocomp_dsl.extras import MissingExtra
+
+
+def connect() -> None:
+    """Load MuJoCo and redirect its warnings. Raises `MissingExtra`.
+
+    It must run before the first model is compiled.
+    """
+    try:
+        import mujoco  # noqa: PLC0415 - its absence is explained
+    except ModuleNotFoundError as error:
+        raise MissingExtra("the simulation of devices", "simulation", error) from None
+    mujoco.set_mju_user_warning(logging.getLogger("robocomp.mujoco").warning)

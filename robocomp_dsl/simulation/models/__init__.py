@@ -1,0 +1,1 @@
+"""Model files (URDF, MJCF) as simulations and as scenes."""

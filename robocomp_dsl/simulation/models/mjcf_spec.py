@@ -1,0 +1,117 @@
+"""Reads MJCF files, and replaces missing meshes and textures.
+
+In: the path of an MJCF file. Out: its `MjSpec`, in which meshes that MuJoCo cannot read are boxes
+and textures that are not there are left out, with findings.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.hardware.description.model_paths import resolve
+from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_surface
+from robocomp_dsl.simulation.models.mesh_geom import MeshCache, is_flat
+
+_ITS_OWN = {".obj", ".msh"}
+_LINE = re.compile(r"line(?: number=|\s+)(\d+)", re.IGNORECASE)
+
+
+def build_mjcf(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[ModelFinding]]:
+    """The model in the file at `path`. Raises `ModelFileError`."""
+    try:
+        spec = mujoco.MjSpec.from_file(str(path))
+    except (ValueError, mujoco.FatalError) as error:
+        raise error_with_line(error) from None
+    findings: list[ModelFinding] = []
+    _replace_meshes(spec, path, packages, findings)
+    _drop_textures(spec, path, packages, findings)
+    return spec, findings
+
+
+def error_with_line(error: Exception) -> ModelFileError:
+    """The error of MuJoCo about a file, with its line."""
+    message = str(error)
+    line = _LINE.search(message)
+    words = " ".join(message.replace("XML Error:", "").removeprefix("Error:").split())
+    return ModelFileError(words, int(line[1]) if line else 0)
+
+
+def _replace_meshes(
+    spec: Any, path: Path, packages: Sequence[Path], findings: list[ModelFinding]
+) -> None:
+    shelf = MeshCache(spec, findings)
+    boxes: dict[str, tuple[Any, dict[str, Any]]] = {}
+    for mesh in list(spec.meshes):
+        if not mesh.file:
+            continue
+        folder = "" if "://" in mesh.file else spec.meshdir
+        file = resolve(str(Path(folder) / mesh.file) if folder else mesh.file, path, packages)
+        if file.suffix.lower() in _ITS_OWN and file.is_file():
+            mesh.file = str(file.absolute())
+            continue
+        if file.suffix.lower() == ".stl" and _mesh_source(mesh, file):
+            continue
+        name = mesh.name or file.stem
+        replacement = shelf.geom(file, tuple(mesh.scale.tolist()), name, _line(mesh))
+        if replacement["type"] == mujoco.mjtGeom.mjGEOM_BOX:
+            boxes[name] = mesh, replacement
+    for geom in list(spec.geoms):
+        if geom.meshname in boxes:
+            _, replacement = boxes[geom.meshname]
+            geom.meshname = ""
+            geom.type, geom.size = replacement["type"], replacement["size"]
+            turn = np.zeros(9)
+            mujoco.mju_quat2Mat(turn, geom.quat / np.linalg.norm(geom.quat))
+            geom.pos = geom.pos + turn.reshape(3, 3) @ replacement["shift"]
+            geom.rgba = replacement.get("rgba", geom.rgba)
+    for mesh, _ in boxes.values():
+        spec.delete(mesh)
+
+
+def _mesh_source(mesh: Any, file: Path) -> bool:
+    """Give a mesh the points of an STL file; MuJoCo reads only the binary form, and small ones."""
+    try:
+        surface = read_surface(file)
+    except MeshError:
+        return False
+    if not len(surface.faces) or is_flat(surface.points):
+        return False
+    mesh.name = mesh.name or file.stem
+    mesh.file = ""
+    mesh.uservert = surface.points.ravel().tolist()
+    mesh.userface = surface.faces.ravel().tolist()
+    return True
+
+
+def _drop_textures(
+    spec: Any, path: Path, packages: Sequence[Path], findings: list[ModelFinding]
+) -> None:
+    gone: set[str] = set()
+    for texture in list(spec.textures):
+        files = [file for file in (texture.file, *texture.cubefiles) if file]
+        folder = Path(spec.texturedir or "")
+        missing = [
+            file for file in files if not resolve(str(folder / file), path, packages).is_file()
+        ]
+        if missing:
+            name = texture.name or Path(missing[0]).stem
+            message = f"the texture `{name}` is left out: `{missing[0]}` is not there"
+            findings.append(ModelFinding("texture", name, message, _line(texture)))
+            gone.add(name)
+            spec.delete(texture)
+    for material in spec.materials:
+        for i, name in enumerate(material.textures):
+            if name in gone:
+                material.textures[i] = ""
+
+
+def _line(element: Any) -> int:
+    found = re.search(r"line (\d+)", element.info)
+    return int(found[1]) if found else 0

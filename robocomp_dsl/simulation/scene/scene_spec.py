@@ -1,0 +1,166 @@
+"""A scene to a MuJoCo model: a body for every frame, a joint for all that moves, a geom per shape.
+
+In: a `Scene`. Out: an `MjSpec` whose joints and geoms have the scene's ids (bodies: `body_name`),
+and what had to be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of
+`xpos` and `xmat` gives its matrices.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.description.scene import ROOT, Frame, Model, Motion, Scene, Triple
+from robocomp_dsl.hardware.devices.errors import SceneError
+from robocomp_dsl.hardware.kinematics.rotations import rotation
+from robocomp_dsl.simulation.models.model_start import reload_spec
+from robocomp_dsl.simulation.scene import axes
+from robocomp_dsl.simulation.scene.axes import MM
+from robocomp_dsl.simulation.scene.scene_shapes import add_box, add_mesh
+from robocomp_dsl.simulation.world.arena import reserve_arena
+
+_LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
+_UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+def body_name(frame: str) -> str:
+    """The body name of a frame; `world` is MuJoCo's own name for the root."""
+    return {ROOT: "world", "world": "world."}.get(frame, frame)
+
+
+def build_spec(scene: Scene) -> tuple[Any, list[str]]:
+    """The model of `scene`, and notes on deviations from it. Raises `SceneError`."""
+    spec, notes = _base_spec(scene.model)
+    bodies = {body.name: body for body in spec.bodies} | {ROOT: spec.worldbody}
+    degrees = math.degrees(1.0) if spec.compiler.degree else 1.0
+    taken = {joint.name for joint in spec.joints} | {frame.id for frame in scene.frames}
+    into = _BuildContext(bodies, degrees, scene.model is not None, taken)
+    try:
+        for frame in scene.frames:
+            if frame.id != ROOT and not frame.model_part:
+                bodies[frame.id] = _add_frame(into, frame, notes)
+        for box in scene.boxes:
+            add_box(spec, bodies[box.frame], box, notes)
+        for mesh in scene.meshes:
+            add_mesh(spec, bodies[mesh.frame], mesh, notes)
+    except ValueError as error:
+        raise SceneError(f"MuJoCo cannot build the world: {error}") from None
+    reserve_arena(spec, len(bodies))
+    return spec, notes
+
+
+@dataclass(frozen=True, slots=True)
+class _BuildContext:
+    """The specification under construction. Hinge angles are multiplied by `degrees`.
+
+    `taken` are the names that joints have, or will have.
+    """
+
+    bodies: dict[str, Any]
+    degrees: float
+    weigh: bool
+    taken: set[str]
+
+    def free(self, name: str) -> str:
+        """A name for a joint that is like `wanted` and taken from now on."""
+        while name in self.taken:
+            name += "'"
+        self.taken.add(name)
+        return name
+
+
+def _base_spec(model: Model | None) -> tuple[Any, list[str]]:
+    """The specification that the scene is added to: that of its file, or an empty one."""
+    if model is None:
+        spec, notes = mujoco.MjSpec(), list[str]()
+        spec.compiler.degree = False
+        lightest = _LIGHTEST
+    else:
+        try:
+            started = reload_spec(model.file)
+        except OSError as error:
+            message = f"`{model.file}` cannot be read: {error.strerror or error}"
+            raise SceneError(message) from None
+        spec, notes = started.spec, [str(finding) for finding in started.findings]
+        lightest = max(model.boundmass, spec.compiler.boundmass)
+    spec.compiler.boundmass = lightest
+    spec.compiler.boundinertia = max(lightest * 1e-3, spec.compiler.boundinertia)
+    return spec, notes
+
+
+def _add_frame(into: _BuildContext, frame: Frame, notes: list[str]) -> Any:
+    if frame.parent not in into.bodies:
+        raise SceneError(f"`{frame.id}` is in `{frame.parent}`, which is not a frame before it")
+    body = into.bodies[frame.parent].add_body(
+        name=body_name(frame.id),
+        pos=axes.point(*frame.place),
+        quat=axes.quaternion(rotation(*frame.turn)),
+    )
+    moves = frame.motion or frame.drives or frame.physics
+    if frame.mass > 0 or (moves and into.weigh):
+        _weigh(body, frame.mass if frame.mass > 0 else _LIGHTEST)
+    if frame.physics and frame.parent == ROOT and frame.mass <= 0:
+        notes.append(f"`{frame.id}` falls and has no mass: it gets {_LIGHTEST:g} kg")
+    if frame.physics and frame.parent == ROOT:
+        body.add_freejoint(name=frame.id)
+        return body
+    body.gravcomp = 1.0
+    if frame.physics:
+        notes.append(f"`{frame.id}` is in another frame and is moved by that, not by physics")
+    if frame.motion:
+        _add_joint(body, frame, frame.motion, into.degrees)
+    elif frame.drives:
+        _add_wheels(body, frame, into)
+    return body
+
+
+def _weigh(body: Any, mass: float) -> None:
+    body.explicitinertial = True
+    body.mass = mass
+    body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
+    body.inertia = [0.4 * mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
+
+
+def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:
+    hinge = motion.kind == "hinge"
+    at = "xyz".index(motion.axis)
+    if hinge:
+        # Rx·Ry·Rz: the rotations after that of the joint are between it and the body
+        behind = [turn if i > at else 0.0 for i, turn in enumerate(frame.turn)]
+        axis = axes.turn_axis(rotation(*behind).T @ _UNIT[motion.axis])
+        now, unit = frame.turn[at], degrees
+    else:
+        axis = axes.direction(_UNIT[motion.axis])
+        now, unit = frame.place[at] - motion.offset, MM
+    joint = body.add_joint(
+        name=frame.id,
+        type=mujoco.mjtJoint.mjJNT_HINGE if hinge else mujoco.mjtJoint.mjJNT_SLIDE,
+        axis=axis,
+        ref=now * unit,
+        damping=[0.1, 0, 0] if hinge else [10.0, 0, 0],
+    )
+    if motion.low < motion.high and math.isfinite(motion.low) and math.isfinite(motion.high):
+        joint.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+        joint.range = [motion.low * unit, motion.high * unit]
+
+
+def _add_wheels(body: Any, frame: Frame, into: _BuildContext) -> None:
+    """A base slides along its first x and z and turns about its y; nothing lets it fall.
+
+    The base finds the three by their order in the body; other nodes may have their names.
+    """
+    for name, axis in (("x", (1.0, 0.0, 0.0)), ("z", (0.0, 0.0, 1.0))):
+        body.add_joint(
+            name=into.free(f"{frame.id}.{name}"),
+            type=mujoco.mjtJoint.mjJNT_SLIDE,
+            axis=axes.direction(axis),
+        )
+    body.add_joint(
+        name=into.free(f"{frame.id}.alpha"),
+        type=mujoco.mjtJoint.mjJNT_HINGE,
+        axis=axes.turn_axis(np.array(_UNIT["y"])),
+    )

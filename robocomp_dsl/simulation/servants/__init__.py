@@ -1,0 +1,1 @@
+"""Servants that need the simulated world itself."""

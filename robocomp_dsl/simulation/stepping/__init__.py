@@ -1,0 +1,1 @@
+"""What advances a simulated world: real time, or the clock of its deployment."""

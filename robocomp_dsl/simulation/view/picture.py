@@ -1,0 +1,210 @@
+"""Pictures of a model, made by MuJoCo without a screen.
+
+In: `MjModel` and `MjData`, a size, where to look from. Out: pixels, or a PNG file.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from robocomp_dsl.hardware.devices.errors import NoRendering
+from robocomp_dsl.simulation.view.offscreen import new_context
+
+Pixels = NDArray[np.uint8]
+Floats = NDArray[np.float64]
+
+_MOST_GEOMS = 200_000
+_FRAME = mujoco.mjtFrame
+_LABEL = mujoco.mjtLabel
+SCREEN = ".screen"
+"""Behind the names of textures that change while they are being looked at."""
+_SKY = 0.4
+"""Of the way to the far plane: the box of the sky is not nearer, scenes are much smaller."""
+LARGEST = 8192
+"""Pixels along one side."""
+
+
+@dataclass(frozen=True, slots=True)
+class Viewpoint:
+    """The viewpoint, and what to show besides shapes.
+
+    `azimuth` and `elevation` are in degrees as MuJoCo counts them; at a `distance` of 1 the ball
+    around all shapes just fits, planes left out. `camera` is the name of one in the model, instead.
+    """
+
+    azimuth: float = 120.0
+    elevation: float = -25.0
+    distance: float = 1.0
+    camera: str = ""
+    frames: bool = False
+    names: bool = False
+    contacts: bool = False
+
+
+class Renderer:
+    """Draws one model; a context manager. Raises `NoRendering`."""
+
+    def __init__(self, model: Any, width: int = 1280, height: int = 960) -> None:
+        if not (0 < width <= LARGEST and 0 < height <= LARGEST):
+            raise NoRendering(f"a picture has 1 to {LARGEST} pixels a side, not {width}x{height}")
+        self.model, self.width, self.height = model, width, height
+        model.vis.global_.offwidth = max(int(model.vis.global_.offwidth), width)
+        model.vis.global_.offheight = max(int(model.vis.global_.offheight), height)
+        self._gl = new_context(width, height)
+        self._gl.make_current()
+        try:
+            self._context = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_150)
+        except mujoco.FatalError as error:
+            self._gl.free()
+            raise NoRendering(f"OpenGL cannot render this model: {error}") from None
+        mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN, self._context)
+        most = min(_MOST_GEOMS, 1000 + 8 * model.ngeom + model.nsite)
+        self._scene = mujoco.MjvScene(model, maxgeom=most)
+        self._screens = {i: _checksum(model, i) for i in range(model.ntex) if _is_screen(model, i)}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._context.free()
+        self._gl.free()
+
+    def render(self, data: Any, look: Viewpoint = Viewpoint()) -> Pixels:
+        """The image, shape (height, width, 3)."""
+        option, camera = mujoco.MjvOption(), self._camera(look, data)
+        option.frame = _FRAME.mjFRAME_BODY if look.frames else _FRAME.mjFRAME_NONE
+        option.label = _LABEL.mjLABEL_BODY if look.names else _LABEL.mjLABEL_NONE
+        flags = mujoco.mjtVisFlag
+        for flag in (flags.mjVIS_CONTACTPOINT, flags.mjVIS_CONTACTFORCE):
+            option.flags[flag] = look.contacts
+        everything = mujoco.mjtCatBit.mjCAT_ALL
+        mujoco.mjv_updateScene(self.model, data, option, None, camera, everything, self._scene)
+        self._refresh()
+        view = mujoco.MjrRect(0, 0, self.width, self.height)
+        mujoco.mjr_render(view, self._scene, self._context)
+        pixels = np.empty((self.height, self.width, 3), dtype=np.uint8)
+        mujoco.mjr_readPixels(pixels, None, view, self._context)
+        return pixels[::-1]
+
+    def _refresh(self) -> None:
+        """Screens that show something else than they did are seen so from now on."""
+        for texture, known in self._screens.items():
+            now = _checksum(self.model, texture)
+            if now != known:
+                self._screens[texture] = now
+                mujoco.mjr_uploadTexture(self.model, self._context, texture)
+
+    def depths(self) -> NDArray[np.float32]:
+        """Depth of the last image [m], infinite where nothing is.
+
+        Shape (height, width). From window coordinates with 1 at the near plane and 0 at the far
+        one, d = n·f / (w·(f - n) + n).
+        """
+        depths = np.empty((self.height, self.width), dtype=np.float32)
+        self._context.readDepthMap = mujoco.mjtDepthMap.mjDEPTH_ZEROFAR
+        mujoco.mjr_readPixels(
+            None, depths, mujoco.MjrRect(0, 0, self.width, self.height), self._context
+        )
+        extent, planes = float(self.model.stat.extent), self.model.vis.map
+        near, far = (float(row) * extent for row in (planes.znear, planes.zfar))
+        wide = depths.astype(np.float64)
+        metres = near * far / (wide * (far - near) + near)
+        metres[metres > _SKY * far] = np.inf
+        return np.ascontiguousarray(metres[::-1], dtype=np.float32)
+
+    def _camera(self, look: Viewpoint, data: Any) -> Any:
+        camera = mujoco.MjvCamera()
+        if look.camera:
+            number = mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_CAMERA, look.camera)
+            if number < 0:
+                raise NoRendering(f"the model has no camera `{look.camera}`")
+            camera.type, camera.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, number
+            return camera
+        camera.type = mujoco.mjtCamera.mjCAMERA_FREE
+        low, high = scene_extent(self.model, data)
+        camera.lookat = (low + high) / 2
+        radius = max(float(np.linalg.norm(high - low)) / 2, 1e-3)
+        opening = math.radians(float(self.model.vis.global_.fovy)) * min(
+            1, self.width / self.height
+        )
+        camera.distance = look.distance * radius / math.sin(opening / 2)
+        camera.azimuth, camera.elevation = look.azimuth, look.elevation
+        return camera
+
+
+def _is_screen(model: Any, texture: int) -> bool:
+    return str(model.texture(texture).name).endswith(SCREEN)
+
+
+def _checksum(model: Any, texture: int) -> int:
+    first = int(model.tex_adr[texture])
+    size = int(model.tex_width[texture]) * int(model.tex_height[texture])
+    return zlib.crc32(model.tex_data[first : first + size * int(model.tex_nchannel[texture])])
+
+
+def scene_extent(model: Any, data: Any) -> tuple[Floats, Floats]:
+    """The corners of the box around all shapes but planes; around the frames if there are none."""
+    if not model.ngeom or (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).all():
+        return data.xpos.min(axis=0) - 0.5, data.xpos.max(axis=0) + 0.5
+    real = np.flatnonzero(model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
+    turn = data.geom_xmat[real].reshape(-1, 3, 3)
+    centre = data.geom_xpos[real] + np.einsum("nij,nj->ni", turn, model.geom_aabb[real, :3])
+    half = np.einsum("nij,nj->ni", np.abs(turn), model.geom_aabb[real, 3:])
+    return (centre - half).min(axis=0), (centre + half).max(axis=0)
+
+
+def add_lighting(spec: Any) -> None:
+    """Give a model that has no light and no sky both, so that pictures of it are not black."""
+    if not len(spec.lights):
+        spec.visual.headlight.ambient = [0.5, 0.5, 0.5]
+        spec.visual.headlight.diffuse = [0.6, 0.6, 0.6]
+        spec.visual.headlight.specular = [0.1, 0.1, 0.1]
+    if not any(texture.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX for texture in spec.textures):
+        spec.add_texture(
+            name="sky of the view",
+            type=mujoco.mjtTexture.mjTEXTURE_SKYBOX,
+            builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT,
+            rgb1=[0.85, 0.9, 0.95],
+            rgb2=[0.45, 0.55, 0.65],
+            width=256,
+            height=256,
+        )
+
+
+def png(pixels: Pixels) -> bytes:
+    """A PNG file (RFC 2083) of pixels of shape (height, width, 3)."""
+    height, width, _ = pixels.shape
+    lines = np.concatenate(
+        (np.zeros((height, 1), np.uint8), pixels.reshape(height, 3 * width)), axis=1
+    )
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return (
+            struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        )
+
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    body = chunk(b"IDAT", zlib.compress(lines.tobytes(), 6))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + body + chunk(b"IEND", b"")
+
+
+def save(path: Path, pixels: Pixels) -> None:
+    """Write a PNG file, whole or not at all. Raises `OSError`."""
+    part = path.with_name(path.name + ".part")
+    part.write_bytes(png(pixels))
+    part.replace(path)

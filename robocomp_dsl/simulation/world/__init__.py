@@ -1,0 +1,1 @@
+"""The simulated world: physics, state, nodes and the devices in it."""

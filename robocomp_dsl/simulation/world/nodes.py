@@ -1,0 +1,153 @@
+"""The nodes of a running world: where they are, and changes of them, physics going on.
+
+In: a simulation, whose turn it is. Out: poses in RoboComp's frame, another scene. A frame without a
+joint is changed in the model directly; for everything else the world is rebuilt with its state
+(some ms, more with many meshes). Every function may raise `NodeError`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from robocomp_dsl.hardware.description.scene import ROOT, Frame
+from robocomp_dsl.hardware.description.scene_edit import (
+    NodeError,
+    NodeErrorCode,
+    frame_of,
+    replace_frame,
+    subtree,
+)
+from robocomp_dsl.hardware.devices.errors import require_finite
+from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, inverse, pose_rows
+from robocomp_dsl.simulation.scene import axes
+
+if TYPE_CHECKING:
+    from robocomp_dsl.simulation.world.simulation import Simulation
+
+NAMES = ("x", "y", "z", "rx", "ry", "rz")
+
+
+def between(simulation: Simulation, base: str, item: str) -> Matrix:
+    """The transform of points from the frame `item` to the frame `base`, shape (4, 4), mm."""
+    branch = simulation.state
+    for name in (base, item):
+        frame_of(branch.scene, name)
+    relative: Matrix = inverse(branch.matrix(base)) @ branch.matrix(item)
+    return relative
+
+
+def pose_of(matrix: Matrix) -> tuple[float, ...]:
+    """x, y, z, rx, ry, rz of a matrix."""
+    return (*map(float, matrix[:3, 3]), *angles(matrix[:3, :3]))
+
+
+def matrix_of(pose: Sequence[float]) -> Matrix:
+    """The matrix of x, y, z, rx, ry, rz. Raises `CommandRefused` for NaN."""
+    require_finite(**dict(zip(NAMES, pose, strict=True)))
+    matrix = np.eye(4)
+    matrix[:3] = pose_rows(pose)
+    return matrix
+
+
+def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -> None:
+    """Put the frame `item` where `pose` in `base` is."""
+    frame = frame_of(simulation.state.scene, item)
+    if frame.id == ROOT:
+        raise NodeError(NodeErrorCode.WRONG_NODE, "the root stays where it is")
+    if frame.model_part:
+        _place_given(simulation, frame, between(simulation, ROOT, base) @ matrix_of(pose))
+        return
+    in_parent = between(simulation, frame.parent, base) @ matrix_of(pose)
+    parent = pose_of(in_parent)
+    x, y, z, rx, ry, rz = parent
+    changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
+    if frame.motion:
+        _place_joint(simulation, changed)
+    else:
+        _place_body(simulation, changed, in_parent)
+
+
+def _place_given(simulation: Simulation, frame: Frame, in_root: Matrix) -> None:
+    """Move a body of a model file: `mocap` bodies, and free ones."""
+    if frame.model_part == "joint":
+        message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
+        raise NodeError(NodeErrorCode.WRONG_NODE, message)
+    branch = simulation.state
+    model, data = branch.world.model, branch.world.data
+    position = axes.point(*in_root[:3, 3].tolist())
+    turned = axes.quaternion(in_root[:3, :3])
+    body = branch.body(frame.id) if frame.model_part == "body" else 0
+    joint, mocap = int(model.body_jntadr[body]), int(model.body_mocapid[body])
+    if mocap >= 0:
+        data.mocap_pos[mocap], data.mocap_quat[mocap] = position, turned
+    elif joint >= 0 and int(model.jnt_type[joint]) == int(mujoco.mjtJoint.mjJNT_FREE):
+        state = data.joint(joint)
+        state.qpos[:], state.qvel[:] = [*position, *turned], 0.0
+    else:
+        message = (
+            f"`{frame.id}` is held by the model file: only free bodies and those of `mocap` move"
+        )
+        raise NodeError(NodeErrorCode.WRONG_NODE, message)
+    mujoco.mj_forward(model, data)
+
+
+def _place_joint(simulation: Simulation, frame: Frame) -> None:
+    """Reset the joint to the angle of its pose."""
+    simulation.rebuild(replace_frame(simulation.state.scene, frame), forget=(frame.id,))
+    simulation.state.devices[frame.id].update_frame(frame.id)
+
+
+def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None:
+    branch = simulation.state
+    model, data = branch.world.model, branch.world.data
+    body = branch.body(frame.id)
+    position = axes.point(*in_parent[:3, 3].tolist())
+    turned = axes.quaternion(in_parent[:3, :3])
+    branch.scene = replace_frame(branch.scene, frame)
+    model.body_pos[body], model.body_quat[body] = position, turned
+    first = int(model.body_jntadr[body])
+    for joint in range(first, first + int(model.body_jntnum[body])):
+        state = data.joint(joint)
+        state.qvel[:] = 0.0
+        free = model.jnt_type[joint] == mujoco.mjtJoint.mjJNT_FREE
+        state.qpos[:] = [*position, *turned] if free else 0.0
+    mujoco.mj_forward(model, data)
+    device: Any = branch.devices.get(frame.id)
+    if device is not None and hasattr(device, "update_frame"):
+        device.update_frame(frame.id)
+    simulation.switch_to(branch)
+
+
+def touching(simulation: Simulation, first: str, other: str) -> bool:
+    """Whether a shape at or below one node touches or enters one at or below the other."""
+    left, right = (_geoms(simulation, node) for node in (first, other))
+    world = simulation.state.world
+    model, data = world.model, world.data
+    if not len(left) or not len(right):
+        return False
+    apart = np.linalg.norm(data.geom_xpos[left][:, None] - data.geom_xpos[right][None], axis=2)
+    reach = model.geom_rbound[left][:, None] + model.geom_rbound[right][None]
+    for i, j in np.argwhere(apart <= reach):
+        a, b = int(left[i]), int(right[j])
+        if a != b and mujoco.mj_geomDistance(model, data, a, b, 1e-6, None) <= 0:
+            return True
+    return False
+
+
+def _geoms(simulation: Simulation, id: str) -> Any:
+    below = subtree(simulation.state.scene, id)
+    branch = simulation.state
+    model = branch.world.model
+    held = (body for body in branch.scene.frames if body.model_part in {"", "body"})
+    bodies = {branch.body(body.id) for body in held if body.id in below}
+    chosen = [
+        geom
+        for geom in range(model.ngeom)
+        if int(model.geom_bodyid[geom]) in bodies or model.geom(geom).name in below
+    ]
+    return np.array(chosen, dtype=np.int64)

@@ -1,0 +1,182 @@
+"""The tree of a DDSL file: components, their hosts, settings and connections."""
+
+from __future__ import annotations
+
+from robocomp_dsl.syntax.ast.base import Duration, Import, Literal, Name, Node, Number, Text
+
+
+class Host(Node):
+    """`host robot { address "10.0.0.2"; user robot; labels arm, gpu; };`."""
+
+    name: Name
+    address: Text | None = None
+    user: Name | Text | None = None
+    labels: tuple[Name, ...] = ()
+    doc: str = ""
+
+
+class Setting(Node):
+    """`set motors[2].min = -1.5;`; `key.text` is the dotted key without spaces."""
+
+    key: Name
+    value: Literal
+
+
+class Environment(Node):
+    """`env LOG_LEVEL = debug;`; `value` is the string that the process gets."""
+
+    name: Name
+    value: Text
+
+
+class Restart(Node):
+    """`restart on-failure max 5 in 60 s;`; `policy.text` is `on-failure`, `always` or `never`."""
+
+    policy: Name
+    max: Number | None = None
+    window: Duration | None = None
+
+
+class Device(Node):
+    """`device arm : control_board { set part = LArm; };`."""
+
+    name: Name
+    kind: Name
+    settings: tuple[Setting, ...] = ()
+    doc: str = ""
+
+
+class Attach(Node):
+    """`attach zeroing to arm, leg;`."""
+
+    device: Name
+    to: tuple[Name, ...]
+
+
+class Action(Node):
+    """`on startup level 5 calibrate arm by zeroing;`; `by` is optional."""
+
+    phase: Name
+    level: Number
+    verb: Name
+    device: Name
+    by: Name | None = None
+
+
+class Instance(Node):
+    """`component reflex : reflex on robot { … };`.
+
+    `component` is None if it has the name of the instance; `host` None: this machine; `from_` is
+    the file of `from`. If a setting is repeated, the first one is stored (the second was reported).
+    """
+
+    name: Name
+    component: Name | None = None
+    host: Name | None = None
+    config: Text | None = None
+    context: Text | None = None
+    from_: Text | None = None
+    prefix: Name | Text | None = None
+    settings: tuple[Setting, ...] = ()
+    devices: tuple[Device, ...] = ()
+    attachments: tuple[Attach, ...] = ()
+    actions: tuple[Action, ...] = ()
+    environment: tuple[Environment, ...] = ()
+    executable: Text | None = None
+    port: Number | None = None
+    after: tuple[Name, ...] = ()
+    restart: Restart | None = None
+    ready: Duration | None = None
+    doc: str = ""
+
+
+class PortRef(Node):
+    """`body.SkinFrame`: a port of an instance or of a group."""
+
+    instance: Name
+    port: Name
+
+
+class Qos(Node):
+    """`{ best_effort; depth 1; deadline 40 ms; priority high; }`; unset values are None.
+
+    `reliability.text` is `reliable` or `best_effort`.
+    """
+
+    reliability: Name | None = None
+    priority: Name | None = None
+    depth: Number | None = None
+    deadline: Duration | None = None
+
+
+class Connection(Node):
+    """`connect reflex.Skin -> body.Skin { … };`; `qos` is None without braces."""
+
+    source: PortRef
+    target: PortRef
+    qos: Qos | None = None
+
+
+class Export(Node):
+    """`export JointMotor from motor;`: a port of an instance becomes a port of the group.
+
+    `export JointMotor from motor as Left;` gives it another name outside.
+    """
+
+    port: Name
+    target: PortRef
+
+
+class Group(Node):
+    """`group arm on robot { … };`: several components that appear as one from outside.
+
+    They run on `host` unless they name a host themselves, and start after those in `after`.
+    """
+
+    name: Name
+    host: Name | None = None
+    after: tuple[Name, ...] = ()
+    instances: tuple[Instance, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    exports: tuple[Export, ...] = ()
+    groups: tuple[Group, ...] = ()
+    doc: str = ""
+
+
+class LockStep(Node):
+    """`lockstep limit 5 s lost stop`; `lost.text` is `drop` or `stop`."""
+
+    limit: Duration | None = None
+    lost: Name | None = None
+
+
+class Clock(Node):
+    """`clock sim from body lockstep;`; `kind.text` is `wall` or `sim`."""
+
+    kind: Name
+    source: Name | None = None
+    lockstep: LockStep | None = None
+
+
+class Deployment(Node):
+    """`Deployment name { … };`."""
+
+    name: Name
+    middleware: Name | None = None
+    clock: Clock | None = None
+    hosts: tuple[Host, ...] = ()
+    instances: tuple[Instance, ...] = ()
+    connections: tuple[Connection, ...] = ()
+    groups: tuple[Group, ...] = ()
+    doc: str = ""
+
+
+class File(Node):
+    """One DDSL file; `deployment` is None if the file has none.
+
+    `complete` is False if syntax errors were reported, so parts may be missing.
+    """
+
+    imports: tuple[Import, ...]
+    deployment: Deployment | None
+    complete: bool = True

@@ -1,0 +1,125 @@
+"""The tree of an IDSL file: modules with their types, exceptions and interfaces."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from robocomp_dsl.syntax.ast.base import Import, Literal, Name, Node, Number, QualifiedName, Unit
+
+
+class Field(Node):
+    """A field of a struct or exception: `float x = 0 [mm];`."""
+
+    type: QualifiedName
+    name: Name
+    default: Literal | None = None
+    unit: Unit | None = None
+    doc: str = ""
+
+
+class Struct(Node):
+    """`struct Name { fields };`."""
+
+    name: Name
+    fields: tuple[Field, ...]
+    doc: str = ""
+
+
+class ExceptionDecl(Node):
+    """`exception Name { fields };`."""
+
+    name: Name
+    fields: tuple[Field, ...]
+    doc: str = ""
+
+
+class Enumerator(Node):
+    """One name of an enumeration with its optional value."""
+
+    name: Name
+    value: Number | None = None
+    doc: str = ""
+
+
+class Enum(Node):
+    """`enum Name { A, B = 2 };`."""
+
+    name: Name
+    enumerators: tuple[Enumerator, ...]
+    doc: str = ""
+
+
+class Sequence(Node):
+    """`sequence<element> Name;`."""
+
+    name: Name
+    element: QualifiedName
+    doc: str = ""
+
+
+class Dictionary(Node):
+    """`dictionary<key, value> Name;`."""
+
+    name: Name
+    key: QualifiedName
+    value: QualifiedName
+    doc: str = ""
+
+
+class Param(Node):
+    """A parameter of an operation.
+
+    A parameter without a name (legacy syntax) is called `arg1`, `arg2`, … by its position; the span
+    of its name is that of the type.
+    """
+
+    type: QualifiedName
+    name: Name
+    out: bool = False
+    unit: Unit | None = None
+
+
+class Operation(Node):
+    """`[query] idempotent float distance(int sensor, out State state) throws Failed;`.
+
+    `pattern` is the optional keyword in brackets (`command`, `query` or `publish`); `result` is
+    None for `void`.
+    """
+
+    name: Name
+    result: QualifiedName | None
+    params: tuple[Param, ...] = ()
+    throws: tuple[QualifiedName, ...] = ()
+    idempotent: bool = False
+    pattern: Name | None = None
+    doc: str = ""
+
+
+class Interface(Node):
+    """`interface Name { operations };`."""
+
+    name: Name
+    operations: tuple[Operation, ...]
+    doc: str = ""
+
+
+Declaration: TypeAlias = Struct | ExceptionDecl | Enum | Sequence | Dictionary | Interface
+
+
+class Module(Node):
+    """`module Name { declarations };`."""
+
+    name: Name
+    declarations: tuple[Declaration, ...]
+    doc: str = ""
+
+
+class File(Node):
+    """One IDSL file. There may be no module (an empty file) or several (legacy).
+
+    `complete` is False if syntax errors were reported, so parts may be missing.
+    """
+
+    imports: tuple[Import, ...]
+    modules: tuple[Module, ...]
+    complete: bool = True

@@ -1,0 +1,1 @@
+"""The LALR engine: tables, lexer, token stream, parser. It knows no language."""

@@ -1,0 +1,1 @@
+"""Incremental parsing for the language server."""

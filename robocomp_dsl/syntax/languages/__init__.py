@@ -1,0 +1,1 @@
+"""From text to tree, one builder per language."""

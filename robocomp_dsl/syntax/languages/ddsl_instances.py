@@ -1,0 +1,154 @@
+"""DDSL: builds component instances and connections.
+
+In: the rules that the parser recognised. Out: nodes of `ast.ddsl`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.ast import ddsl as ast
+from robocomp_dsl.syntax.ast.base import Bool, Duration, Literal, Name, Number, Text, Unit
+from robocomp_dsl.syntax.codes import syntax as codes
+from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
+from robocomp_dsl.syntax.languages.ddsl_devices import DevicesBuilder
+
+POLICIES = ("on-failure", "always", "never")
+TIME_UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+class InstancesBuilder(DevicesBuilder):
+    """The part of the DDSL builder for instances and connections."""
+
+    def instance(
+        self, span: Span, name: Name, kind: Name | None, host: Name | None, body: Any
+    ) -> ast.Instance:
+        """`component name : kind on host { … };`."""
+        items = body or ()
+        return ast.Instance(
+            span,
+            name,
+            kind,
+            host,
+            settings=of_kind(ast.Setting, items),
+            devices=of_kind(ast.Device, items),
+            attachments=of_kind(ast.Attach, items),
+            actions=of_kind(ast.Action, items),
+            environment=of_kind(ast.Environment, items),
+            doc=self.doc(span),
+            **self.settings(items),
+        )
+
+    def on(self, _span: Span, host: Name) -> Name:
+        """`on host`."""
+        return host
+
+    def instance_body(self, _span: Span, *items: Any) -> tuple[Any, ...]:
+        """The items between the braces."""
+        return items
+
+    def config(self, span: Span, path: Text) -> BlockSetting:
+        """`config "x.yaml";`."""
+        return BlockSetting(span, "config", path)
+
+    def context(self, span: Span, name: Text) -> BlockSetting:
+        """`context "lab";`."""
+        return BlockSetting(span, "context", name)
+
+    def searched(self, span: Span, path: Text) -> BlockSetting:
+        """`from "arm.yaml";`."""
+        return BlockSetting(span, "from_", path)
+
+    def prefix(self, span: Span, name: Name | Text) -> BlockSetting:
+        """`prefix left;` or `prefix "left/hand";`."""
+        return BlockSetting(span, "prefix", name)
+
+    def setting(self, span: Span, key: Name, value: Any) -> ast.Setting:
+        """`set key = value;`."""
+        return ast.Setting(span, key, _literal(value))
+
+    def key(self, span: Span, *parts: Name | Unit) -> Name:
+        """`motors[2].min`."""
+        for index in of_kind(Unit, parts):
+            if not index.text.isdecimal():
+                self.report(
+                    codes.UNEXPECTED,
+                    index.span,
+                    f"expected the index of a group, found `{index.text}`",
+                    help="the first group is `[0]`",
+                )
+        return Name(span, "".join(span.text.split()))
+
+    def environment(self, span: Span, name: Name, value: Name | Text | Number) -> ast.Environment:
+        """`env NAME = value;`."""
+        text = value if isinstance(value, Text) else Text(value.span, value.span.text)
+        return ast.Environment(span, name, text)
+
+    def executable(self, span: Span, command: Text) -> BlockSetting:
+        """`executable "python3 main.py";`."""
+        return BlockSetting(span, "executable", command)
+
+    def port(self, span: Span, value: Number) -> BlockSetting:
+        """`port 7451;`."""
+        return BlockSetting(span, "port", value)
+
+    def after(self, span: Span, *names: Any) -> BlockSetting:
+        """`after a, b;`."""
+        return BlockSetting(span, "after", tuple(self.without_trailing_comma(names)))
+
+    def policy(self, span: Span, *_words: Name) -> Name:
+        """`on-failure` (three tokens) or one word."""
+        return Name(span, "".join(span.text.split()))
+
+    def restart(
+        self, span: Span, policy: Name, most: Number | None, window: Duration | None
+    ) -> BlockSetting:
+        """`restart on-failure max 5 in 60 s;`."""
+        self.check_choice(policy, POLICIES, "restart policy")
+        return BlockSetting(span, "restart", ast.Restart(span, policy, most, window))
+
+    def ready(self, span: Span, within: Duration) -> BlockSetting:
+        """`ready within 10 s;`."""
+        return BlockSetting(span, "ready", within)
+
+    def duration(self, span: Span, value: Number, unit: Name) -> Duration:
+        """`10 s`."""
+        known = self.check_choice(unit, TIME_UNITS, "unit of time")
+        return Duration(span, value.value * (TIME_UNITS[unit.text.lower()] if known else 1.0))
+
+    def connection(
+        self, span: Span, source: ast.PortRef, target: ast.PortRef, qos: ast.Qos | None
+    ) -> ast.Connection:
+        """`connect a.X -> b.X { … };`."""
+        return ast.Connection(span, source, target, qos)
+
+    def port_ref(self, span: Span, instance: Name, port: Name) -> ast.PortRef:
+        """`a.X`."""
+        return ast.PortRef(span, instance, port)
+
+    def qos_body(self, span: Span, *items: Any) -> ast.Qos:
+        """`reliable; depth 1;`."""
+        return ast.Qos(span, **self.settings(items))
+
+    def reliability(self, span: Span, word: Name) -> BlockSetting:
+        """`reliable;` or `best_effort;`."""
+        return BlockSetting(span, "reliability", word)
+
+    def priority(self, span: Span, word: Name) -> BlockSetting:
+        """`priority high;`."""
+        return BlockSetting(span, "priority", word)
+
+    def depth(self, span: Span, value: Number) -> BlockSetting:
+        """`depth 1;`."""
+        return BlockSetting(span, "depth", value)
+
+    def deadline(self, span: Span, value: Duration) -> BlockSetting:
+        """`deadline 40 ms;`."""
+        return BlockSetting(span, "deadline", value)
+
+
+def _literal(value: Name | Text | Number) -> Literal:
+    if isinstance(value, Name) and value.text.lower() in ("true", "false"):
+        return Bool(value.span, value.text.lower() == "true")
+    return value

@@ -1,0 +1,204 @@
+"""IDSL: builds operations, their parameters and types.
+
+In: the rules that the parser recognised in an operation. Out: nodes of `ast.idsl`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+from robocomp_dsl.source import Span
+from robocomp_dsl.syntax.ast.base import Name, Node, Number, QualifiedName, Unit
+from robocomp_dsl.syntax.ast.idsl import Operation, Param
+from robocomp_dsl.syntax.codes import legacy as legacy_codes
+from robocomp_dsl.syntax.codes import syntax as syntax_codes
+from robocomp_dsl.syntax.languages.builder import Builder, of_kind
+
+PATTERNS = ("command", "query", "publish")
+_SEQUENCES = ("vector", "list", "array", "set", "deque", "sequence")
+
+
+class TemplateType(Node):
+    """`vector<X>`, `map<K, V>`: container syntax of other languages, reported as an error."""
+
+    types: tuple[QualifiedName, ...]
+
+    @property
+    def is_sequence(self) -> bool:
+        """Whether `sequence` is the IDSL equivalent."""
+        return len(self.types) == 1 and self.container.text.lower() in _SEQUENCES
+
+    @property
+    def container(self) -> Span:
+        """The name before the `<`."""
+        length = len(self.span.text.partition("<")[0].rstrip())
+        return self.span.subspan(self.span.start, self.span.start + length)
+
+
+class ThrowsClause(Node):
+    """The exceptions of an operation."""
+
+    types: tuple[QualifiedName, ...]
+
+
+class OperationsBuilder(Builder):
+    """The part of the IDSL builder for operations."""
+
+    def qualified(self, span: Span, first: Name, second: Name | None) -> QualifiedName:
+        """`Name` or `Module::Name`."""
+        return QualifiedName(span, second, first) if second else QualifiedName(span, first)
+
+    def template(self, span: Span, *children: Any) -> TemplateType:
+        """`vector<X>`; the caller reports it."""
+        return TemplateType(span, of_kind(QualifiedName, children))
+
+    def inline_template(self, span: Span, template: TemplateType) -> QualifiedName:
+        """A template used as a type: IDSL containers are declared with a name."""
+        written = re.sub(r"\s+", "", span.text)
+        inside = f"<{', '.join(type_.text for type_ in template.types)}>"
+        right = f"sequence{inside}" if template.is_sequence else f"dictionary{inside}"
+        self.report(
+            syntax_codes.TEMPLATE_TYPE,
+            span,
+            f"`{written}` cannot be used as a type",
+            label="declare a named sequence or dictionary",
+            help=f"declare `{right} SomeName;` and use `SomeName` here",
+        )
+        return template.types[0]
+
+    def pure(self, span: Span, _value: Number) -> None:
+        """`= 0` after a method, as in C++."""
+        self.report(
+            legacy_codes.PURE_VIRTUAL,
+            span,
+            "`= 0` after an operation is ignored",
+            label="ignored",
+            fix=self.replace_fix("delete it", span),
+        )
+
+    def throws(self, span: Span, *children: Any) -> ThrowsClause:
+        """`throws A, B`."""
+        return ThrowsClause(span, tuple(self.without_trailing_comma(children)))
+
+    def param(self, span: Span, *children: Any) -> Param:
+        """`out Type name [unit]`; a missing name is generated when the operation is built."""
+        index = next(i for i, child in enumerate(children) if isinstance(child, QualifiedName))
+        kind, name, unit = children[index : index + 3]
+        for direction in children[:index]:
+            if direction.text == "idempotent":
+                self._meaningless(direction, "a parameter")
+        out = any(direction.text == "out" for direction in children[:index])
+        return Param(span, kind, name or Name(kind.span, ""), out, unit)
+
+    def operation(self, span: Span, *children: Any) -> Operation:
+        """One operation with its pattern, flags, result, parameters and exceptions."""
+        result = next(child for child in children if isinstance(child, QualifiedName))
+        index = children.index(result)
+        returned = None if result.text == "void" else result
+        return self._operation(span, children[:index], returned, children[index + 1 :])
+
+    def operation_without_result(self, span: Span, *children: Any) -> Operation:
+        """`flush();`: the return type is missing."""
+        index = next(
+            i
+            for i, child in enumerate(children)
+            if isinstance(child, Name) and child.text not in ("idempotent", "out")
+        )
+        name = children[index].span
+        self.report(
+            legacy_codes.NO_RESULT,
+            name,
+            f"`{name.text}` has no return type",
+            label="read as `void`",
+            fix=self.findings.fix("return nothing", (name.start, name.start, "void ")),
+        )
+        return self._operation(span, children[:index], None, children[index:])
+
+    def _operation(
+        self, span: Span, marks: Any, result: QualifiedName | None, children: Any
+    ) -> Operation:
+        name, *rest = self._without_inner_comma(children)
+        pattern: Name | None = None
+        for mark in marks:
+            if isinstance(mark, Unit):
+                pattern = self.first_of(pattern, self._pattern(mark), "the pattern") or pattern
+            elif mark.text == "out":
+                self._meaningless(mark, "an operation")
+        throws = of_kind(ThrowsClause, rest)
+        return Operation(
+            span,
+            name,
+            result,
+            self._params(of_kind(Param, rest)),
+            throws[0].types if throws else (),
+            any(isinstance(m, Name) and m.text == "idempotent" for m in marks),
+            pattern,
+            self.doc(span),
+        )
+
+    def _pattern(self, mark: Unit) -> Name:
+        start = mark.span.start + mark.span.text.index(mark.text)
+        word = Name(mark.span.subspan(start, start + len(mark.text)), mark.text)
+        self.check_choice(word, PATTERNS, "pattern")
+        return word
+
+    def _params(self, params: tuple[Param, ...]) -> tuple[Param, ...]:
+        """The parameters, with generated names for unnamed ones."""
+        if len(params) == 1 and not params[0].name.text and params[0].type.text == "void":
+            self.report(
+                legacy_codes.UNNAMED_PARAMETER,
+                params[0].span,
+                "an empty parameter list is written `()`",
+                fix=self.replace_fix("delete `void`", params[0].span),
+            )
+            return ()
+        named = tuple(self._named(number, param) for number, param in enumerate(params, start=1))
+        self._out_last(named)
+        return named
+
+    def _named(self, number: int, param: Param) -> Param:
+        if param.name.text:
+            return param
+        name, end = f"arg{number}", param.type.span.end
+        self.report(
+            legacy_codes.UNNAMED_PARAMETER,
+            param.span,
+            "this parameter has no name",
+            label=f"called `{name}`",
+            fix=self.findings.fix(f"call it `{name}`", (end, end, f" {name}")),
+        )
+        return Param(param.span, param.type, Name(param.type.span, name), param.out, param.unit)
+
+    def _out_last(self, params: tuple[Param, ...]) -> None:
+        """Report `out` parameters before inputs: Slice and C++ expect them last."""
+        ordered = sorted(params, key=lambda param: param.out)
+        if ordered == list(params):
+            return
+        late = next(p for i, p in enumerate(params) if not p.out and params[i - 1].out and i)
+        moves = zip(params, ordered, strict=True)
+        edits = ((old.span.start, old.span.end, new.span.text) for old, new in moves)
+        self.report(
+            legacy_codes.OUT_FIRST,
+            late.span,
+            f"`{late.name.text}` follows an `out` parameter",
+            fix=self.findings.fix("move the `out` parameters to the end", *edits),
+        )
+
+    def _meaningless(self, word: Name, where: str) -> None:
+        self.report(
+            legacy_codes.MEANINGLESS_KEYWORD,
+            word.span,
+            f"`{word.text}` has no effect before {where}",
+            label="ignored",
+            fix=self.replace_fix("delete it", word.span),
+        )
+
+    def _without_inner_comma(self, children: Iterable[Any]) -> list[Any]:
+        """The items without the comma after the last parameter; more items may follow it."""
+        items = [child for child in children if child is not None]
+        index = next((i for i, c in enumerate(items) if isinstance(c, Name) and c.text == ","), -1)
+        if index < 0:
+            return items
+        return [*self.without_trailing_comma(items[: index + 1]), *items[index + 1 :]]

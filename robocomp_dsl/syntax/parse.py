@@ -1,0 +1,84 @@
+"""Parsing: one function per language, from text to syntax tree.
+
+In: a `Source` and a `Report` for diagnostics. Out: a tree, possibly partial; its `complete` is
+False if there were syntax errors. A parser is imported on its first call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, TypeAlias
+
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.source import Source
+
+if TYPE_CHECKING:
+    from robocomp_dsl.syntax.ast import cdsl as ast_cdsl
+    from robocomp_dsl.syntax.ast import ddsl as ast_ddsl
+    from robocomp_dsl.syntax.ast import idsl as ast_idsl
+    from robocomp_dsl.syntax.ast import innermodel as ast_innermodel
+    from robocomp_dsl.syntax.ast import pdsl as ast_pdsl
+    from robocomp_dsl.syntax.ast import smdsl as ast_smdsl
+
+    AnyFile: TypeAlias = (
+        ast_idsl.File | ast_cdsl.File | ast_pdsl.File | ast_ddsl.File | ast_smdsl.File
+    )
+
+
+def parse_idsl(source: Source, report: Report) -> ast_idsl.File:
+    """The tree of an interface description."""
+    from robocomp_dsl.syntax.languages import idsl  # noqa: PLC0415 - loaded on first use
+
+    return idsl.parse(source, report)
+
+
+def parse_cdsl(source: Source, report: Report) -> ast_cdsl.File:
+    """The tree of a component description."""
+    from robocomp_dsl.syntax.languages import cdsl  # noqa: PLC0415 - loaded on first use
+
+    return cdsl.parse(source, report)
+
+
+def parse_pdsl(source: Source, report: Report) -> ast_pdsl.File:
+    """The tree of a parameter description."""
+    from robocomp_dsl.syntax.languages import pdsl  # noqa: PLC0415 - loaded on first use
+
+    return pdsl.parse(source, report)
+
+
+def parse_ddsl(source: Source, report: Report) -> ast_ddsl.File:
+    """The tree of a deployment description."""
+    from robocomp_dsl.syntax.languages import ddsl  # noqa: PLC0415 - loaded on first use
+
+    return ddsl.parse(source, report)
+
+
+def parse_smdsl(source: Source, report: Report) -> ast_smdsl.File:
+    """The tree of a state machine."""
+    from robocomp_dsl.syntax.languages import smdsl  # noqa: PLC0415 - loaded on first use
+
+    return smdsl.parse(source, report)
+
+
+def parse_innermodel(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of an InnerModel file (XML)."""
+    from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse(source, report)
+
+
+def parse_scxml(source: Source, report: Report) -> ast_innermodel.File:
+    """The tree of a state machine in SCXML."""
+    from robocomp_dsl.syntax.xml import innermodel  # noqa: PLC0415 - loaded on first use
+
+    return innermodel.parse_scxml(source, report)
+
+
+LANGUAGES: Mapping[str, Callable[[Source, Report], AnyFile]] = {
+    ".idsl": parse_idsl,
+    ".cdsl": parse_cdsl,
+    ".pdsl": parse_pdsl,
+    ".ddsl": parse_ddsl,
+    ".smdsl": parse_smdsl,
+}
+"""File suffix (lower case) to parser."""

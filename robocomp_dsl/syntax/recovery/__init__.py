@@ -1,0 +1,1 @@
+"""Error recovery: what happens after a syntax error."""

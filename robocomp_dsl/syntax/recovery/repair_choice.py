@@ -1,0 +1,106 @@
+"""Chooses the most likely repair of a syntax error.
+
+In: the context of the error. Out: the repair after which most of the next tokens are accepted, or
+None.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from robocomp_dsl.diagnostics import Note
+from robocomp_dsl.syntax.codes import syntax as codes
+from robocomp_dsl.syntax.grammar.lexer import Token
+from robocomp_dsl.syntax.grammar.tables import END
+from robocomp_dsl.syntax.recovery import repair_identifiers as words
+from robocomp_dsl.syntax.recovery import repair_punctuation as signs
+from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token
+from robocomp_dsl.syntax.recovery.repair import Repair
+
+_CLOSED = ("RBRACE", "_SEMI")
+
+
+def choose_repair(context: ErrorContext, item: list[Token], keep: int) -> Repair | None:
+    """The best repair, or None.
+
+    `item` are the tokens since the start of the statement, which began with `keep` states.
+    """
+    if context.nested_module(item):
+        return None
+    best, best_progress = None, -1
+    for repair in _proposals(context, item, keep):
+        progress = _progress(context, repair)
+        if progress > best_progress:
+            best, best_progress = repair, progress
+    return best
+
+
+def _progress(context: ErrorContext, repair: Repair) -> int:
+    """How many of the next tokens are accepted, at most `WINDOW`; -1 if too few."""
+    kinds = [token.kind for token in repair.replacement]
+    if repair.keep:
+        context = context.replace(states=context.states[: repair.keep])
+    behind = context.lookahead_score(kinds, repair.skip)
+    return min(repair.skip + behind, WINDOW) if behind >= repair.required else -1
+
+
+def _proposals(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+    """All possible repairs, the most likely first."""
+    accepted = context.accepted_terminals()
+    yield from signs.missing_semicolon(context)
+    yield from signs.commented_semicolon(context)
+    yield from signs.earlier_semicolon(context, item, keep)
+    yield from signs.arrow(context, accepted)
+    yield from words.quoted_identifier(context, accepted)
+    yield from words.interface_file_suffix(context)
+    yield from words.keyword(context, accepted)
+    yield from words.unquoted_string(context, accepted)
+    yield from words.open_bracket(context, accepted)
+    yield from words.type_first(context, accepted)
+    yield from words.invalid_name(context, accepted)
+    yield from words.missing_name(context, accepted)
+    yield from words.foreign_modifier(context, item, keep)
+    yield from _block(context, [], 0)
+    yield from _at_statement_start(context, item, keep)
+    yield from signs.wrong_bracket(context, accepted)
+    # Missing punctuation is more likely than a surplus identifier, and loses no text.
+    if signs.IDENTIFIER.fullmatch(context.lookahead[0].text):
+        yield from signs.missing_punctuation(context, accepted)
+        yield from signs.surplus_token(context)
+    else:
+        yield from signs.surplus_token(context)
+        yield from signs.wrong_punctuation(context, accepted)
+        yield from signs.missing_punctuation(context, accepted)
+
+
+def _at_statement_start(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+    """The mistake is at the start of the statement: a keyword that was read as a name."""
+    if not 0 < len(item) < WINDOW:
+        return
+    start = context.replace(states=context.states[:keep], lookahead=item)
+    rest = tuple(item[1:])
+    for repair in words.keyword(start, start.accepted_terminals()):
+        yield repair.replace(
+            replacement=(*repair.replacement, *rest), skip=0, keep=keep, required=1
+        )
+    yield from (repair.replace(required=1) for repair in _block(start, item, keep))
+
+
+def _block(context: ErrorContext, item: list[Token], keep: int) -> Iterator[Repair]:
+    """A block was not closed before a statement that is not allowed in it."""
+    token, (start, end) = context.lookahead[0], context.error_range()
+    if token.kind not in context.tables.keyword_terminals and token.kind != END:
+        return
+    ends = tuple(Token(kind, "", start, start) for kind in _CLOSED)
+    for depth, opened in enumerate(reversed(context.open_braces), start=1):
+        yield Repair(
+            codes.UNCLOSED_BLOCK,
+            start,
+            end,
+            f"`}};` is missing before {quote_token(token)}",
+            notes=(Note(context.source.span(opened.start, opened.end), "opened here"),),
+            title="close the block",
+            edits=((start, start, "\n};" * depth if token.kind == END else "};\n" * depth),),
+            replacement=ends * depth + tuple(item),
+            keep=keep,
+        )

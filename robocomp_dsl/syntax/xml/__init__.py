@@ -1,0 +1,1 @@
+"""The tolerant XML reader for InnerModel and SCXML."""

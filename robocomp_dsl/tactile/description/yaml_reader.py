@@ -1,0 +1,218 @@
+"""Read YAML with positions, so that every finding has a line and a column.
+
+In: a text. Out: `Entry` trees that hand out tables, lists, numbers and words. What is wrong is
+collected in `Reading.findings` and a harmless value is returned, so that reading goes on and all
+faults are told at once. A length or an angle may carry a unit: `90 deg`, `62.5 mm`; rad and m are
+meant else.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+
+import yaml
+
+from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+
+UNITS = {"deg": math.pi / 180.0, "rad": 1.0, "mm": 0.001, "m": 1.0}
+UNITS_OF = {"a number": (), "an angle": ("deg", "rad"), "a length": ("mm", "m")}
+NUMBER, ANGLE, LENGTH = UNITS_OF
+_QUANTITY = re.compile(r"([-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(deg|rad|mm|m)?")
+
+
+def degrees_hint(value: float, largest: float) -> str:
+    """A hint for a `value` [rad] that is too large but would fit as degrees; empty otherwise."""
+    fits = abs(value) > 2 * math.pi and abs(value) * UNITS["deg"] <= largest
+    return f"; if it is in degrees, write `{value:g} deg`" if fits else ""
+
+
+@dataclass(slots=True)
+class YamlReader:
+    """One file being read, and its findings so far."""
+
+    file: Path
+    findings: list[Finding] = field(default_factory=list)
+
+    def root(self, text: str) -> YamlValue:
+        """The whole document. Raises `DescriptionError` when it is not YAML."""
+        try:
+            node = yaml.compose(text, Loader=yaml.SafeLoader)
+        except yaml.MarkedYAMLError as error:
+            mark = error.problem_mark or error.context_mark
+            line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+            message = f"invalid YAML: {error.problem or error.context}"
+            raise DescriptionError([Finding(str(self.file), line, column, message)]) from None
+        except yaml.YAMLError as error:
+            raise DescriptionError([Finding(str(self.file), 1, 1, str(error))]) from None
+        if node is None:
+            raise DescriptionError([Finding(str(self.file), 1, 1, "the file is empty")])
+        return YamlValue(self, node)
+
+    def finish(self) -> None:
+        """Raise `DescriptionError` if there are findings."""
+        if self.findings:
+            raise DescriptionError(self.findings)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A position in a file, from 1."""
+
+    line: int
+    column: int
+
+
+NOWHERE = Place(1, 1)
+
+
+@dataclass(frozen=True, slots=True)
+class YamlValue:
+    """One value of the file."""
+
+    reader: YamlReader
+    node: yaml.Node
+
+    @property
+    def place(self) -> Place:
+        """Line and column of its first character."""
+        return Place(self.node.start_mark.line + 1, self.node.start_mark.column + 1)
+
+    def report(self, message: str, help: str = "", fault: Fault = Fault.FORM) -> None:
+        """Note a fault of this value."""
+        file, place = str(self.reader.file), self.place
+        self.reader.findings.append(Finding(file, place.line, place.column, message, help, fault))
+
+    def table(self) -> YamlTable:
+        """The value as a table; an empty one, with a finding, if it is none."""
+        rows: dict[str, YamlValue] = {}
+        if not isinstance(self.node, yaml.MappingNode):
+            self.report("expected a table of `key: value`")
+            return YamlTable(self, rows)
+        for key, value in self.node.value:
+            name = YamlValue(self.reader, key)
+            if not isinstance(key, yaml.ScalarNode):
+                name.report("a key must be a scalar")
+            elif key.value in rows:
+                name.report(f"`{key.value}` is set twice")
+            else:
+                rows[key.value] = YamlValue(self.reader, value)
+        return YamlTable(self, rows)
+
+    def items(self, count: int | None = None) -> list[YamlValue]:
+        """The value as a list of `count` entries (or any number); empty, with a finding, if not."""
+        if not isinstance(self.node, yaml.SequenceNode):
+            self.report("expected a list")
+            return []
+        if count is not None and len(self.node.value) != count:
+            there = len(self.node.value)
+            are = "is" if there == 1 else "are"
+            self.report(f"{count} entries are needed, there {are} {there}")
+            return []
+        return [YamlValue(self.reader, node) for node in self.node.value]
+
+    def text(self) -> str:
+        """The value as a string; an empty one, with a finding, if it is none."""
+        if isinstance(self.node, yaml.ScalarNode) and self.node.value:
+            return str(self.node.value)
+        self.report("expected a string")
+        return ""
+
+    def number(self, quantity: str, default_unit: str = "") -> float:
+        """The value, `what` of `UNITS_OF`; 0 after a complaint.
+
+        In SI units, or as something that is `counted` in this unit has it; then so is a number that
+        carries none.
+        """
+        match = None
+        if isinstance(self.node, yaml.ScalarNode):
+            match = _QUANTITY.fullmatch(self.node.value.strip())
+        try:
+            value = float(match[1]) if match else math.nan
+        except ValueError:
+            value = math.nan
+        unit, units = match[2] if match else None, UNITS_OF[quantity]
+        allowed = f"a unit may follow: {', '.join(units)}" if units else "without a unit"
+        if not math.isfinite(value):
+            self.report(f"{quantity} is expected here", allowed)
+            return 0.0
+        if unit is None:
+            return value
+        if unit not in units:
+            self.report(f"{quantity} cannot have the unit `{unit}`", allowed)
+        return value * UNITS[unit] / UNITS[default_unit or "m"]
+
+    def integer(self) -> int:
+        """The value as an integer; 0, with a finding, if it is none."""
+        value = self.number(NUMBER)
+        if value != int(value):
+            self.report("expected an integer")
+        return int(value)
+
+    def numbers(self, quantities: tuple[str, ...], default_unit: str = "") -> tuple[float, ...]:
+        """A list with one number per entry of `quantities`; zeros, with a finding, if not."""
+        items = self.items(len(quantities))
+        values = (
+            item.number(quantity, default_unit)
+            for item, quantity in zip(items, quantities, strict=False)
+        )
+        return tuple(values) or (0.0,) * len(quantities)
+
+
+@dataclass(slots=True)
+class YamlTable:
+    """The keys of a table. `finish` reports the keys that were not requested."""
+
+    value: YamlValue
+    rows: dict[str, YamlValue]
+    requested: set[str] = field(default_factory=set)
+
+    def get(self, key: str) -> YamlValue | None:
+        """The value of `key`, or None."""
+        self.requested.add(key)
+        return self.rows.get(key)
+
+    def require(self, key: str) -> YamlValue | None:
+        """The value of `key`; None, with a finding, if it is missing."""
+        value = self.get(key)
+        if value is None:
+            self.value.report(f"`{key}` is missing here")
+        return value
+
+    def number(
+        self, key: str, quantity: str, default: float | None = None, default_unit: str = ""
+    ) -> float:
+        """The number at `key`; the key is required unless there is a default."""
+        value = self.require(key) if default is None else self.get(key)
+        return value.number(quantity, default_unit) if value else default or 0.0
+
+    def text(self, key: str, default: str | None = None) -> str:
+        """The string at `key`; the key is required unless there is a default."""
+        value = self.require(key) if default is None else self.get(key)
+        return value.text() if value else default or ""
+
+    def numbers(
+        self,
+        key: str,
+        quantities: tuple[str, ...],
+        default: tuple[float, ...] = (),
+        default_unit: str = "",
+    ) -> tuple[float, ...]:
+        """The list of numbers at `key`; without a default it must be there."""
+        value = self.get(key) if default else self.require(key)
+        return (
+            value.numbers(quantities, default_unit)
+            if value
+            else default or (0.0,) * len(quantities)
+        )
+
+    def finish(self) -> None:
+        """Report unknown keys, with the most similar known one."""
+        for key, value in self.rows.items():
+            if key not in self.requested:
+                near = get_close_matches(key, self.requested, n=1)
+                meant = f"did you mean `{near[0]}`?" if near else ""
+                value.report(f"`{key}` is not a known key here", meant)

@@ -1,0 +1,29 @@
+"""No line of a Markdown file is longer than 120 characters, so that diffs and terminals show it."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.docs.blocks import ROOT
+
+LIMIT = 120
+SHOWN_ELSEWHERE = ("tests/", "templates/", ".rcgen/")
+"""Inputs and expected output of tests, templates with their tags, and copies of generated files."""
+
+
+def _files() -> list[Path]:
+    tracked = subprocess.run(
+        ["git", "ls-files", "-z", "*.md"], cwd=ROOT, check=True, capture_output=True, text=True
+    )
+    names = [name for name in tracked.stdout.split("\0") if name]
+    written = [n for n in names if not n.startswith(SHOWN_ELSEWHERE) and "/.rcgen/" not in n]
+    return [ROOT / name for name in written]
+
+
+@pytest.mark.parametrize("path", _files(), ids=lambda path: str(path.relative_to(ROOT)))
+def test_lines_of_a_markdown_file_are_short(path: Path) -> None:
+    lines = path.read_text(encoding="utf-8").splitlines()
+    assert [(i, len(line)) for i, line in enumerate(lines, 1) if len(line) > LIMIT] == []

@@ -1,0 +1,268 @@
+"""A driver behind the ports of a component: opened, lost, opened again; and motors on a board."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.hardware.conformance.rules import RULES, ConformanceRule, Violation
+from robocomp_dsl.hardware.conformance.trial import MAY_MOVE, on_hardware
+from robocomp_dsl.hardware.control.faults import FaultCode
+from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
+from robocomp_dsl.hardware.control.loops import Loop
+from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.devices.errors import DriverMethodMissing, HardwareError
+from robocomp_dsl.hardware.drivers.driver_host import DriverHost
+
+JOINT = JointSpec("pan", -1.0, 1.0, 3.0, 5.0)
+DEADLINE_S = 60.0
+
+
+class Motor:
+    """A joint without load that lives by the wall clock."""
+
+    spec = BoardSpec((JOINT,), (MotorSpec("pan"),))
+
+    def __init__(self) -> None:
+        self.failing = ""
+        self.opened = self.closed = 0
+        self.torque, self.position, self.velocity = 0.0, 0.3, 0.0
+        self.last = time.perf_counter()
+
+    def open(self) -> None:
+        if self.failing:
+            raise OSError(self.failing)
+        self.opened += 1
+        self.last = time.perf_counter()
+
+    def close(self) -> None:
+        self.closed += 1
+
+    def read(self) -> tuple[np.ndarray, np.ndarray]:
+        if self.failing:
+            raise OSError(self.failing)
+        now = time.perf_counter()
+        for _ in range(min(round((now - self.last) / 0.0005), 100)):
+            self.velocity += (self.torque - 0.2 * self.velocity) / 0.05 * 0.0005
+            self.position += self.velocity * 0.0005
+        self.last = now
+        return np.array([self.position]), np.array([self.velocity])
+
+    def write(self, torque: np.ndarray) -> None:
+        self.torque = float(torque[0])
+
+
+@pytest.fixture
+def motor() -> Motor:
+    return Motor()
+
+
+@pytest.fixture
+def hardware(motor: Motor) -> Iterator[DriverHost]:
+    result = DriverHost(motor, ("pan",), motors=True)
+    yield result
+    result.close()
+    assert "motors" not in {item.name for item in threading.enumerate()}
+
+
+def until(what: Callable[[], object]) -> None:
+    end = time.monotonic() + DEADLINE_S
+    while not what():
+        assert time.monotonic() < end, "it did not come true in time"
+        time.sleep(0.002)
+
+
+def test_before_it_is_opened_it_is_not_there(hardware: DriverHost) -> None:
+    with pytest.raises(HardwareError, match="`pan` is not there: it has not been opened yet"):
+        hardware.devices["pan"]
+
+
+def test_motors_start_idle_where_they_are_and_obey_the_board(
+    hardware: DriverHost, motor: Motor
+) -> None:
+    with hardware.working():
+        board = hardware.devices["pan"].board
+        commands = hardware.devices["pan"].commands
+    assert board.table.modes == [Mode.IDLE]
+    assert board.position == pytest.approx([0.3])
+    with hardware.lock:
+        commands.set_mode(None, Mode.POSITION)
+        hardware.devices["pan"].settings.set_reference_speed(None, 2.0)
+        clipped = commands.position_move(None, 5.0)
+    assert clipped.tolist() == [True]
+    until(lambda: abs(motor.position - 1.0) < 0.02)
+
+
+def test_a_failure_lets_go_of_motors_and_opens_them_again(
+    hardware: DriverHost, motor: Motor
+) -> None:
+    with hardware.working():
+        device = hardware.devices["pan"]
+    motor.failing = "the cable is out"
+    until(lambda: device.failure)
+    assert device.board.table.modes == [Mode.HW_FAULT]
+    with pytest.raises(HardwareError, match="the cable is out"), hardware.working():
+        pass
+    with pytest.raises(HardwareError, match="`pan` is not there: the cable is out"):
+        hardware.devices["pan"]
+    with pytest.raises(HardwareError, match="the cable is out"):
+        hardware.open()
+    motor.failing = ""
+    with hardware.working():
+        assert hardware.devices["pan"].board.table.modes == [Mode.IDLE]
+    assert motor.opened == 2
+
+
+def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
+    hardware = DriverHost(motor, ("pan",), motors=True)
+    with hardware.working():
+        hardware.devices["pan"].commands.set_mode(None, Mode.POSITION)
+    motor.torque = 1.0
+    hardware.close()
+    assert motor.torque == 0.0
+
+
+def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
+    hardware: DriverHost, motor: Motor
+) -> None:
+    hardware.set_reference_timeout(3600.0)
+    with hardware.working():
+        device = hardware.devices["pan"]
+    with hardware.lock:
+        device.commands.set_mode(None, Mode.TORQUE)
+        device.commands.set_torque(None, 0.05)
+    until(lambda: motor.velocity > 0.1)
+    assert device.board.table.modes == [Mode.TORQUE]
+    hardware.set_reference_timeout(0.001)
+    until(lambda: device.board.table.modes == [Mode.POSITION])
+    with hardware.lock:
+        state = device.board.state()
+    assert state.interactions == (Interaction.COMPLIANT,)
+    assert state.faults.tolist() == [FaultCode.REFERENCE_TIMEOUT]
+    until(lambda: abs(motor.velocity) < 0.01)
+
+
+class Feeling(Motor):
+    """Its gear keeps a fifth of the torque for itself, which a sensor tells."""
+
+    broken = False
+
+    def read_torque(self) -> np.ndarray:
+        return np.array([np.nan if self.broken else 0.8 * self.torque])
+
+
+def test_a_motor_with_a_sensor_gives_the_torque_that_is_asked_for() -> None:
+    motor = Feeling()
+    hardware = DriverHost(motor, ("pan",), motors=True)
+    try:
+        with hardware.working():
+            device = hardware.devices["pan"]
+        with hardware.lock:
+            device.commands.set_mode(None, Mode.TORQUE)
+            gains = Gains(ki=20.0, max_output=5.0, max_integral=5.0, feedforward=1.0)
+            device.settings.set_pid("pan", gains, Loop.TORQUE)
+            device.commands.set_torque(None, 0.02)
+        until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
+        assert device.settings.pid_error(None, Loop.TORQUE) == pytest.approx([0.0], abs=1e-3)
+        motor.broken = True
+        until(lambda: device.board.table.modes == [Mode.HW_FAULT])
+        assert device.settings.last_fault("pan").message == "the torque sensor reads NaN"
+        until(lambda: motor.torque == 0.0)
+    finally:
+        hardware.close()
+
+
+@pytest.mark.parametrize("rule", RULES["joint"], ids=str)
+def test_motor_driver_conforms(
+    rule: ConformanceRule, motor: Motor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(MAY_MOVE, "1")
+    on_hardware(rule, motor, ("pan",), motors=True, skip=pytest.fail)
+    assert motor.closed == 1
+
+
+def test_what_moves_is_skipped_unless_there_is_room(
+    motor: Motor, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv(MAY_MOVE, raising=False)
+    message: list[str] = []
+    moving = next(rule for rule in RULES["joint"] if rule.moves_robot)
+    on_hardware(moving, motor, ("pan",), motors=True, skip=message.append)
+    assert message == ["this rule moves the robot: set ROBOCOMP_MAY_MOVE=1 when there is room"]
+    assert motor.opened == 0
+
+
+class Unwritten:
+    """As `rcgen hardware` writes it."""
+
+    def open(self) -> None:
+        raise DriverMethodMissing("open")
+
+    def close(self) -> None:
+        pass
+
+
+def test_what_is_not_written_is_skipped_with_its_name() -> None:
+    message: list[str] = []
+    on_hardware(RULES["laser"][0], Unwritten(), ("laser",), skip=message.append)
+    assert message == ["`open` of driver.py is not implemented yet"]
+
+
+class Deaf(Unwritten):
+    """There, and wrong."""
+
+    def open(self) -> None:
+        pass
+
+    def value(self) -> float:
+        return -1.0
+
+
+def test_a_broken_rule_is_told_and_the_device_closed() -> None:
+    with pytest.raises(Violation, match="the value is -1"):
+        on_hardware(RULES["touchsensor"][0], Deaf(), ("bump",), skip=pytest.fail)
+
+
+def test_a_driver_that_cannot_be_closed_hides_nothing() -> None:
+    class Torn(Deaf):
+        def open(self) -> None:
+            raise OSError("no such port")
+
+        def close(self) -> None:
+            raise OSError("never opened")
+
+    hardware = DriverHost(Torn(), ("bump",))
+    with pytest.raises(HardwareError, match="no such port"):
+        hardware.open()
+    with suppress(OSError):
+        hardware.close()
+
+
+def test_a_call_that_fails_closes_the_device_and_the_next_work_opens_it() -> None:
+    class Loose(Deaf):
+        opened = 0
+
+        def open(self) -> None:
+            self.opened += 1
+
+        def value(self) -> float:
+            if self.opened == 1:
+                raise OSError("the plug is loose")
+            return 0.0
+
+    driver = Loose()
+    hardware = DriverHost(driver, ("bump",))
+    with hardware.working():
+        device = hardware.devices["bump"]
+    with pytest.raises(HardwareError, match="the plug is loose"):
+        device.value()
+    with pytest.raises(HardwareError, match="`bump` is not there: the plug is loose"):
+        hardware.devices["bump"]
+    with hardware.working():
+        assert hardware.devices["bump"].value() == 0.0

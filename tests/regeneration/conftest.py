@@ -1,0 +1,19 @@
+"""What the tests of regeneration share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.regeneration.regenerated import Talker
+
+
+@pytest.fixture
+def talker(tmp_path: Path) -> Talker:
+    """A component with one operation, generated once."""
+    component = Talker(tmp_path / "talker")
+    component.folder.mkdir()
+    component.describe("int say(Word w);")
+    assert component.generate() == []
+    return component

@@ -1,0 +1,347 @@
+"""Model files that run: boards, nodes and sensors of what MJCF and URDF describe."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import mujoco
+import numpy as np
+import pytest
+
+from robocomp_dsl.cli.rcgen.simulation.view_subject import read_subject
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.simulation.scene import axes
+from tests.simulation.model_worlds import ARM, BOT
+from tests.simulation.served_worlds import Served, served_model
+from tests.support.generated_package import package_in
+
+
+@pytest.fixture
+def arm(tmp_path: Path) -> Served:
+    return served_model(tmp_path, ARM)
+
+
+def goal(world: Served, name: str, position: float, speed: float = 0.0) -> Any:
+    return world.types.MotorGoalPosition(name, position, speed)
+
+
+# -- control boards -----------------------------------------------------------------------------
+
+
+def test_it_begins_at_the_first_key_frame_and_holds_it(arm: Served) -> None:
+    """Against gravity, with the file's own masses."""
+    assert arm.ports["arm"].getState().position.tolist() == [-1.0, 0.5]
+    arm.simulation.advance(2.0)
+    assert np.abs(arm.ports["arm"].getState().position - (-1.0, 0.5)).max() < 0.01
+
+
+def test_a_board_has_the_joints_of_its_tuple_in_order(arm: Served) -> None:
+    assert [getJoint.name for getJoint in arm.ports["arm"].getJoints()] == ["elbow", "shoulder"]
+    assert [getJoint.name for getJoint in arm.ports["ControlBoard"].getJoints()] == ["grip"]
+    torque = [getJoint.torqueLimit for getJoint in arm.ports["arm"].getJoints()]
+    assert torque == [12.0, 20.0]
+
+
+def test_no_names_are_all_of_the_port(arm: Served) -> None:
+    board = arm.ports["arm"]
+    board.setReferenceSpeed([], [2.0, 2.0])
+    board.positionMove([], [-0.4, 0.1])
+    assert not board.motionDone([]).any()
+    assert arm.ports["ControlBoard"].motionDone([]).tolist() == [True]
+    arm.until(lambda: board.motionDone([]).all())
+    arm.simulation.advance(0.3)
+    assert np.abs(board.getState().position - (-0.4, 0.1)).max() < 0.01
+    assert abs(arm.ports["ControlBoard"].getState().position[0] - 0.01) < 1e-3
+
+
+def test_joints_of_another_board_are_not_there(arm: Served) -> None:
+    board = arm.ports["arm"]
+    with pytest.raises(arm.types.UnknownJoint, match="`grip` is not on `arm`: elbow, shoulder"):
+        board.positionMove(["grip"], [0.02])
+    with pytest.raises(arm.types.UnknownJoint):
+        board.getPid(0, "grip")
+    keys = board.getVariables()
+    assert "pid.elbow" in keys
+    assert "pid.grip" not in keys
+    assert len(board.getVariable("speed_limits")) == 2
+    board.setVariable("speed_limits", [1.0, 0.5])
+    assert arm.ports["ControlBoard"].getVariable("speed_limits").tolist() == [1.0]
+
+
+def test_joints_that_share_motors_change_their_modes_together(tmp_path: Path) -> None:
+    """And their motors turn as the file says."""
+    text = ARM.replace("<custom>", '<custom><numeric name="coupling_arm" data="1 1 1 -1"/>')
+    arm = served_model(tmp_path, text)
+    board = arm.ports["arm"]
+    assert [getJoint.coupledSet for getJoint in board.getJoints()] == [0, 0]
+    before = board.getState().motorCounts
+    board.setReferenceSpeed([], [2.0, 2.0])
+    board.positionMove(["shoulder"], [0.9])
+    arm.until(lambda: board.motionDone([]).all())
+    arm.simulation.advance(0.3)
+    item, other = board.getState().motorCounts - before
+    assert item == pytest.approx(-other, rel=0.01)
+    assert abs(item) > 1000
+    board.setControlMode(["shoulder"], arm.types.ControlMode.Velocity)
+    assert set(board.getState().modes) == {arm.types.ControlMode.Velocity}
+    assert arm.ports["ControlBoard"].getState().modes == [arm.types.ControlMode.Position]
+
+
+def test_parking_one_board_leaves_the_other(arm: Served) -> None:
+    arm.ports["arm"].park([])
+    assert arm.ports["arm"].isBusy()
+    assert not arm.ports["ControlBoard"].isBusy()
+    arm.ports["ControlBoard"].quit()
+    assert arm.ports["arm"].isBusy()
+    arm.ports["arm"].quit()
+    assert not arm.ports["arm"].isBusy()
+
+
+def test_motors_have_all_joints_in_their_own_units(arm: Served) -> None:
+    motors = arm.ports["JointMotor"]
+    motors.setSyncPosition([goal(arm, "shoulder", 0.2, 2.0), goal(arm, "grip", 40.0)])
+    arm.until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
+    state = motors.getAllMotorState()
+    assert state["shoulder"].pos == pytest.approx(0.2, abs=0.01)
+    assert state["grip"].pos == pytest.approx(40.0, abs=0.5)
+    assert set(state) == {"elbow", "shoulder", "grip"}
+
+
+def test_a_follower_follows_and_what_has_no_motor_swings(arm: Served) -> None:
+    data = arm.simulation.world.data
+    data.joint("hinge").qvel = 1.0
+    arm.ports["JointMotor"].setPosition(goal(arm, "grip", 40.0))
+    arm.simulation.advance(2.0)
+    data = arm.simulation.world.data
+    assert data.joint("follower").qpos[0] == pytest.approx(0.04, abs=2e-3)
+    assert data.joint("hinge").qpos[0] > 1.5
+
+
+def test_a_torque_is_limited_by_the_file(arm: Served) -> None:
+    """And the motor of the file, whatever it was, gives what the board asks for."""
+    board = arm.ports["arm"]
+    board.setControlMode(["elbow"], arm.types.ControlMode.Torque)
+    assert board.setTorque(["elbow"], [99.0]).tolist() == [True]
+    arm.simulation.advance(0.002)
+    assert arm.simulation.world.data.joint("elbow").qfrc_actuator[0] == pytest.approx(12.0)
+
+
+def test_a_robot_in_urdf_moves(tmp_path: Path) -> None:
+    bot = served_model(tmp_path, BOT, "bot.urdf")
+    motors = bot.ports["JointMotor"]
+    motors.setSyncPosition([goal(bot, "lift", 300.0), goal(bot, "turn", -1.0)])
+    bot.until(lambda: abs(motors.getMotorState("lift").pos - 300) < 1)
+    bot.until(lambda: abs(motors.getMotorState("turn").pos + 1) < 0.01)
+    assert motors.getMotorParams("lift").maxVelocity == 250.0
+
+
+def test_rcgen_view_shows_the_same_start(tmp_path: Path) -> None:
+    """And judges there what is in each other: at zero this file would be."""
+    path, report = tmp_path / "arm.xml", Report()
+    path.write_text(ARM.replace("-1 1 0 0 0", "1 1 0 0 0", 1).replace('pos="1 1 0"', 'pos="0 0 1"'))
+    subject = read_subject(path, (), report)
+    assert [item.message for item in report] == []
+    assert subject is not None
+    assert subject.data().joint("shoulder").qpos[0] == 0.5
+
+
+# -- sensors ------------------------------------------------------------------------------------
+
+
+def test_an_inertial_unit_feels_gravity_in_its_site(arm: Served) -> None:
+    arm.simulation.advance(1.0)
+    it = arm.ports["wrist"].getDataImu()
+    data = arm.simulation.world.data
+    up = data.site("wrist").xmat.reshape(3, 3).T @ (0, 0, 9.81)
+    received = (it.acc.XAcc, it.acc.YAcc, it.acc.ZAcc)
+    assert received == pytest.approx((up[0], up[2], up[1]), abs=0.05)
+
+
+def test_a_touch_sensor_feels_a_push(arm: Served) -> None:
+    """A weight on the site of the sensor is felt as its weight."""
+    feel = arm.ports["TouchSensor"].getValues
+    assert feel()["palm"].value == 0.0
+    arm.simulation.set_physics(False)
+    ball = arm.simulation.world.data.joint("ball.joint0")
+    wrist = arm.simulation.world.data.site("wrist").xpos
+    ball.qpos[:3] = wrist + np.array([0.0, 0.0, 0.08])
+    arm.simulation.set_physics(True)
+    peak = 0.0
+    for _ in range(300):
+        arm.simulation.advance(0.001)
+        peak = max(peak, feel()["palm"].value)
+    assert peak > 0.5
+
+
+def test_cameras_see_what_the_file_has_in_front_of_them(arm: Served) -> None:
+    """A door, as far away as a ray says; one of them has a depth, as its `output` says."""
+    it = arm.ports["CameraRGBDSimple"].getDepth("eye")
+    assert (it.width, it.height, it.focalx) == (64, 48, 58)
+    depth = it.depth.view(np.float32).reshape(48, 64)
+    ahead = np.array([(36 - 31.5) / 57.94, 1.0, (23.5 - 24) / 57.94])
+    world, hit = arm.simulation.world, np.array([-1], np.int32)
+    away = mujoco.mj_ray(world.model, world.data, [0, -2, 0.5], ahead, None, 1, -1, hit)
+    assert world.model.geom(hit[0]).name == "door"
+    assert depth[24, 36] == pytest.approx(1000 * away, rel=2e-3)
+    image = arm.ports["far"].getImage()
+    assert (image.width, image.height, image.depth) == (640, 480, 3)
+    assert len(np.unique(image.image)) > 10
+
+
+# -- nodes --------------------------------------------------------------------------------------
+
+
+def test_nodes_are_bodies_joints_and_marks(arm: Served) -> None:
+    nodes = {item.id: item for item in arm.ports["InnerModelManager"].getAllNodeInformation()}
+    kinds = {name: node.nType.name for name, node in nodes.items()}
+    assert (kinds["shoulder"], kinds["upper"], kinds["hinge"]) == ("Joint", "Transform", "Joint")
+    assert (kinds["eye"], kinds["far"], kinds["wrist"]) == ("RGBD", "Camera", "IMU")
+    assert kinds["palm"] == "TouchSensor"
+    assert nodes["upper"].parentId == "shoulder"
+    assert nodes["wrist"].parentId == "lower"
+
+
+def test_poses_are_those_of_the_physics(arm: Served) -> None:
+    """Of bodies and of sites; a joint is where its body turns."""
+    arm.simulation.advance(0.1)
+    nodes, data = arm.ports["InnerModelManager"], arm.simulation.world.data
+    for name, there in (
+        ("lower", data.body("lower").xpos),
+        ("wrist", data.site("wrist").xpos),
+        ("elbow", data.body("lower").xpos),
+        ("hand", data.body("hand").xpos),
+    ):
+        _, pose = nodes.getPose("root", name)
+        x, y, z = there * 1000
+        assert (pose.x, pose.y, pose.z) == pytest.approx((x, z, y), abs=1e-3), name
+    matrix = arm.simulation.state.matrix("wrist")
+    turned = axes.matrix(data.site("wrist").xpos, data.site("wrist").xmat)
+    assert np.abs(matrix - turned).max() < 1e-9
+
+
+def test_free_and_mocap_bodies_are_moved(arm: Served) -> None:
+    nodes = arm.ports["InnerModelManager"]
+    for name in ("ball", "hand"):
+        nodes.setPose("root", name, arm.types.Pose3D(500.0, 700.0, -400.0, 0.0, 0.5, 0.0))
+        _, pose = nodes.getPose("root", name)
+        found = (pose.x, pose.y, pose.z, pose.ry)
+        assert found == pytest.approx((500, 700, -400, 0.5), abs=1e-3), name
+
+
+REFUSED = [
+    ("setPose", ("root", "lower"), "held by the model file"),
+    ("setPose", ("root", "elbow"), "JointMotor and ControlBoard move it"),
+    ("removeNode", ("lower",), "is of the model file and cannot be removed"),
+    ("removeNode", ("wrist",), "is of the model file and cannot be removed"),
+    ("removeNode", ("eye",), "is of the model file and cannot be removed"),
+    ("moveNode", ("ball", "lower"), "cannot be moved into another"),
+    ("addTransform", ("cup", "", "elbow"), "is a joint of the model file"),
+    ("addTransform", ("cup", "", "wrist"), "is a mark of the model file"),
+    ("addTransform", ("lower", "", "root"), "there is a node `lower` already"),
+    ("getPose", ("root", "nobody"), "there is no node `nobody`"),
+]
+
+
+@pytest.mark.parametrize(("operation", "values", "message"), REFUSED)
+def test_what_cannot_be_done_is_told(
+    arm: Served, operation: str, values: tuple[str, ...], message: str
+) -> None:
+    more: tuple[Any, ...] = ()
+    if operation in {"setPose", "addTransform"}:
+        more = (arm.types.Pose3D(0, 0, 0, 0, 0, 0),)
+    with pytest.raises(arm.types.InnerModelManagerError) as raised:
+        getattr(arm.ports["InnerModelManager"], operation)(*values, *more)
+    assert message in raised.value.text
+
+
+def test_nodes_are_added_and_the_rest_goes_on(arm: Served) -> None:
+    """Also in a body of the model, which carries them; a joint turns in rad whatever the file."""
+    nodes, motors = arm.ports["InnerModelManager"], arm.ports["JointMotor"]
+    nodes.setPose("root", "hand", arm.types.Pose3D(-1500.0, 900.0, 100.0, 0, 0, 0))
+    motors.setPosition(goal(arm, "shoulder", 0.9, 2.0))
+    arm.simulation.advance(0.3)
+    before = arm.simulation.world.time
+    nodes.addTransform("cup", "", "lower", arm.types.Pose3D(100.0, 0, 0, 0, 0, 0))
+    lid = arm.types.jointType(pose=arm.types.Pose3D(0, 0, 0, 0, 0, 0), min=-1.0, max=1.0, axis="y")
+    nodes.addJoint("lid", "cup", lid)
+    nodes.addPlane(
+        "table", "root", arm.types.Plane3D(0, -1000, 0, 0, 1, 0, 500, 500, 100, "#123456")
+    )
+    assert arm.simulation.world.time == before
+    assert nodes.getPose("root", "hand")[1].x == pytest.approx(-1500)
+    motors.setPosition(goal(arm, "lid", 0.8, 3.0))
+    arm.until(lambda: abs(motors.getMotorState("lid").pos - 0.8) < 0.02)
+    assert arm.simulation.state.joint("lid") == pytest.approx(0.8, abs=0.02)
+    _, cup = nodes.getPose("lower", "cup")
+    assert (cup.x, cup.y, cup.z) == pytest.approx((100, 0, 0), abs=1e-3)
+    assert [getJoint.name for getJoint in arm.ports["ControlBoard"].getJoints()] == ["grip", "lid"]
+    assert arm.ports["arm"].getState().position.shape == (2,)
+    nodes.removeNode("cup")
+    assert "lid" not in motors.getAllMotorState()
+
+
+def test_touching(arm: Served) -> None:
+    nodes = arm.ports["InnerModelManager"]
+    assert not nodes.collide("ball", "upper")
+    matrix = arm.simulation.state.matrix("upper")
+    x, y, z = matrix[:3, 3].tolist()
+    nodes.setPose("root", "ball", arm.types.Pose3D(x, y, z, 0, 0, 0))
+    assert nodes.collide("ball", "upper")
+
+
+# -- the world ----------------------------------------------------------------------------------
+
+
+def test_reset_snapshot_and_fork(arm: Served) -> None:
+    world, motors = arm.ports["Simulation"], arm.ports["JointMotor"]
+    fork = world.fork()
+    world.move(fork, ["shoulder", "grip"], [1.0, 30.0])
+    world.advance(fork, 3.0)
+    assert world.getJoints(fork, ["shoulder", "grip"]) == pytest.approx((1.0, 30.0), abs=0.5)
+    assert world.getJoints(0, ["shoulder"]) == pytest.approx((0.5,), abs=1e-6)
+    saved = world.snapshot()
+    motors.setPosition(goal(arm, "shoulder", 1.0, 3.0))
+    arm.simulation.advance(1.0)
+    world.restore(saved)
+    assert world.getJoints(0, ["shoulder"]) == pytest.approx((0.5,), abs=1e-6)
+    motors.setPosition(goal(arm, "shoulder", 1.0, 3.0))
+    arm.simulation.advance(1.0)
+    world.reset()
+    assert world.getJoints(0, ["shoulder", "elbow"]).tolist() == [0.5, -1.0]
+    assert world.getState().time == 0.0
+
+
+def test_a_file_that_changes_is_read_again(tmp_path: Path) -> None:
+    """A world that is built again does not read its file again, but for another one."""
+    arm = served_model(tmp_path, ARM)
+    model = arm.simulation.world.model
+    arm.ports["Simulation"].reset()
+    assert arm.simulation.world.model is not model
+    file = package_in(tmp_path) / "model.xml"
+    file.write_text(ARM.replace('mass="0.3"', 'mass="0.6"'))
+    stamp = file.stat().st_mtime_ns + 1_000_000_000
+    os.utime(file, ns=(stamp, stamp))
+    arm.ports["Simulation"].reset()
+    assert arm.simulation.world.model.body("lower").mass[0] == pytest.approx(0.6)
+
+
+def test_the_same_seed_and_commands_give_the_same_bits(tmp_path: Path) -> None:
+    runs = []
+    for name in "ab":
+        folder = tmp_path / name
+        folder.mkdir()
+        arm = served_model(folder, ARM)
+        arm.ports["JointMotor"].setPosition(goal(arm, "elbow", -0.2, 3.0))
+        arm.simulation.advance(0.5)
+        runs.append(arm.simulation.world.data.qpos.tobytes())
+    assert runs[0] == runs[1]
+
+
+def test_the_model_of_the_file_is_what_is_simulated(arm: Served) -> None:
+    """But for motors and the numbers that are served, nothing is changed in it."""
+    own, model = mujoco.MjModel.from_xml_string(ARM), arm.simulation.world.model
+    for what in ("body_mass", "body_pos", "jnt_range", "geom_size", "dof_damping", "geom_friction"):
+        assert np.array_equal(getattr(own, what), getattr(model, what)), what
+    assert model.opt.timestep == own.opt.timestep

@@ -1,0 +1,89 @@
+"""Range finders of MJCF behind `Ultrasound`."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from tests.simulation.served_worlds import Served, rcgen, served_model
+
+ROBOT = """\
+<mujoco>
+  <worldbody>
+    <geom name="wall" type="box" size="0.05 4 4" pos="3.05 0 0"/>
+    <body name="robot" pos="1 2 0.5">
+      <joint type="slide" axis="1 0 0" name="rail" range="-9 9" armature="1"/>
+      <geom type="box" size="0.1 0.1 0.1" mass="1"/>
+      <body name="head" pos="0 0 0.2">
+        <geom type="box" size="0.05 0.05 0.05" mass="0.1"/>
+        <site name="nose" pos="0.05 0 0" zaxis="1 0 0"/>
+        <site name="crown" pos="0 0 0.05"/>
+        <site name="back" pos="0 -0.05 0" zaxis="0 -1 0"/>
+        <camera name="eye" resolution="2 1"/>
+      </body>
+    </body>
+  </worldbody>
+  <sensor>
+    <rangefinder name="front" site="nose"/>
+    <rangefinder name="sky" site="crown" cutoff="3"/>
+    <rangefinder site="back"/>
+    <rangefinder name="grid" camera="eye"/>
+  </sensor>
+</mujoco>
+"""
+FARTHEST = 1_000_000
+
+
+@pytest.fixture
+def world(tmp_path: Path) -> Served:
+    result = served_model(tmp_path, ROBOT)
+    result.simulation.advance(0.01)
+    return result
+
+
+def test_range_finder_tells_how_far_things_are(world: Served) -> None:
+    sonars = world.ports["Ultrasound"]
+    assert [getAllSensorParam.name for getAllSensorParam in sonars.getAllSensorParams()] == [
+        "front",
+        "sky",
+        "sensor2",
+    ]
+    assert sonars.getAllSensorDistances().tolist() == pytest.approx([1950, 3000, FARTHEST], abs=1)
+    world.ports["ControlBoard"].setReferenceSpeed([], [1.0])
+    world.ports["ControlBoard"].positionMove([], [0.5])
+    world.simulation.advance(2.0)
+    assert sonars.getSensorDistance("front") == pytest.approx(1450, abs=5)
+
+
+def test_where_they_sit_is_told_as_the_robot_sees_it(world: Served) -> None:
+    """The robot looks along its y axis; right of that is x."""
+    front, _, back = world.ports["Ultrasound"].getAllSonarPose()
+    assert (front.x, front.y, front.angle) == pytest.approx((50, 0, math.pi / 2), abs=1e-3)
+    assert (back.x, back.y, abs(back.angle)) == pytest.approx((0, -50, math.pi), abs=1e-3)
+
+
+def test_one_that_is_not_there(world: Served) -> None:
+    with pytest.raises(world.types.UnknownSensorException, match="front, sky, sensor2"):
+        world.ports["Ultrasound"].getSensorDistance("grid")
+
+
+def test_noise_is_that_of_the_sensor(tmp_path: Path) -> None:
+    world = served_model(tmp_path, ROBOT.replace('site="nose"', 'site="nose" noise="0.02"'))
+    sonars, seen = world.ports["Ultrasound"], []
+    for _ in range(200):
+        world.simulation.advance(0.05)
+        seen.append(sonars.getSensorDistance("front"))
+    spread = math.sqrt(sum((item - 1950) ** 2 for item in seen) / len(seen))
+    assert spread == pytest.approx(20, rel=0.25)
+    assert sonars.getSensorDistance("sky") == 3000  # nothing has no error
+
+
+def test_they_are_listed(tmp_path: Path) -> None:
+    (tmp_path / "robot.xml").write_text(ROBOT)
+    done = rcgen("simulator", "robot.xml", "--dry-run", cwd=tmp_path)
+    rows = [line.split() for line in done.stdout.splitlines()]
+    assert ["front", "model_range", "Ultrasound", "Ultrasound"] in rows
+    assert ["sensor2", "model_range", "Ultrasound", "Ultrasound"] in rows
+    assert ["grid", "manyranges", "-", "-"] in rows

@@ -1,0 +1,73 @@
+"""The tables agree: what is offered is simulated, has a servant, and that knows every operation."""
+
+from __future__ import annotations
+
+import inspect
+from pathlib import Path
+
+import pytest
+
+from robocomp_dsl.check.passes import check_idsl
+from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.generate.simulator.served_interfaces import OF_THE_WORLD, SERVED, TOPICS, Topic
+from robocomp_dsl.hardware.servants.registry import SERVANTS
+from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.model.types import Declaration
+from robocomp_dsl.resources import INTERFACES
+from robocomp_dsl.simulation.scene.scene_devices import SINGLE
+from robocomp_dsl.simulation.servants.registry import WORLD_SERVANTS
+
+ALL_SERVANTS = {**SERVANTS, **WORLD_SERVANTS}
+
+OFFERED = sorted({served.interface for served in SERVED} | set(OF_THE_WORLD))
+
+
+def declared(name: str, file: str = "") -> Interface:
+    modules = check_idsl(Path(INTERFACES) / f"{file or name}.idsl", Workspace(environ={}), Report())
+    assert modules is not None
+    return next(i for module in modules for i in module.interfaces if i.name == name)
+
+
+def test_every_kind_that_is_offered_is_simulated() -> None:
+    kinds = {offer.kind for offer in SERVED} - {"joint", "prismaticjoint", "skin"}
+    assert kinds == set(SINGLE)
+
+
+@pytest.mark.parametrize("name", OFFERED)
+def test_a_servant_has_every_operation_with_its_parameters(name: str) -> None:
+    interface = declared(name)
+    servant = ALL_SERVANTS[interface.qualified]
+    for operation in interface.operations:
+        values = list(inspect.signature(getattr(servant, operation.name)).parameters)[1:]
+        assert len(values) == len(operation.inputs), operation.name
+
+
+def test_no_servant_is_left_over() -> None:
+    assert {declared(name).qualified for name in OFFERED} == set(ALL_SERVANTS)
+
+
+@pytest.mark.parametrize(
+    "topic", [item for item in TOPICS if not item.on_change], ids=lambda item: item.published
+)
+def test_a_topic_carries_what_its_port_answers(topic: Topic) -> None:
+    asked = next(o for o in declared(topic.interface).operations if o.name == topic.query)
+    to = declared(topic.published, topic.file)
+    received = next(o for o in to.operations if o.name == topic.operation)
+    results = [asked.result] if asked.result else [output.type for output in asked.outputs]
+    assert [named(item.type) for item in received.inputs] == [named(result) for result in results]
+
+
+@pytest.mark.parametrize(
+    "topic", [item for item in TOPICS if item.on_change], ids=lambda item: item.published
+)
+def test_a_topic_of_news_is_published_and_has_a_servant_that_tells_them(topic: Topic) -> None:
+    to = declared(topic.published, topic.file)
+    assert topic.operation in {operation.name for operation in to.operations}
+    assert callable(ALL_SERVANTS[declared(topic.interface).qualified].poll)  # type: ignore[attr-defined]
+
+
+def named(type_: object) -> tuple[str, str]:
+    """A type by its module and name: both sides have read it for themselves."""
+    assert isinstance(type_, Declaration)
+    return type_.module, type_.name

@@ -1,0 +1,222 @@
+"""The view in the browser: what its controls do, and a real browser that looks at it."""
+
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+pytest.importorskip("viser", reason="needs the extra `view`")
+
+from robocomp_dsl.simulation.models.model_file import load_model
+from robocomp_dsl.simulation.view.browser import LOOPBACK, BrowserPage
+from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
+from robocomp_dsl.simulation.view.shapes import colour, triangles
+from robocomp_dsl.simulation.view.stage import relative_poses
+from robocomp_dsl.simulation.world.visual_state import capture
+from tests.support.chromium_tab import PATIENCE, Tab, needs_chromium, opened_tab, red, wait_for
+
+MODELS = Path(__file__).parents[1] / "models" / "files"
+
+
+@pytest.fixture
+def page() -> Iterator[BrowserPage]:
+    model = load_model(MODELS / "crane.xml").model
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    result = BrowserPage("crane", model, data)
+    yield result
+    result.close()
+
+
+def test_the_page_is_served_on_this_machine_alone(page: BrowserPage) -> None:
+    assert page.url.startswith(f"http://{LOOPBACK}:")
+    with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
+        assert b"<html" in answer.read(2000).lower()
+    port = int(page.url.rpartition(":")[2])
+    listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
+    mine = [line.split()[1] for line in listening.splitlines() if f":{port:04X} " in line]
+    assert mine
+    assert all(item.startswith("0100007F") for item in mine if item.endswith(f"{port:04X}"))
+    assert page._server.request_share_url() is None
+
+
+def test_a_port_that_is_taken_is_told() -> None:
+    model = load_model(MODELS / "crane.xml").model
+    with socket.socket() as other:
+        other.bind((LOOPBACK, 0))
+        other.listen()
+        with pytest.raises(OSError, match="in use"):
+            BrowserPage("crane", model, mujoco.MjData(model), port=other.getsockname()[1])
+
+
+def test_nodes_hang_as_in_the_model_and_follow_it(page: BrowserPage) -> None:
+    assert page.stage.paths == [
+        "/world",
+        "/world/tower",
+        "/world/tower/boom",
+        "/world/tower/boom/load",
+        "/world/crate",
+    ]
+    page.data.joint("turn").qpos = 1.0
+    mujoco.mj_forward(page.model, page.data)
+    page.refresh()
+    poses = relative_poses(page.model, capture(page.model, page.data).poses)
+    for body, handle in enumerate(page.stage.frames, 1):
+        assert handle.position == pytest.approx(poses[body, :3], abs=1e-6)
+        assert handle.wxyz == pytest.approx(poses[body, 3:], abs=1e-6)
+    slider = page.controls._sliders[0][0]
+    assert slider.value == pytest.approx(1.0, abs=1e-3)
+
+
+def test_relative_poses_give_the_absolute_ones(page: BrowserPage) -> None:
+    model, data = page.model, page.data
+    poses = relative_poses(model, capture(model, data).poses)
+    for body in range(1, model.nbody):
+        above = model.body_parentid[body]
+        turn, quat = np.zeros(9), np.zeros(4)
+        mujoco.mju_quat2Mat(turn, poses[body, 3:])
+        mujoco.mju_mulQuat(quat, data.xquat[above], poses[body, 3:])
+        there = data.xmat[above].reshape(3, 3) @ poses[body, :3] + data.xpos[above]
+        assert there == pytest.approx(data.xpos[body], abs=1e-12)
+        mujoco.mju_quat2Mat(turn, quat)
+        assert turn == pytest.approx(data.xmat[body], abs=1e-12)
+
+
+def moved(page: BrowserPage, handle: object, value: object) -> None:
+    """As when it is moved in the browser."""
+    handle.value = value  # type: ignore[attr-defined]  # viser calls what listens, from here too
+
+
+def test_sliders_move_joints_and_the_button_brings_them_back(page: BrowserPage) -> None:
+    labels = [slider.label for slider, _ in page.controls._sliders]
+    assert labels == ["turn [rad]", "raise [rad]", "extend [m]"]
+    slider, address = page.controls._sliders[2]
+    assert (slider.min, slider.max) == (0.0, 0.5)
+    moved(page, slider, 0.25)
+    wait_for(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
+    page.controls.reset()
+    assert page.data.qpos[address] == 0.0
+    assert slider.value == pytest.approx(0.0)
+
+
+def test_a_node_is_placed(page: BrowserPage) -> None:
+    for name in ("tower", "crate"):
+        body = page.model.body(name).id
+        page.controls.place(body, np.array([0.5, 0.25, 1.0]), quaternion((0, 0, 1.5)))
+        assert page.data.xpos[body] == pytest.approx([0.5, 0.25, 1.0], abs=1e-9)
+        assert page.stage.frames[body - 1].position == pytest.approx([0.5, 0.25, 1.0])
+
+
+def test_time_runs_when_it_is_told_to(page: BrowserPage) -> None:
+    crate = page.model.body("crate").id
+    height = page.data.xpos[crate, 2]
+    end = time.monotonic() + PATIENCE
+    page.controls.running = True
+    page.run(lambda: page.data.time < 0.5 and time.monotonic() < end)
+    assert page.data.xpos[crate, 2] < height - 0.05
+    page.stage.show_contacts(on=True)
+    assert page.stage._contacts is not None
+    page.stage.show_contacts(on=False)
+    assert page.stage._contacts is None
+
+
+@pytest.mark.parametrize("turn", [(0.1, -0.5, 2.0), (3.0, 1.5, -3.0), (0, 0, 0)])
+def test_roll_pitch_and_yaw_are_found_again(turn: tuple[float, ...]) -> None:
+    quat = quaternion(turn)
+    assert quaternion(roll_pitch_yaw(quat)) * np.sign(quat[0]) == pytest.approx(
+        quat * np.sign(quat[0]), abs=1e-9
+    ) or quaternion(roll_pitch_yaw(quat)) == pytest.approx(-quat, abs=1e-9)
+
+
+def test_the_tree_in_words() -> None:
+    text = "<mujoco><worldbody><body name='a'><body name='&lt;b&gt;'><joint/><geom size='1'/>"
+    model = mujoco.MjModel.from_xml_string(text + "</body></body><body/></worldbody></mujoco>")
+    names = [model.body(i).name or f"body{i}" for i in range(model.nbody)]
+    assert tree(model, names) == "- a (fixed)\n  - &lt;b&gt; (hinge)\n- body3 (fixed)"
+
+
+KINDS = {
+    "sphere": ("size='.2'", (0.2, 0.2, 0.2)),
+    "box": ("size='.1 .2 .3'", (0.1, 0.2, 0.3)),
+    "capsule": ("size='.1 .2'", (0.1, 0.1, 0.3)),
+    "cylinder": ("size='.1 .2'", (0.1, 0.1, 0.2)),
+    "ellipsoid": ("size='.1 .2 .3'", (0.1, 0.2, 0.3)),
+    "plane": ("size='1 2 .1'", (1, 2, 0.001)),
+    "mesh": ("mesh='m'", None),
+    "hfield": ("hfield='h'", None),
+}
+
+
+@pytest.mark.parametrize("kind", list(KINDS))
+def test_shapes_have_their_size_and_their_outside_is_outside(kind: str) -> None:
+    written, half = KINDS[kind]
+    text = f"<mujoco><asset><mesh name='m' file='{MODELS}/meshes/pyramid.obj'/><hfield name='h' "
+    text += "nrow='3' ncol='4' size='2 1 .5 .1' elevation='0 1 2 3 4 5 6 7 8 9 10 11'/></asset>"
+    text += f"<worldbody><geom type='{kind}' {written} rgba='1 0.5 0 0.5'/></worldbody></mujoco>"
+    model = mujoco.MjModel.from_xml_string(text)
+    result = triangles(model, 0)
+    assert result is not None
+    extent = (result.points.max(axis=0) - result.points.min(axis=0)) / 2
+    assert extent == pytest.approx(half or extent, abs=2e-3)
+    a, b, c = (result.points[result.faces[:, i]] for i in range(3))
+    normal = np.cross(b - a, c - a)
+    if kind == "hfield":
+        assert (normal[:, 2] > 0).all()
+        assert extent == pytest.approx([2, 1, 0.25])
+    else:
+        volume = np.einsum("ij,ij->i", a, normal).sum() / 6
+        assert volume > 0
+    assert colour(model, 0) == (255, 127, 0, pytest.approx(0.5))
+
+
+# -- a real browser ------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def tab() -> Iterator[Tab]:
+    with opened_tab() as result:
+        yield result
+
+
+@needs_chromium
+def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
+    start = "from robocomp_dsl.cli.rcgen.main import main; main()"
+    arguments = ["view", str(MODELS / "arm.urdf"), "--port", "0", "--names"]
+    with subprocess.Popen(
+        [sys.executable, "-c", start, *arguments], stdout=subprocess.PIPE, text=True
+    ) as served:
+        try:
+            assert served.stdout
+            received = re.match(r"view at (http://127\.0\.0\.1:\d+);", served.stdout.readline())
+            assert received
+            tab("Network.enable")
+            tab("Page.enable")
+            tab("Page.navigate", url=received[1])
+            wait_for(lambda: tab.shows("Frames", "Let time run"))
+            wait_for(lambda: red(tab.picture()) > 0.001)  # the shoulder of the arm
+            for name, words in (
+                ("Joints", ("lift [rad]", "reach [m]")),
+                ("Nodes", ("place [m]", "left_finger (slide)")),
+            ):
+                tab.open_panel(name)
+                wait_for(partial(tab.shows, *words))
+            elsewhere = [
+                url
+                for url in tab.asked
+                if not re.match(rf"(blob:)?(http|ws)://{re.escape(LOOPBACK)}:|data:|about:", url)
+            ]
+            assert elsewhere == []
+            assert any(url.startswith(received[1]) for url in tab.asked)
+        finally:
+            served.send_signal(signal.SIGINT)
+        assert served.wait(PATIENCE) == 130

@@ -1,0 +1,219 @@
+"""The time of a world and that of its deployment: they move, stand still and begin anew as one."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from robocomp_dsl.runtime.clock import WakeEvent, WallClock
+from robocomp_dsl.runtime.time.clock_interface import Tick
+from robocomp_dsl.runtime.time.clock_source import ClockSource
+from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
+from robocomp_dsl.simulation.stepping.clock_leader import ClockLeader
+from robocomp_dsl.simulation.world.simulation import SimulationOptions
+from tests.simulation.served_worlds import ROOM, Served, served
+
+DEADLINE = 120.0
+
+
+class Life:
+    """The life cycle of the simulator in a thread: a moment every 10 ms, until `stop`."""
+
+    def __init__(self, clock: ClockSource) -> None:
+        self.clock, self.wake = clock, WakeEvent()
+        self.computed: list[float] = []
+        self._thread = threading.Thread(target=self._live)
+        self._thread.start()
+
+    def _live(self) -> None:
+        self.clock.wait_until(0.0, self.wake)
+        epoch, due = self.clock.reset_count, self.clock.now()
+        while not self.wake.stopped:
+            self.computed.append(self.clock.now())
+            due += 0.01
+            self.clock.wait_until(round(due, 9), self.wake)
+            if self.clock.reset_count != epoch:
+                epoch, due = self.clock.reset_count, self.clock.now()
+
+    def stop(self) -> None:
+        self.wake.stop()
+        self._thread.join()
+
+
+class Source:
+    """A world that makes the time; `apart` is by how much it was ever behind a tick."""
+
+    def __init__(self, folder: Path, options: SimulationOptions) -> None:
+        self.world: Served = served(folder, ROOM, options)
+        self.ticks: list[Tick] = []
+        self.apart = 0.0
+        self.clock = ClockSource(self._tell)
+        self.world.simulation.start(self.clock)
+        self.hand = self.world.ports["Simulation"]
+        self.life: Life | None = None
+
+    def _tell(self, tick: Tick) -> None:
+        self.ticks.append(tick)
+        self.apart = max(self.apart, tick.time / 1e9 - self.world.simulation.world.advanced_to)
+
+    def live(self) -> None:
+        self.life = Life(self.clock)
+
+
+@pytest.fixture
+def source(tmp_path: Path, request: pytest.FixtureRequest) -> Any:
+    result = Source(tmp_path, getattr(request, "param", SimulationOptions(speed=0)))
+    yield result
+    if result.life:
+        result.life.stop()
+
+
+def until(condition: Callable[[], Any]) -> None:
+    end = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < end, "it did not come to pass"
+        time.sleep(0.002)
+
+
+def test_clock_leader_advances_world_before_tick(source: Source) -> None:
+    source.live()
+    until(lambda: source.clock.now() > 1.0)
+    source.hand.pause()
+    state = source.hand.getState()
+    assert state.paused
+    assert source.apart < 1e-9
+    assert state.time == pytest.approx(source.clock.now(), abs=1e-9)
+
+
+def test_clock_leader_steps_world_with_clock(source: Source) -> None:
+    source.clock.pause()
+    source.live()
+    until(lambda: source.clock.reset_count == 0)
+    assert source.hand.step(3) == pytest.approx(0.006)
+    assert source.ticks[-1].time == 6_000_000
+    assert source.hand.step(100) == pytest.approx(0.206)
+    until(lambda: len(source.life.computed) == 21)  # type: ignore[union-attr]
+    assert source.life.computed == [n / 100 for n in range(21)]  # type: ignore[union-attr]
+    assert source.clock.paused
+
+
+def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("robocomp_dsl.simulation.stepping.clock_leader.PATIENCE_S", 0.01)
+    source.clock.pause()
+    with pytest.raises(source.world.types.RoboCompSimulation_Refused, match="has not moved"):
+        source.hand.step(1)
+    assert isinstance(source.world.simulation.step_driver, ClockLeader)
+    assert source.clock.current_tick.time == 0
+
+
+def test_clock_leader_resets_clock_with_world(source: Source) -> None:
+    source.clock.pause()
+    source.live()
+    until(lambda: source.clock.reset_count == 0)
+    source.hand.step(20)
+    saved = source.hand.snapshot()
+    source.hand.step(30)
+    assert source.clock.current_tick.time == 100_000_000
+    source.hand.restore(saved)
+    assert (source.clock.current_tick.time, source.clock.reset_count) == (40_000_000, 1)
+    assert source.hand.getState().time == pytest.approx(0.04)
+    assert source.hand.step(5) == pytest.approx(0.05)
+    source.hand.reset()
+    assert (source.clock.current_tick.time, source.clock.reset_count) == (0, 2)
+    assert source.hand.getState().time == 0.0
+    assert source.hand.step(1) == pytest.approx(0.002)
+    assert source.ticks[-1].epoch == 2
+
+
+def test_clock_leader_resets_world_with_clock(source: Source) -> None:
+    source.clock.pause()
+    source.live()
+    until(lambda: source.clock.reset_count == 0)
+    source.world.ports["robot"].setSpeedBase(300.0, 0.0)
+    source.hand.step(250)
+    assert source.world.ports["robot"].getBaseState().z > 100
+    source.clock.reset()
+    until(lambda: source.ticks[-1].epoch == 1)
+    assert source.hand.step(1) == pytest.approx(0.002)
+    assert source.world.ports["robot"].getBaseState().z == 0
+
+
+def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
+    source.hand.setSpeed(4.0)
+    source.live()
+    until(lambda: source.hand.getState().realTimeFactor > 0)
+    state = source.hand.getState()
+    assert state.speed == source.clock.speed == 4.0
+    assert state.realTimeFactor == pytest.approx(source.clock.current_tick.realTimeFactor, abs=2)
+    source.hand.pause()
+    assert source.hand.getState().realTimeFactor == 0.0
+
+
+@pytest.mark.parametrize(
+    "source",
+    [SimulationOptions(speed=0), SimulationOptions(speed=0, diverged="stop")],
+    indirect=True,
+)
+def test_clock_leader_resets_or_pauses_after_divergence(source: Source) -> None:
+    source.clock.pause()
+    source.live()
+    until(lambda: source.clock.reset_count == 0)
+    source.hand.step(50)
+    source.world.simulation.world.data.qvel[0] = math.inf
+    source.clock.resume()
+    if source.world.simulation.options.diverged == "stop":
+        until(lambda: source.hand.getState().failure)
+        until(lambda: source.ticks[-1].paused)
+        assert source.clock.reset_count == 0
+        source.hand.reset()
+    until(lambda: source.ticks[-1].epoch == 1 and source.ticks[-1].time > 0)
+    state = source.hand.getState()
+    assert (state.failure, state.paused) == ("", False)
+
+
+def test_clock_follower_advances_world_with_clock(tmp_path: Path) -> None:
+    world = served(tmp_path, ROOM)
+    clock, hand = SimulatedClock(), world.ports["Simulation"]
+    world.simulation.start(clock)
+    keep_up = world.simulation.step_driver.update
+    for number in range(11):
+        clock.on_tick(Tick(number * 10_000_000, realTimeFactor=2.5))
+        keep_up()
+    state = hand.getState()
+    assert (state.time, state.realTimeFactor) == (pytest.approx(0.1), 2.5)
+    hand.pause()
+    clock.on_tick(Tick(500_000_000))
+    keep_up()
+    assert hand.getState().time == pytest.approx(0.1)
+    assert hand.step(5) == pytest.approx(0.11)
+    hand.resume()
+    clock.on_tick(Tick(510_000_000))
+    keep_up()
+    assert hand.getState().time == pytest.approx(0.12)
+    clock.on_tick(Tick(0, epoch=1))
+    keep_up()
+    assert hand.getState().time == 0.0
+    with pytest.raises(world.types.RoboCompSimulation_Refused, match="another component"):
+        hand.setSpeed(2.0)
+    assert "another component" in world.simulation.step_driver.validate_speed(2.0)
+    assert world.simulation.step_driver.validate_speed(1.0) == ""
+
+
+def test_wall_clock_selects_real_time_driver(tmp_path: Path) -> None:
+    world = served(tmp_path, ROOM, SimulationOptions(speed=0))
+    world.simulation.start(WallClock())
+    try:
+        until(lambda: world.ports["Simulation"].getState().time > 1.0)
+        world.ports["Simulation"].reset()
+        assert world.ports["Simulation"].getState().failure == ""
+    finally:
+        world.simulation.stop()
+    rests = world.simulation.time
+    world.simulation.step_driver.update()
+    assert world.simulation.time == rests

@@ -1,0 +1,107 @@
+"""Running real editors: where they are, what they get, and that nothing of them is left.
+
+In: a command. Out: what it printed. A tool that is missing is a failure where everything was to be
+installed (CI), and a reason to skip elsewhere.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+import pytest
+
+from tests.support import samples
+
+EDITORS = Path(__file__).parents[2] / "editors"
+DEADLINE_S = 90
+SERVER = """#!/bin/sh
+echo $$ >> '{pids}'
+exec '{python}' -c 'from robocomp_dsl.cli.rcgen.main import main; main()' "$@"
+"""
+
+
+class Project:
+    """A folder with the samples and a `.venv` that holds a server, which leaves its process id."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.pids = folder / "server.pids"
+        samples.write(folder)
+        program = folder / ".venv" / "bin" / "rcgen"
+        program.parent.mkdir(parents=True)
+        program.write_text(SERVER.format(pids=self.pids, python=sys.executable))
+        program.chmod(0o755)
+
+    def path(self, name: str) -> Path:
+        return self.folder / name
+
+    def assert_no_server_left(self) -> None:
+        """Every server that was started has ended, or does so within the deadline."""
+        started = self.pids.read_text().split() if self.pids.exists() else []
+        assert started, "no server was started"
+        left = [int(item) for item in started]
+        end = time.monotonic() + DEADLINE_S
+        while left := [pid for pid in left if _alive(pid)]:
+            assert time.monotonic() < end, f"servers are left: {left}"
+            os.sched_yield()
+
+
+def run(
+    command: Sequence[str | Path],
+    folder: Path,
+    home: Path,
+    env: Mapping[str, str] | None = None,
+    deadline: float = DEADLINE_S,
+) -> str:
+    """What `command` printed, which must succeed in time; its processes end with it."""
+    homes = {name: str(home) for name in ("HOME", *_XDG)}
+    process = subprocess.Popen(
+        [str(part) for part in command],
+        cwd=folder,
+        env={**os.environ, **homes, **(env or {})},
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    try:
+        out, _ = process.communicate(timeout=deadline)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        out, _ = process.communicate()
+        pytest.fail(f"{command[0]} did not end in time:\n{out}")
+    assert process.returncode == 0, out
+    return out
+
+
+def need(name: str) -> str:
+    """The path of a program; without it the test fails in CI and is skipped elsewhere."""
+    return shutil.which(name) or missing(name)
+
+
+def missing(what: str) -> NoReturn:
+    """Fail in CI, skip elsewhere, as `what` is not here."""
+    reason = f"{what} is not installed: `make test-editors` installs what these tests need"
+    if os.environ.get("CI"):
+        pytest.fail(reason)
+    pytest.skip(reason)
+
+
+_XDG = ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME")
+
+
+def _alive(pid: int) -> bool:
+    try:
+        state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state != "Z"

@@ -1,0 +1,135 @@
+"""Simulator, generic_arm and reflex as they are shipped: the finger presses, the arm withdraws.
+
+The same folder `reflex` on both robots and both arms; what differs are two parameters and a wire.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from robocomp_dsl.runtime.component.lifecycle import LifecycleState
+from tests.touch.equations import gain
+from tests.touch.shipped_system import BOARDS, ShippedSystem
+
+PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_upper",
+          "upper_arm_front")  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=list(BOARDS), ids=[f"{r}-{s}" for r, s in BOARDS])
+def system(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
+    system = ShippedSystem(*request.param, threshold=0.005, full=0.02, hold=1.0)
+    try:
+        system.until("Watching", 5.0)
+        system.run(0.5)
+        yield system
+    finally:
+        system.close()
+
+
+def test_the_arm_withdraws_from_the_finger_and_comes_back(system: ShippedSystem) -> None:
+    for place in PLACES:
+        field, start = system.field(place), system.arm.getState().position
+        before, count = system.spot(field), system.reflex.getStatistics().withdrawals
+        system.press(field, 0.004)
+        felt = acted = cleared = 0.0
+        for _ in range(40):
+            system.run(0.02)
+            now = system.world.clock.now()
+            felt = felt or (now if system.felt() > 0 else 0.0)
+            acted = acted or (now if system.state == "Withdrawing" else 0.0)
+            cleared = now if system.felt() > 0 else cleared
+        assert felt, place
+        assert 0.0 < acted - felt + 0.02 <= 0.0801, place  # frames come every 20 ms
+        assert place in system.worker(1).withdrawal.strongest
+        assert np.linalg.norm(system.spot(field) - before) > 0.01, place
+        assert cleared - felt < 0.6, place
+        assert system.felt() == 0.0, place  # the finger is still there, the arm is not
+        assert system.reflex.getStatistics().withdrawals == count + 1
+        system.take_away()
+        system.until("Watching")
+        system.run(0.5)
+        assert system.arm.getState().position == pytest.approx(start, abs=0.03), place
+    keeps_to_its_limits(system)
+
+
+def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
+    system: ShippedSystem,
+) -> None:
+    fields = system.reflex.getFields()
+    count = system.reflex.getStatistics().withdrawals
+    start = system.arm.getState().position
+    system.reflex.setForces(20.0, 30.0)
+    system.press(system.field("lower_arm_under"), 0.002)
+    peak = 0.0
+    for _ in range(20):
+        system.run(0.02)
+        peak = max(peak, system.felt())
+    assert peak > 0.1
+    system.take_away()
+    system.reflex.setForces(0.005, 0.02)
+    system.reflex.setFields([field for field in fields if field.name == "upper_arm_front"])
+    system.press(system.field("lower_arm_under"), 0.002)
+    system.run(0.4)
+    system.take_away()
+    system.run(0.1)
+    system.reflex.setFields(fields)
+    seen = system.reflex.getStatistics()
+    assert seen.withdrawals == count
+    assert system.arm.getState().position == pytest.approx(start, abs=0.05)
+    bad = (seen.framesNotFinite, seen.framesWrongLength, seen.framesOutOfOrder)
+    assert bad == (0, 0, 0)
+    assert seen.framesOtherGeometry == 0
+
+
+def test_every_answer_is_what_the_equations_say_of_the_frame(system: ShippedSystem) -> None:
+    """The forces that physics makes, through the simulated skin; a little off the centre."""
+    system.until("Watching")
+    system.run(1.0)
+    known, geometry = len(system.events()), system.world.simulation.skin.geometry
+    system.reflex.setForces(0.0, 0.5)
+    system.press(system.field("lower_arm_outer"), 0.003, along=0.006)
+    system.run(0.4)
+    events = system.events()[known:]
+    assert events
+    for event in events:
+        force = system.world.frames[event.time].astype(np.float32).astype(float)
+        index = np.flatnonzero((force > 0) & (geometry.limb == geometry.limbs.index(event.limb)))
+        field = system.field(event.field)
+        assert len(index) > 1
+        points, forces = geometry.points[index], force[index]
+        expected = gain(points, forces, field.centre, field.radius, 0.0, 0.5)
+        assert event.gain == pytest.approx(expected, abs=1e-5)
+        assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
+    system.take_away()
+    system.reflex.setForces(0.005, 0.02)
+    system.until("Watching")
+
+
+def test_a_skin_that_dies_on_the_way_stops_the_arm_and_all_recovers(system: ShippedSystem) -> None:
+    """Frames come twice a second, for a reflex that is blind after 0.2 s."""
+    system.reflex.setForces(0.005, 0.02)
+    system.press(system.field("lower_arm_outer"), 0.004)
+    system.until("Withdrawing", 1.0)
+    system.world.params.set({"skin.rate": 2.0})
+    system.until("Frozen", 2.0)
+    assert system.runners[1].state is LifecycleState.EMERGENCY
+    system.take_away()
+    system.run(0.5)
+    here = system.arm.getState().position
+    system.run(0.5)
+    assert system.arm.getState().position == pytest.approx(here, abs=0.01)
+    system.world.params.set({"skin.rate": 50.0})
+    system.until("Watching")
+    assert system.runners[1].state is LifecycleState.COMPUTE
+    keeps_to_its_limits(system)
+
+
+def keeps_to_its_limits(system: ShippedSystem) -> None:
+    """What the joints in the physics really did, from the first moment on."""
+    angles, speeds = system.joints()
+    assert angles.min() >= 0.0
+    assert angles.max() <= 1.0
+    assert speeds.max() <= 1.0, speeds.max(axis=0)
