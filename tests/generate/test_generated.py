@@ -104,12 +104,12 @@ for interface in vars(i).values():
             values = tuple(zero(t) for _, t in operation.inputs)
             decoded = operation.decode_request(operation.encode_request(values))
             assert str(decoded) == str(values), (operation.name, decoded, values)
-            results = tuple(zero(t) for _, t in one.outputs)
+            results = tuple(zero(t) for _, t in operation.outputs)
             answer = results[0] if len(results) == 1 else results or None
-            back = one.decode_reply(one.encode_reply(answer))
-            assert str(back) == str(answer), (one.name, back, answer)
-            for error in one.throws:
-                back = one.decode_error(one.encode_error(error()))
+            back = operation.decode_reply(operation.encode_reply(answer))
+            assert str(back) == str(answer), (operation.name, back, answer)
+            for error in operation.throws:
+                back = operation.decode_error(operation.encode_error(error()))
                 assert type(back) is error
 """
 ZERO = """
