@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # What a test starts finds the commands that belong to this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -38,6 +38,10 @@ test-wheel: $(READY)
 fuzz: $(READY)
 	$(BIN)/pip install -q --disable-pip-version-check -e '.[fuzz]' || echo "atheris is not to be had here"
 	$(BIN)/python -m tests.fuzz $(MINUTES)
+
+# Inject faults into running deployments: 10 minutes.
+campaign: $(READY)
+	$(BIN)/python -m tests.campaign
 
 # The words that editors colour, from the grammars.
 highlight: $(READY)
