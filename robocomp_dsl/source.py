@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.record import Record
+from robocomp_dsl.regular_file import open_regular
 
 MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are rejected; real descriptions are far smaller."""
@@ -58,7 +59,7 @@ class Source(Record):
         Raises `UnreadableSource` if it is missing, a folder, too large or not a text file.
         """
         try:
-            with path.open("rb") as stream:
+            with open_regular(path) as stream:
                 data = stream.read(MAX_BYTES + 1)
         except FileNotFoundError:
             raise UnreadableSource("the file does not exist") from None

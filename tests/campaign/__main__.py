@@ -14,6 +14,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -71,7 +72,7 @@ class Campaign:
         with RunningDeployment(self.folder / "campaign.ddsl") as app:
             app.wait_ready()
             domain = domain_of(app)
-            self.section("undisturbed", lambda: time.sleep(5) or {})
+            self.section("undisturbed", undisturbed)
             kills = max(8, int(self.seconds * KILLS_PER_SECOND / 3))
             self.section("kill -9 by turns", lambda: faults.kill_by_turns(app, kills))
             self.section("SIGSTOP by turns", lambda: faults.stop_by_turns(app, 2.0))
@@ -88,10 +89,14 @@ class Campaign:
         self.section("full disk", lambda: faults.full_disk(self.folder))
         for action in ("hang", *faults.ACTIONS):
             for hook in faults.HOOKS:
-                self.section(
-                    f"{action} in {hook}",
-                    lambda hook=hook, action=action: faults.fail_in_hook(self.folder, hook, action),
-                )
+                inject = partial(faults.fail_in_hook, self.folder, hook, action)
+                self.section(f"{action} in {hook}", inject)
+
+
+def undisturbed() -> dict[str, Any]:
+    """No fault for some seconds, to compare with."""
+    time.sleep(5)
+    return {}
 
 
 def domain_of(app: RunningDeployment) -> str:

@@ -16,6 +16,7 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.model import innermodel as nouns
 from robocomp_dsl.model.innermodel import InnerModel
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source, Span, UnreadableSource
 from robocomp_dsl.tactile.description.check import RobotStructure, compare
 from robocomp_dsl.tactile.description.model import RobotDescription
@@ -86,7 +87,7 @@ class _ModelUnavailable(Exception):
 def _facts(robot: RobotDescription, workspace: Workspace) -> RobotStructure:
     path = robot.file.parent / robot.model
     try:
-        head = path.read_bytes()
+        head = read_bytes(path)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise _ModelUnavailable(f"`{robot.model}` cannot be read: {why}") from None

@@ -17,6 +17,7 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.inputs import expand_inputs
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.regular_file import open_regular
 
 if TYPE_CHECKING:
     from robocomp_dsl.generate.output import OutputFile
@@ -128,7 +129,7 @@ def _stale_pages(output: Path, written_paths: set[str]) -> list[str]:
 
 def _is_generated_file(path: Path) -> bool:
     try:
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             return _is_generated(stream.read(MARK_BYTES))
     except OSError:  # a folder or an unreadable file is not a generated page
         return False

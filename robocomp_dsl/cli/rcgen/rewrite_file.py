@@ -9,6 +9,7 @@ from pathlib import Path
 
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.write import write
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import declare_utf8
 
 BOM = "\N{ZERO WIDTH NO-BREAK SPACE}"
@@ -19,7 +20,7 @@ def rewrite_file(path: Path, text: str) -> None:
 
     Raises `CannotWrite`.
     """
-    mark = BOM if path.read_bytes().startswith(BOM.encode()) else ""
+    mark = BOM if read_bytes(path).startswith(BOM.encode()) else ""
     # Write the target of a symbolic link, so that the link stays.
     real = path.resolve()
     write(real.parent, [OutputFile(real.name, mark + declare_utf8(text))])

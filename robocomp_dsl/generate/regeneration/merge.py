@@ -16,6 +16,7 @@ from pathlib import Path
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.output import MANIFEST_FOLDER, OutputFile
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source
 
 PRISTINE = f"{MANIFEST_FOLDER}pristine"
@@ -144,7 +145,7 @@ def _as_mine(data: bytes, mine: bytes) -> bytes:
 
 def _read(path: Path) -> bytes | None:
     try:
-        return path.read_bytes()
+        return read_bytes(path)
     except OSError:  # whatever it is, the writer says what is wrong with it
         return None
 

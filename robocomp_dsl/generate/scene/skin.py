@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.kinematics.rotations import rotation
 from robocomp_dsl.model import innermodel
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.tactile.description.model import RobotDescription
 from robocomp_dsl.tactile.errors import DescriptionError
 from robocomp_dsl.tactile.skin.cone import Cone
@@ -115,7 +116,7 @@ def _layout(patch: innermodel.Patch, frame: _Frame) -> TaxelLayout:
 
 def _from_file(path: Path, frame: _Frame) -> TaxelLayout:
     """Positions measured in the frame of the body; rows without a taxel only count."""
-    read = read_positions(path.read_text(encoding="utf-8"), path)
+    read = read_positions(read_text(path), path)
     used = np.flatnonzero(read.used)
     return TaxelLayout(
         used, frame.from_body(read.positions[used]), read.normals[used] @ frame.orientation

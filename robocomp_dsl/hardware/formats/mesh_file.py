@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.formats.collada import collada_points
+from robocomp_dsl.regular_file import read_bytes
 
 MAX_BYTES = 200 * 1024 * 1024
 
@@ -60,7 +61,7 @@ def read_surface(path: Path) -> Surface:
     try:
         if path.stat().st_size > MAX_BYTES:
             raise MeshError(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
-        surface = read(path.read_bytes())
+        surface = read(read_bytes(path))
     except OSError as error:
         raise MeshError(error.strerror or "the file cannot be read") from None
     except (ValueError, IndexError, struct.error, ParseError) as error:

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.runtime.parameters import overrides as command_line
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters.check import check_values
@@ -78,7 +79,7 @@ class UnreadableFile(Exception):
 def read_text(path: Path) -> str:
     """The text of a file. Raises `UnreadableFile`."""
     try:
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         raise UnreadableFile("file not found") from None

@@ -12,6 +12,7 @@ from collections.abc import Mapping as Values
 from contextlib import suppress
 from pathlib import Path
 
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigText
 from robocomp_dsl.runtime.parameters.overrides import parse_path, set_node
 from robocomp_dsl.runtime.parameters.schema import Value
@@ -49,7 +50,7 @@ def apply(root: Mapping, saved: Mapping, findings: list[ConfigFinding]) -> Mappi
 def saved_parameters(file: Path) -> list[str]:
     """The parameters in a file that was read without findings."""
     try:
-        source = file.read_text(encoding="utf-8-sig")
+        source = read_text(file, "utf-8-sig")
     except OSError:
         return []
     from robocomp_dsl.runtime.parameters.yaml_text import read_yaml  # noqa: PLC0415 - slow to load

@@ -7,6 +7,7 @@ searched in the text: exact for one key per line, otherwise the nearest line abo
 from __future__ import annotations
 
 import re
+import sys
 import tomllib
 from collections.abc import Iterator
 from typing import Any
@@ -29,10 +30,24 @@ def read_toml(text: ConfigText, source: str, findings: list[ConfigFinding]) -> M
     except tomllib.TOMLDecodeError as error:
         findings.append(_syntax_error(text, error))
         return None
+    except ValueError:
+        # `int` limits the number of digits: tomllib does not locate this error.
+        findings.append(_long_number(text))
+        return None
     except RecursionError:
         findings.append(ConfigFinding(root, "the file is nested too deeply"))
         return None
     return Mapping(root, _members(data, "", dict(_places(text)), root))
+
+
+def _long_number(text: ConfigText) -> ConfigFinding:
+    limit = sys.get_int_max_str_digits()
+    for number, line in enumerate(text.lines, start=1):
+        if match := re.search(rf"[0-9](?:_?[0-9]){{{limit},}}", line):
+            place = ConfigLocation(text, number, match.start() + 1, len(match[0]))
+            digits = len(match[0].replace("_", ""))
+            return ConfigFinding(place, f"this number has {digits} digits; the limit is {limit}")
+    return ConfigFinding(ConfigLocation(text, 1, 1), f"a number has more than {limit} digits")
 
 
 def _syntax_error(text: ConfigText, error: tomllib.TOMLDecodeError) -> ConfigFinding:

@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr, unescape
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import root_tag
 from robocomp_dsl.hardware.description.model_paths import resolve
+from robocomp_dsl.regular_file import read_bytes
 
 _TAGS = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<[^<>]*>", re.DOTALL)
 _NAME = re.compile(r"</?\s*([\w.:-]+)")
@@ -49,7 +50,7 @@ def copy_model(path: Path, packages: Sequence[Path] = ()) -> str:
 
 
 def _read(path: Path) -> str:
-    data = path.read_bytes()
+    data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

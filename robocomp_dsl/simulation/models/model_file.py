@@ -18,6 +18,7 @@ import numpy as np
 from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
 from robocomp_dsl.hardware.description.model_kind import root_tag
 from robocomp_dsl.hardware.formats.urdf import read_urdf
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.mjcf_spec import build_mjcf, error_with_line
 from robocomp_dsl.simulation.models.urdf_spec import build_urdf
 from robocomp_dsl.simulation.world.arena import reserve_arena
@@ -44,7 +45,7 @@ def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
 
 def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[ModelFinding]]:
     """What is in the file at `path`, not compiled yet. Raises `ModelFileError`, `OSError`."""
-    data = path.read_bytes()
+    data = read_bytes(path)
     match root_tag(data):
         case "robot":
             return build_urdf(read_urdf(data), path, packages)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.runtime.config.data_file import data_file
 from robocomp_dsl.runtime.parameters import ConfigError, ConfigFinding, ConfigLocation
 from robocomp_dsl.runtime.parameters.findings import ConfigText, did_you_mean
@@ -50,7 +51,7 @@ def _parse_robot(source: str, file: Path) -> RobotDescription:
 
 def _read_source(file: Path) -> str:
     try:
-        return file.read_text(encoding="utf-8")
+        return read_text(file)
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "it is not UTF-8 text"
         place = ConfigLocation(ConfigText(str(file), ()), 1, 1)

@@ -17,6 +17,7 @@ import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.config import lookup
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.runtime.config import CONTEXTS, context_names, files_of
 
 Copy = tuple[Path, Path]
@@ -78,7 +79,7 @@ def _copies(folders: lookup.Folders, context: str, file: str | None) -> list[Cop
 
 def _same(copy: Copy) -> bool:
     try:
-        return copy[0].read_bytes() == copy[1].read_bytes()
+        return read_bytes(copy[0]) == read_bytes(copy[1])
     except OSError:
         return False
 

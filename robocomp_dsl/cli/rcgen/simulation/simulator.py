@@ -20,6 +20,7 @@ from robocomp_dsl.cli.rcgen.simulation.recovery_summary import summarise_recover
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes, codes_model
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source, Span
 
 if TYPE_CHECKING:
@@ -154,7 +155,7 @@ def _world(
 
 def _kind(file: Path) -> str:
     try:
-        return root_tag(file.read_bytes())
+        return root_tag(read_bytes(file))
     except OSError:  # the next reader reports it
         return ""
 

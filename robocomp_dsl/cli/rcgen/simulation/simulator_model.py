@@ -21,6 +21,7 @@ from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import HardwareError
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.model_copy import copy_model
 from robocomp_dsl.simulation.models.model_scene import describe
 from robocomp_dsl.simulation.world.simulation import Simulation
@@ -36,7 +37,7 @@ def model_world(
     """The simulator of the model at `path`, as `complete` makes it whole; None after errors."""
     source = read_source(path)
     try:
-        file = f"model{MODELS.get(root_tag(path.read_bytes()), '.xml')}"
+        file = f"model{MODELS.get(root_tag(read_bytes(path)), '.xml')}"
         described = describe(path, file, packages)
         text = copy_model(path, packages)
     except ModelFileError as error:

@@ -26,6 +26,7 @@ from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFind
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import SceneError
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.model_file import compiled, read_spec
 from robocomp_dsl.simulation.models.model_state import initial_data
 from robocomp_dsl.simulation.robots.build import add_robot, new_world
@@ -57,7 +58,7 @@ def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subjec
     if not path.exists() and str(path) in ROBOTS:
         return _robot(str(path))
     try:
-        data = path.read_bytes()
+        data = read_bytes(path)
     except OSError as error:
         message = f"`{path}` cannot be read: {error.strerror or error}"
         report.add(codes.MODEL_FILE, Source(path, "").file_span, message)
