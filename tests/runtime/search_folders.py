@@ -1,4 +1,4 @@
-"""A machine of a test: a working folder, a user, two installed places, all below `tmp_path`."""
+"""Folders of a configuration search below `tmp_path`: working, user and two installed folders."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ FOLDERS = {
 }
 
 
-class Machine:
-    """Its folders are named as in `FOLDERS`; the working folder is `work`."""
+class SearchFolders:
+    """The folders are named as in `FOLDERS`; the working folder is `work`."""
 
     def __init__(self, top: Path) -> None:
         self.top = top

@@ -1,4 +1,4 @@
-"""Values that their type cannot carry are refused with the name of the field."""
+"""Values that do not fit their type are rejected with the name of the field."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ INNER = struct_of([rt.BYTE, COLOUR])
 ROW = struct_of([rt.SHORT, struct_of([rt.FLOAT, rt.BOOL]), COLOUR])
 BAD_COLUMN = array_of(ROW).from_columns(f2=[1, 9])
 
-# type, value, field, what is said
+# type, value, field, reason
 CASES: list[tuple[str, Any, Any, str, str]] = [
     ("bool", rt.BOOL, "false", "f0", "takes True or False, not 'false' (str)"),
     ("byte", rt.BYTE, 256, "f0", "256 does not fit into a byte (0 to 255)"),
@@ -65,7 +65,7 @@ CASES: list[tuple[str, Any, Any, str, str]] = [
     [case[1:] for case in CASES],
     ids=[case[0] for case in CASES],
 )
-def test_refused(type_: Any, value: Any, path: str, reason: str) -> None:
+def test_encode_rejects_invalid_value(type_: Any, value: Any, path: str, reason: str) -> None:
     with pytest.raises(rt.EncodeError) as caught:
         codec.encode(struct_of([type_])(value))
     assert caught.value.path == path
@@ -73,8 +73,8 @@ def test_refused(type_: Any, value: Any, path: str, reason: str) -> None:
     assert isinstance(caught.value, ValueError)
 
 
-# type, value, what arrives
-TAKEN: list[tuple[str, Any, Any, Any]] = [
+# type, value, decoded value
+ACCEPTED: list[tuple[str, Any, Any, Any]] = [
     ("numpy bool", rt.BOOL, np.True_, True),
     ("one", rt.BOOL, 1, True),
     ("numpy int", rt.SHORT, np.int64(5), 5),
@@ -96,9 +96,11 @@ TAKEN: list[tuple[str, Any, Any, Any]] = [
 
 
 @pytest.mark.parametrize(
-    ("type_", "value", "expected"), [case[1:] for case in TAKEN], ids=[case[0] for case in TAKEN]
+    ("type_", "value", "expected"),
+    [case[1:] for case in ACCEPTED],
+    ids=[case[0] for case in ACCEPTED],
 )
-def test_taken(type_: Any, value: Any, expected: Any) -> None:
+def test_encode_accepts_compatible_value(type_: Any, value: Any, expected: Any) -> None:
     message = struct_of([type_])
     arrived = codec.decode(message, codec.encode(message(value))).f0
     assert arrived.tolist() == expected if isinstance(arrived, np.ndarray) else arrived == expected
@@ -116,7 +118,9 @@ RESULTS: list[tuple[Any, Any, str, str]] = [
 
 
 @pytest.mark.parametrize(("outputs", "result", "path", "reason"), RESULTS)
-def test_results_that_are_refused(outputs: Any, result: Any, path: str, reason: str) -> None:
+def test_encode_reply_rejects_invalid_result(
+    outputs: Any, result: Any, path: str, reason: str
+) -> None:
     with pytest.raises(rt.EncodeError) as caught:
         rt.Operation("f", rt.Pattern.QUERY, outputs=outputs).encode_reply(result)
     assert caught.value.path == path

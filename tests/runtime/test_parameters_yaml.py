@@ -1,4 +1,4 @@
-"""Configuration files and overrides: what each says, and every way of being wrong."""
+"""Configuration files in YAML: values, errors and limits."""
 
 from __future__ import annotations
 
@@ -7,69 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from robocomp_dsl.runtime.parameters import (
-    ConfigError,
-    Group,
-    Parameter,
-    ParameterGroup,
-    Parameters,
-)
-
-
-class Limits(ParameterGroup):
-    SCHEMA = (
-        Parameter("low", "float", default=-1.0, unit="rad"),
-        Parameter("high", "float", default=1.0, unit="rad"),
-    )
-    low: float
-    high: float
-
-
-class MotorsGroup(ParameterGroup):
-    SCHEMA = (
-        Parameter("name", "string"),
-        Parameter("id", "int", default=0, low=0, high=127),
-        Group("limits", Limits, single=True),
-    )
-    name: str
-    id: int
-    limits: Limits
-
-
-class ArmParams(Parameters):
-    SCHEMA = (
-        Parameter("device", "string", default="/dev/ttyUSB0"),
-        Parameter("rate", "float", default=50.0, low=1, high=1000, unit="Hz", live=True),
-        Parameter("retries", "int", default=3, low=0),
-        Parameter("mode", "choice", default="position", choices=("position", "velocity", "off")),
-        Parameter("verbose", "bool", default=False),
-        Parameter("lambda", "float", default=0.5, attribute="lambda_"),
-        Group("motors", MotorsGroup, low=0, high=3),
-    )
-    device: str
-    rate: float
-    retries: int
-    mode: str
-    verbose: bool
-    lambda_: float
-    motors: list[MotorsGroup]
-
-
-class NeedyParams(Parameters):
-    SCHEMA = (Parameter("serial", "string"), Group("motors", MotorsGroup, low=1, high=2))
-    serial: str
-    motors: list[MotorsGroup]
-
-
-def load(tmp_path: Path, text: str, *overrides: str, suffix: str = ".yaml") -> ArmParams:
-    file = tmp_path / f"config{suffix}"
-    file.write_text(text, encoding="utf-8")
-    return ArmParams.load(file, overrides)
-
-
-def complaints(error: ConfigError) -> list[str]:
-    return [f"{f.place.line}:{f.place.column} {f.message}" for f in error.findings]
-
+from robocomp_dsl.runtime.parameters import ConfigError
+from tests.runtime.arm_parameters import RequiredParams, error_lines, load
 
 VALUES = [
     # text, attribute, value
@@ -102,14 +41,16 @@ VALUES = [
 
 
 @pytest.mark.parametrize(("text", "attribute", "value"), VALUES)
-def test_values_of_yaml(tmp_path: Path, text: str, attribute: str, value: object) -> None:
+def test_parameters_load_reads_yaml_values(
+    tmp_path: Path, text: str, attribute: str, value: object
+) -> None:
     found = getattr(load(tmp_path, text), attribute)
     assert found == value
     assert type(found) is type(value)
 
 
 WRONG = [
-    # text, complaints (line:column message)
+    # text, error_lines (line:column message)
     ("rte: 5", ["1:1 unknown parameter `rte`"]),
     ("rate: fast", ["1:7 `rate` must be a number, not `fast`"]),
     ("rate: true", ["1:7 `rate` must be a number, not `true`"]),
@@ -160,15 +101,17 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("text", "expected"), WRONG, ids=[text[:30] for text, _ in WRONG])
-def test_wrong_yaml(tmp_path: Path, text: str, expected: list[str]) -> None:
+def test_parameters_load_reports_yaml_errors(
+    tmp_path: Path, text: str, expected: list[str]
+) -> None:
     with pytest.raises(ConfigError) as caught:
         load(tmp_path, text)
-    found = complaints(caught.value)
+    found = error_lines(caught.value)
     # the words behind "this is not YAML" are those of the YAML library in use
     assert [re.sub("(not YAML): .+", r"\1", message) for message in found] == expected
 
 
-def test_a_finding_shows_file_excerpt_caret_and_way_out(tmp_path: Path) -> None:
+def test_config_error_shows_file_excerpt_caret_and_help(tmp_path: Path) -> None:
     with pytest.raises(ConfigError) as caught:
         load(tmp_path, "mode: position\nratte: 20\nretries: 5.0\n")
     assert (
@@ -189,89 +132,13 @@ help: write 5"""
     )
 
 
-def test_everything_missing_is_told_at_once(tmp_path: Path) -> None:
+def test_parameters_load_reports_all_missing_values_at_once(tmp_path: Path) -> None:
     with pytest.raises(ConfigError) as caught:
-        NeedyParams.load(None)
-    assert complaints(caught.value) == [
+        RequiredParams.load(None)
+    assert error_lines(caught.value) == [
         "1:1 `serial` is not given and has no default",
         "1:1 `motors` is not given, it must have 1 to 2",
     ]
-
-
-def test_toml_has_the_same_values_and_places(tmp_path: Path) -> None:
-    good = 'rate = 20\nmode = "off"\n[[motors]]\nname = "a"\n[motors.limits]\nlow = -2.5\n'
-    params = load(tmp_path, good, suffix=".toml")
-    assert (params.rate, params.mode, params.motors[0].limits.low) == (20.0, "off", -2.5)
-    bad = 'rate = 5000\n[[motors]]\nname = 7\n[[motors]]\nname = "b"\nlimits.low = "x"\nids = 3\n'
-    with pytest.raises(ConfigError) as caught:
-        load(tmp_path, bad, suffix=".toml")
-    assert complaints(caught.value) == [
-        "1:8 `rate` is 5000 Hz, its highest value is 1000 Hz",
-        "3:8 `motors[0].name` must be a string, not the number 7",
-        "6:14 `motors[1].limits.low` must be a number, not a quoted string",
-        "7:1 `motors[1]` has no parameter `ids`",
-    ]
-
-
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        ("rate = ", "1"),
-        ("mode = 'a'\nrate = 1\nrate = 2\n", "3"),
-        ("[[motors]\n", "1"),
-    ],
-)
-def test_wrong_toml(tmp_path: Path, text: str, line: str) -> None:
-    with pytest.raises(ConfigError) as caught:
-        load(tmp_path, text, suffix=".toml")
-    assert len(caught.value.findings) == 1
-    found = complaints(caught.value)[0]
-    assert re.fullmatch(rf"{line}:\d+ this is not TOML: .+", found)
-
-
-def test_toml_types(tmp_path: Path) -> None:
-    assert load(tmp_path, "device = 2024-01-01", suffix=".toml").device == "2024-01-01"
-    with pytest.raises(ConfigError, match="`rate` is `inf`, it must be a finite number"):
-        load(tmp_path, "rate = inf", suffix=".toml")
-
-
-def test_overrides_win_over_the_file_and_reach_into_lists(tmp_path: Path) -> None:
-    params = load(
-        tmp_path,
-        "rate: 5\nmotors: [{name: a}, &b {name: b, limits: {low: -3}}, *b]\n",
-        "rate=6", "rate=7", "motors[1].limits.low=-2", "device=5", "motors[0].name=true",
-    )  # fmt: skip
-    assert params.rate == 7.0
-    assert [m.limits.low for m in params.motors] == [-1.0, -2.0, -3.0]
-    assert (params.device, params.motors[0].name) == ("5", "true")
-
-
-def test_overrides_can_give_a_required_list() -> None:
-    params = NeedyParams.load(None, ["serial=x=y", "motors[0].name=a", "motors[1].name=b"])
-    assert params.serial == "x=y"
-    assert [m.name for m in params.motors] == ["a", "b"]
-
-
-@pytest.mark.parametrize(
-    ("override", "expected"),
-    [
-        ("rate", "1:1 `--set rate` is not of the form `key=value`"),
-        ("=5", "1:1 `--set =5` is not of the form `key=value`"),
-        ("a..b=5", "1:1 `--set a..b=5` is not of the form `key=value`"),
-        ("a[x]=5", "1:1 `--set a[x]=5` is not of the form `key=value`"),
-        ("[0]=5", "1:1 `--set [0]=5` is not of the form `key=value`"),
-        ("rte=5", "1:1 unknown parameter `rte`"),
-        ("rate=", "1:6 `rate` must be a number, not ``"),
-        ("rate=5000", "1:6 `rate` is 5000 Hz, its highest value is 1000 Hz"),
-        ("motors[1].name=a", "1:1 `motors` has 0 entries, there is no [1] (they count from 0)"),
-        ("rate.x=5", "1:1 `rate` must be a number, not a group"),
-        ("motors.x=5", "1:1 `motors` must be a list, not a group"),
-    ],
-)
-def test_wrong_overrides(override: str, expected: str) -> None:
-    with pytest.raises(ConfigError) as caught:
-        ArmParams.load(None, [override])
-    assert complaints(caught.value) == [expected]
 
 
 def unusable(tmp_path: Path) -> list[tuple[Path, str]]:
@@ -288,15 +155,15 @@ def unusable(tmp_path: Path) -> list[tuple[Path, str]]:
     ]
 
 
-def test_unusable_files(tmp_path: Path) -> None:
+def test_parameters_load_reports_unreadable_file(tmp_path: Path) -> None:
     for path, reason in unusable(tmp_path):
         with pytest.raises(ConfigError) as caught:
-            NeedyParams.load(path)
-        assert complaints(caught.value) == [f"1:1 unreadable configuration: {reason}"]
+            RequiredParams.load(path)
+        assert error_lines(caught.value) == [f"1:1 unreadable configuration: {reason}"]
         assert str(path) in str(caught.value)
 
 
-def test_hostile_yaml_is_bounded(tmp_path: Path) -> None:
+def test_parameters_load_bounds_hostile_yaml(tmp_path: Path) -> None:
     bomb = "a0: &a0 [x, x]\n" + "".join(
         f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]\n" for i in range(1, 12)
     )
@@ -306,21 +173,21 @@ def test_hostile_yaml_is_bounded(tmp_path: Path) -> None:
     group = "{name: a, limits: {low: 1}}"
     with pytest.raises(ConfigError) as caught:
         load(tmp_path, f"motors: [{', '.join(['&a ' + group] + ['*a'] * 100_000)}]")
-    assert complaints(caught.value)[-1].endswith("the configuration has too many entries")
+    assert error_lines(caught.value)[-1].endswith("the configuration has too many entries")
     for deep in ("[" * 100_000, "{a: " * 100_000, "- " * 100_000):
         with pytest.raises(ConfigError, match="nested too deeply"):
             load(tmp_path, deep)
     with pytest.raises(ConfigError) as caught:
         load(tmp_path, "\n".join(f"k{i}: 1" for i in range(5000)))
-    assert complaints(caught.value)[-1].endswith("too many errors, the rest is not shown")
+    assert error_lines(caught.value)[-1].endswith("too many errors, the rest is not shown")
     assert len(caught.value.findings) == 101
 
 
-def test_merge_keys(tmp_path: Path) -> None:
+def test_parameters_load_reads_yaml_merge_keys(tmp_path: Path) -> None:
     params = load(tmp_path, "motors:\n - &m {name: a, id: 5}\n - {<<: *m, name: b}\n")
     assert [(m.name, m.id) for m in params.motors] == [("a", 5), ("b", 5)]
 
 
-def test_values_beyond_float_are_told_not_raised(tmp_path: Path) -> None:
+def test_parameters_load_reports_number_beyond_float_range(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="finite"):
         load(tmp_path, "rate: 0x" + "f" * 300)

@@ -1,4 +1,4 @@
-"""The help of a component's program says what its parameters are."""
+"""`--help` of a component lists its parameters."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Motor(ParameterGroup):
     )
 
 
-class OfArm(Parameters):
+class ArmParams(Parameters):
     """All of them."""
 
     SCHEMA = (
@@ -41,7 +41,7 @@ class OfArm(Parameters):
 class Arm(Component):
     """Has parameters."""
 
-    SPEC = ComponentSpec(name="arm", period=0, middleware="inproc", parameters=OfArm)
+    SPEC = ComponentSpec(name="arm", period=0, middleware="inproc", parameters=ArmParams)
 
 
 HELP = """\
@@ -62,7 +62,7 @@ parameters (in the configuration file, or with --set):
 """
 
 
-def test_the_help(capsys: pytest.CaptureFixture[str]) -> None:
+def test_program_help_lists_parameters(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as leaving:
         main(Arm, ["--help"])
     assert leaving.value.code == 0
