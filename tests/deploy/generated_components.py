@@ -1,4 +1,4 @@
-"""Two generated components that every test of whole deployments uses: `arm` serves, `eye` calls."""
+"""Two generated components for the tests of deployments: `arm` serves, `eye` calls."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from {name}_generated.interfaces import *
 """
 
 
-def build(folder: Path, workers: dict[str, str] | None = None) -> None:
+def generate_components(folder: Path, workers: dict[str, str] | None = None) -> None:
     """Generate both below `folder`; `workers` are the bodies of their `SpecificWorker`."""
     for name, text in (("arm", ARM), ("eye", EYE)):
         cdsl = folder / name / f"{name}.cdsl"

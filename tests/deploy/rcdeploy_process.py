@@ -1,10 +1,11 @@
-"""A program whose output is read to a text, and which never outlives its test; where it runs."""
+"""Programs in processes that end with their test; `rcdeploy` in a process; a folder for sockets."""
 
 from __future__ import annotations
 
 import contextlib
 import os
 import subprocess
+import sys
 import tempfile
 import threading
 from collections.abc import Iterator
@@ -15,10 +16,11 @@ from typing import Self
 import pytest
 
 DEADLINE_S = 240.0
+PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 
 
-class Running:
-    """A process started by a test; killed when it hangs, so that no test waits for ever."""
+class RunningProcess:
+    """A process of a test; killed after `DEADLINE_S`."""
 
     def __init__(self, *command: str, where: Path | None = None) -> None:
         self.process = subprocess.Popen(
@@ -34,7 +36,7 @@ class Running:
         self.lines: list[str] = []
 
     def until(self, *texts: str) -> str:
-        """Read on until every one of `texts` has come, in any order; the line of the last one."""
+        """Read until every text of `texts` has appeared; the line of the last text of `texts`."""
         assert self.process.stdout is not None
         found: dict[str, str] = {}
         for line in self.process.stdout:
@@ -43,7 +45,7 @@ class Running:
             if len(found) == len(texts):
                 return found[texts[-1]]
         missing = " and ".join(f"`{text}`" for text in texts if text not in found)
-        raise AssertionError(f"{missing} never came:\n" + "\n".join(self.lines))
+        raise AssertionError(f"{missing} did not appear:\n" + "\n".join(self.lines))
 
     def end(self) -> int:
         """Read the rest; the exit code."""
@@ -69,9 +71,20 @@ class Running:
         self._limit.cancel()
 
 
+def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
+    """Run `rcdeploy` to its end, in a process."""
+    command = [sys.executable, "-c", PROGRAM, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+
+
+def start_rcdeploy(*arguments: str) -> RunningProcess:
+    """Start `rcdeploy` in a process."""
+    return RunningProcess(sys.executable, "-c", PROGRAM, *arguments)
+
+
 @contextlib.contextmanager
 def runtime_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """A folder for sockets of this test only, with a path short enough for them."""
+    """A folder for the sockets of one test; its path is short enough for them."""
     with tempfile.TemporaryDirectory(prefix="rc-") as name:
         monkeypatch.setenv("XDG_RUNTIME_DIR", name)
         yield Path(name) / f"robocomp-{os.getuid()}"

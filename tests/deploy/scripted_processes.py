@@ -1,7 +1,7 @@
-"""Components for the tests of the supervisor: plain scripts, and a watch that hears them.
+"""Components for the tests of the supervisor: scripts, and a monitor that receives their states.
 
-A script says its state through a FIFO, as a real component does through its liveliness and the
-interface `Component`. `PRELUDE` gives it `tell(state)`, `wait()` until SIGTERM, and its `NAME`.
+A script reports its state through a FIFO, as a component does through its liveliness token and the
+interface `Component`. `PRELUDE` gives it `report(state)`, `wait()` until SIGTERM, and its `NAME`.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from robocomp_dsl.deploy.supervisor.lifecycle_monitor import StateCallback
 PRELUDE = """
 import os, signal, sys, threading
 NAME, FIFO = sys.argv[1], sys.argv[2]
-over = threading.Event()
-signal.signal(signal.SIGTERM, lambda *_: over.set())
-def tell(state):
+stopped = threading.Event()
+signal.signal(signal.SIGTERM, lambda *_: stopped.set())
+def report(state):
     with open(FIFO, "w") as out:
         out.write(f"{NAME} {os.getpid()} {state}\\n")
 def wait():
-    while not over.wait(0.2): pass
+    while not stopped.wait(0.2): pass
 """
-STEADY = 'tell("initialize"); tell("compute"); wait(); print("finalized")'
+STEADY = 'report("initialize"); report("compute"); wait(); print("finalized")'
 
 
-class FifoWatch:
+class FifoLifecycleMonitor:
     """A `LifecycleMonitor` that reads a FIFO in a thread."""
 
     def __init__(self, path: Path) -> None:
@@ -57,15 +57,15 @@ class FifoWatch:
                 self._seen(name, int(pid), "" if state == "gone" else state)
 
 
-def actor(tmp_path: Path, name: str, body: str, **fields: object) -> Process:
-    """A process that runs `body` behind `PRELUDE`."""
+def scripted_process(tmp_path: Path, name: str, body: str, **fields: object) -> Process:
+    """A process that runs `body` after `PRELUDE`."""
     script = tmp_path / f"{name}.py"
     script.write_text(PRELUDE + body, encoding="utf-8")
     argv = (sys.executable, "-S", script.name, name, str(tmp_path / "fifo"))
     return Process(name=name, component=name, argv=argv, cwd=tmp_path, **fields)  # type: ignore[arg-type]
 
 
-def plan_of(tmp_path: Path, *processes: Process, name: str = "demo") -> Plan:
-    """A plan of actors; its domain is unique to `tmp_path`."""
+def make_plan(tmp_path: Path, *processes: Process, name: str = "demo") -> Plan:
+    """A plan of scripted processes; its domain is unique to `tmp_path`."""
     domain = f"{name}-{tmp_path.parent.name}-{tmp_path.name}"
     return Plan(name, tmp_path / "demo.ddsl", domain, "inproc", processes)

@@ -1,4 +1,4 @@
-"""A deployment of actors in a process of its own: `driver.py FOLDER NAME SPEC`.
+"""A deployment of scripted processes in its own process: `scripted_session.py FOLDER NAME SPEC`.
 
 SPEC is a JSON list of `{name, body, after}`. Prints every record as one line of text.
 """
@@ -12,15 +12,15 @@ from pathlib import Path
 from robocomp_dsl.deploy import instances, session
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.supervisor.supervisor import Options
-from tests.deploy.deploy_actors import FifoWatch, actor, plan_of
+from tests.deploy.scripted_processes import FifoLifecycleMonitor, make_plan, scripted_process
 
 
-class Printing(session.Display):
+class PrintedDisplay(session.Display):
     def record(self, record: LogRecord) -> None:
-        say(f"{record.component}: {record.text}")
+        print_line(f"{record.component}: {record.text}")
 
 
-def say(text: str) -> None:
+def print_line(text: str) -> None:
     sys.stdout.write(f"{text}\n")
     sys.stdout.flush()
 
@@ -30,7 +30,7 @@ def main() -> int:
     where.mkdir(exist_ok=True)
     spec = json.loads(sys.argv[3])
     processes = [
-        actor(
+        scripted_process(
             where,
             process["name"],
             process["body"],
@@ -39,16 +39,16 @@ def main() -> int:
         )
         for process in spec
     ]
-    plan = plan_of(where, *processes, name=name)
+    plan = make_plan(where, *processes, name=name)
     try:
         claim = instances.acquire(name)
     except instances.Unavailable as error:
-        say(str(error))
+        print_line(str(error))
         return 1
     try:
-        watch = FifoWatch(where / "fifo")
+        monitor = FifoLifecycleMonitor(where / "fifo")
         options = Options(grace_s=2.0)
-        return session.run(plan, claim, watch, Printing(), options).code
+        return session.run(plan, claim, monitor, PrintedDisplay(), options).code
     finally:
         claim.release()
 
