@@ -113,7 +113,9 @@ def test_supervisor_stops_when_component_is_not_ready_in_time(tmp_path: Path) ->
 def test_supervisor_with_keep_going_continues_after_failure(tmp_path: Path) -> None:
     bad = scripted_process(tmp_path, "a", "sys.exit(2)", restart=NEVER)
     failed = tmp_path / "failed"
-    body = f'report("compute")\nwhile not os.path.exists({str(failed)!r}): pass\nprint("on"); wait()'
+    body = (
+        f'report("compute")\nwhile not os.path.exists({str(failed)!r}): pass\nprint("on"); wait()'
+    )
     run = SupervisorRun(
         tmp_path, bad, scripted_process(tmp_path, "b", body), options=Options(keep_going=True)
     )
