@@ -56,7 +56,7 @@ def scene(tmp_path: Path) -> Scene:
     return Scene.of_data(json.loads(json.dumps(lower_body(found))))
 
 
-def test_frames(scene: Scene) -> None:
+def test_lower_body_gives_frames(scene: Scene) -> None:
     lift = Motion("slide", "y", 0, 200, offset=15)
     pan = Motion("hinge", "y", -1, 1, home=0.1, force=12, gear=3)
     assert scene.frames == (
@@ -71,7 +71,7 @@ def test_frames(scene: Scene) -> None:
     )
 
 
-def test_shapes(scene: Scene, tmp_path: Path) -> None:
+def test_lower_body_gives_boxes_and_meshes(scene: Scene, tmp_path: Path) -> None:
     floor, x, y, z = scene.boxes
     assert floor == Box(
         "floor_plane", "floor", (10000, 10000, 50), normal=(0, 1, 0), colour="#886644"
@@ -84,7 +84,7 @@ def test_shapes(scene: Scene, tmp_path: Path) -> None:
     )
 
 
-def test_devices(scene: Scene) -> None:
+def test_lower_body_gives_devices(scene: Scene) -> None:
     found = {device.id: device for device in scene.devices}
     assert list(found) == ["robot", "laser", "pan", "lift", "eye"]
     assert found["laser"] == Device(
@@ -98,7 +98,7 @@ def test_devices(scene: Scene) -> None:
     assert found["pan"].frame == "pan"
 
 
-def test_the_same_geometry_in_mujoco(scene: Scene) -> None:
+def test_scene_has_equal_poses_in_mujoco(scene: Scene) -> None:
     spec, notes = build_spec(scene)
     assert len(notes) == 1  # the mesh that is not there
     model = spec.compile()
@@ -112,7 +112,7 @@ def test_the_same_geometry_in_mujoco(scene: Scene) -> None:
         assert found[:3, 3] == pytest.approx(tree.matrix(frame.id, "root")[:3, 3], abs=1e-6)
 
 
-def test_a_point_by_hand(scene: Scene) -> None:
+def test_transform_tree_transforms_point(scene: Scene) -> None:
     """The laser is 200 mm ahead of a robot that heads 0.5 rad to the right."""
     tree = TransformTree(scene.frames)
     found = tree.transform((0, 0, 1000), "laser_pose", "root")
@@ -133,7 +133,7 @@ CUTS = st.tuples(
 
 @settings(max_examples=80)
 @given(st.lists(CUTS, min_size=1, max_size=6))
-def test_whatever_is_written_there_is_a_world(cuts: list[tuple[int, int, str]]) -> None:
+def test_lower_body_of_damaged_text_gives_world(cuts: list[tuple[int, int, str]]) -> None:
     text = WORLD
     for at, length, piece in cuts:
         text = text[:at] + piece + text[at + length :]

@@ -1,4 +1,4 @@
-"""A user who edits `specificworker.py` at random; the file stays Python that runs."""
+"""Random edits of `specificworker.py`; the file stays valid Python."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ IMPORTS = (
 )
 
 
-class User:
-    """Edits one text."""
+class RandomEditor:
+    """Makes random edits of a text."""
 
-    def __init__(self, chance: random.Random) -> None:
-        self.chance = chance
+    def __init__(self, rng: random.Random) -> None:
+        self.rng = rng
 
     def edit(self, text: str) -> str:
-        """One edit; the text as it was where it would not be Python any more."""
-        change = self.chance.choice(
+        """One edit; the unchanged text if the edit breaks the syntax."""
+        change = self.rng.choice(
             [
                 self.add,
                 self.add,
@@ -72,28 +72,28 @@ class User:
         return [n for n in worker.body if isinstance(n, ast.FunctionDef)]
 
     def add(self, text: str) -> str:
-        """Something of their own into the class, in the file's indentation."""
-        snippet = self.chance.choice(SNIPPETS).format(n=self.chance.randrange(1000))
+        """A snippet into the class, in the indentation of the file."""
+        snippet = self.rng.choice(SNIPPETS).format(n=self.rng.randrange(1000))
         if "\tdef " in text:
             snippet = re.sub(
                 r"^( {4})+", lambda m: "\t" * (len(m[0]) // 4), snippet, flags=re.MULTILINE
             )
-        method = self.chance.choice(self._methods(text))
+        method = self.rng.choice(self._methods(text))
         lines = self._lines(text)
         at = min([method.lineno, *(d.lineno for d in method.decorator_list)]) - 1
         return "".join([*lines[:at], snippet, *lines[at:]])
 
     def outside(self, text: str) -> str:
-        return text + self.chance.choice(OUTSIDE).format(n=self.chance.randrange(1000))
+        return text + self.rng.choice(OUTSIDE).format(n=self.rng.randrange(1000))
 
     def remark(self, text: str) -> str:
         lines = self._lines(text)
-        at = self.chance.randrange(len(lines))
+        at = self.rng.randrange(len(lines))
         return "".join([*lines[:at], "        # a remark at any place\n", *lines[at:]])
 
     def body(self, text: str) -> str:
-        """Their own code in a method."""
-        method = self.chance.choice(self._methods(text))
+        """A statement in a method."""
+        method = self.rng.choice(self._methods(text))
         lines = self._lines(text)
         last = method.body[-1]
         lead = re.match(r"\s*", lines[last.lineno - 1])
@@ -101,21 +101,21 @@ class User:
         return "".join([*lines[: last.lineno - 1], f"{indent}x = 1\n", *lines[last.lineno - 1 :]])
 
     def rename(self, text: str) -> str:
-        """A parameter under a name of their own."""
+        """Another name for a parameter."""
         found = re.search(r"(def Talk_\w+\(self, )(a0)(: )", text)
         return text[: found.start(2)] + "mine" + text[found.end(2) :] if found else text
 
     def blank(self, text: str) -> str:
         lines = self._lines(text)
-        at = self.chance.randrange(len(lines))
-        return "".join([*lines[:at], "\n" * self.chance.randrange(4), *lines[at:]])
+        at = self.rng.randrange(len(lines))
+        return "".join([*lines[:at], "\n" * self.rng.randrange(4), *lines[at:]])
 
     def delete(self, text: str) -> str:
-        """A whole method, but the first."""
+        """Delete any method except the first."""
         methods = self._methods(text)[1:]
         if not methods:
             return text
-        method = self.chance.choice(methods)
+        method = self.rng.choice(methods)
         lines = self._lines(text)
         start = min([method.lineno, *(d.lineno for d in method.decorator_list)]) - 1
         return "".join([*lines[:start], *lines[method.end_lineno :]])
@@ -125,8 +125,8 @@ class User:
         return plain if "\r\n" in text else plain.replace("\n", "\r\n")
 
     def tabs(self, text: str) -> str:
-        """The whole file with tabs."""
-        if self.chance.random() < 0.7:
+        """Indent the whole file with tabs."""
+        if self.rng.random() < 0.7:
             return text
         return re.sub(r"^( {4})+", lambda m: "\t" * (len(m[0]) // 4), text, flags=re.MULTILINE)
 
@@ -135,4 +135,4 @@ class User:
         last = [n for n in tree.body if isinstance(n, ast.Import | ast.ImportFrom)][-1]
         lines = self._lines(text)
         at = last.end_lineno or last.lineno
-        return "".join([*lines[:at], self.chance.choice(IMPORTS), *lines[at:]])
+        return "".join([*lines[:at], self.rng.choice(IMPORTS), *lines[at:]])

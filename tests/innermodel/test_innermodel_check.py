@@ -1,4 +1,4 @@
-"""What InnerModel files mean: nodes with values, and findings where they make no sense."""
+"""The check of InnerModel files: nodes with values, and findings with locations."""
 
 import math
 from pathlib import Path
@@ -21,7 +21,7 @@ def checked(folder: Path, text: str) -> tuple[InnerModel, Report]:
     return found, report
 
 
-def only(folder: Path, text: str) -> innermodel.Node:
+def single_node(folder: Path, text: str) -> innermodel.Node:
     found, report = checked(folder, text)
     assert [d.message for d in report] == []
     (node,) = found.root.children
@@ -74,10 +74,10 @@ def only(folder: Path, text: str) -> innermodel.Node:
         ('<display id="a" port="5"/>', innermodel.Plane, {"port": 5, "tag": "display"}),
     ],
 )
-def test_values_and_defaults(
+def test_innermodel_node_has_values_and_defaults(
     tmp_path: Path, text: str, kind: type[innermodel.Node], values: dict[str, object]
 ) -> None:
-    node = only(tmp_path, text)
+    node = single_node(tmp_path, text)
     assert type(node) is kind
     assert {name: getattr(node, name) for name in values} == values
 
@@ -121,7 +121,7 @@ def test_values_and_defaults(
         ('<transform id="a" mass="-5"/>', ["RC808 `<transform` "]),
     ],
 )
-def test_findings(tmp_path: Path, text: str, findings: list[str]) -> None:
+def test_innermodel_check_reports_findings(tmp_path: Path, text: str, findings: list[str]) -> None:
     _, report = checked(tmp_path, text)
     assert [f"{d.code.id} `{d.span.text}` {d.label}" for d in report] == findings
 
@@ -138,7 +138,7 @@ def test_findings(tmp_path: Path, text: str, findings: list[str]) -> None:
         ('<translation id="a" x="wide"/>', {"tx": 0}),
     ],
 )
-def test_an_unknown_attribute_is_taken_as_the_one_that_is_meant(
+def test_innermodel_check_corrects_unknown_attribute(
     tmp_path: Path, text: str, values: dict[str, object]
 ) -> None:
     found, report = checked(tmp_path, text)
@@ -147,7 +147,7 @@ def test_an_unknown_attribute_is_taken_as_the_one_that_is_meant(
     assert {name: getattr(node, name) for name in values} == values
 
 
-def test_what_is_wrong_is_left_out_and_the_rest_stands(tmp_path: Path) -> None:
+def test_innermodel_check_drops_invalid_nodes_and_keeps_others(tmp_path: Path) -> None:
     found, report = checked(
         tmp_path,
         '<transform id="a" tx="x" ty="7"><foo><imu id="lost"/></foo><imu id="a"/><imu/></transform>'
@@ -161,7 +161,7 @@ def test_what_is_wrong_is_left_out_and_the_rest_stands(tmp_path: Path) -> None:
     assert (first.tx, first.ty) == (0, 7)
 
 
-def test_files_include_files(tmp_path: Path) -> None:
+def test_innermodel_check_resolves_includes(tmp_path: Path) -> None:
     (tmp_path / "parts").mkdir()
     (tmp_path / "parts" / "robot.xml").write_text(
         '<innermodel><include path="arm.xml"/><imu id="imu"/></innermodel>'
@@ -186,14 +186,14 @@ def test_files_include_files(tmp_path: Path) -> None:
     assert paths["elbow"] == "arm.xml"
 
 
-def test_a_cycle_of_includes_is_told_and_cut(tmp_path: Path) -> None:
+def test_innermodel_check_reports_and_breaks_include_cycle(tmp_path: Path) -> None:
     (tmp_path / "b.xml").write_text('<innermodel><include path="world.xml"/></innermodel>')
     found, report = checked(tmp_path, '<imu id="a"/><include path="b.xml"/>')
     assert [d.message for d in report] == ["the file includes itself through `b.xml`"]
     assert len(list(found.nodes())) == 2
 
 
-def test_includes_without_end_are_stopped(tmp_path: Path) -> None:
+def test_innermodel_check_bounds_number_of_includes(tmp_path: Path) -> None:
     for i in range(7):
         inside = f'<include path="f{i + 1}.xml"/>' * 10 if i < 6 else '<imu id="i"/>' * 10
         (tmp_path / f"f{i}.xml").write_text(f"<innermodel>{inside}</innermodel>")
@@ -201,7 +201,7 @@ def test_includes_without_end_are_stopped(tmp_path: Path) -> None:
     assert "RC809" in {d.code.id for d in report}
 
 
-def test_elements_too_deep_are_told(tmp_path: Path) -> None:
+def test_innermodel_check_limits_nesting_depth(tmp_path: Path) -> None:
     text = "".join(f'<transform id="t{i}">' for i in range(300)) + "</transform>" * 300
     found, report = checked(tmp_path, text)
     assert [d.code.id for d in report] == ["RC807"]

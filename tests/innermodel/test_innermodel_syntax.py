@@ -1,4 +1,4 @@
-"""The form of InnerModel files: what is wrong is told where it is, and the rest stands."""
+"""The syntax of InnerModel files: errors are located, and the rest is kept."""
 
 import json
 from functools import cache
@@ -45,7 +45,7 @@ def shape(element: Element | None) -> str:
         ('<a file="/x/y=z.osg"/>', "a(file=/x/y=z.osg)"),
     ],
 )
-def test_what_is_right(text: str, found: str) -> None:
+def test_innermodel_parser_reads_valid_text(text: str, found: str) -> None:
     tree, report = parsed(text)
     assert [d.message for d in report] == []
     assert shape(tree.root) == found
@@ -83,7 +83,7 @@ def test_what_is_right(text: str, found: str) -> None:
         ),
     ],
 )
-def test_what_is_wrong(text: str, tree: str, findings: list[str]) -> None:
+def test_innermodel_parser_reports_and_recovers(text: str, tree: str, findings: list[str]) -> None:
     found, report = parsed(text)
     assert shape(found.root) == tree
     message = [
@@ -94,7 +94,7 @@ def test_what_is_wrong(text: str, tree: str, findings: list[str]) -> None:
     assert found.complete == (not report.has_errors)
 
 
-def test_a_fix_leads_to_a_right_file() -> None:
+def test_innermodel_parser_fixes_repair_text() -> None:
     text = '<a x=5 y="1"z="2" w="3"w="3" v="0><b></a>'
     for _ in range(10):
         fixes = [d.fix for d in parsed(text)[1].sorted() if d.fix]
@@ -105,12 +105,12 @@ def test_a_fix_leads_to_a_right_file() -> None:
     assert shape(parsed(text)[0].root) == "a(x=5,y=1,z=2,w=3,v=0)[b()]"
 
 
-def test_a_file_of_nothing_but_errors_ends() -> None:
+def test_innermodel_parser_limits_number_of_findings() -> None:
     _, report = parsed("<a " + "x='1' " * 1000 + ">" + "</q>" * 5000)
     assert 100 <= len(report) < 210  # 100 warnings, 100 errors
 
 
-def test_nesting_has_no_limit_here() -> None:
+def test_innermodel_parser_accepts_deep_nesting() -> None:
     tree, report = parsed("<a>" * 20_000 + "</a>" * 20_000)
     assert not report.has_errors
     assert tree.root is not None
@@ -125,7 +125,7 @@ PIECES = [
 
 @settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
-def test_anything_is_read(text: str) -> None:
+def test_innermodel_parser_accepts_any_text(text: str) -> None:
     tree, report = parsed(text)
     assert tree.complete == (not report.has_errors)
     for finding in report:
@@ -139,12 +139,12 @@ def lark() -> Any:
 
 @settings(max_examples=300)
 @given(st.lists(st.sampled_from(PIECES), max_size=40).map("".join))
-def test_tokens_are_those_of_lark(text: str) -> None:
+def test_xml_tokens_equal_those_of_lark(text: str) -> None:
     read = lark().parse_interactive(text).exhaust_lexer()
     expected = [(t.type, t.start_pos, t.end_pos) for t in read]
     assert [(t.kind, t.start, t.end) for t in tokens(text)] == expected
 
 
-def test_the_kept_terminals_are_fresh() -> None:
+def test_innermodel_terminal_table_is_up_to_date() -> None:
     saved = json.loads((GRAMMARS / "tables" / "innermodel.json").read_text())
     assert saved == build_tables.build_xml_tables()

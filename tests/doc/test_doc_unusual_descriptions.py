@@ -1,4 +1,4 @@
-"""Unusual descriptions: every name has one page, every link leads to the right one."""
+"""Unusual descriptions: every name has one page, and every link resolves to it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _text(files: dict[str, str], page: str) -> str:
     return read(files[f"{page}.html"]).text
 
 
-def test_two_modules_in_one_file(tmp_path: Path) -> None:
+def test_documentation_of_two_modules_in_one_file(tmp_path: Path) -> None:
     _write(
         tmp_path,
         {
@@ -40,8 +40,8 @@ def test_two_modules_in_one_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("other", "count"), [("int a;", 1), ("float b;", 2)])
-def test_two_copies_of_a_file_are_one_page(tmp_path: Path, other: str, count: int) -> None:
-    """Unless they differ."""
+def test_documentation_merges_equal_copies_of_file(tmp_path: Path, other: str, count: int) -> None:
+    """Copies that differ have a page each."""
     idsl = "module M {{ struct S {{ {} }}; interface I {{ S f(); }}; }};"
     _write(
         tmp_path,
@@ -61,7 +61,7 @@ def test_two_copies_of_a_file_are_one_page(tmp_path: Path, other: str, count: in
     assert ("y requires it" in _text(site, "interfaces/M.I")) == (count == 1)
 
 
-def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> None:
+def test_documentation_of_names_that_differ_in_case(tmp_path: Path) -> None:
     _write(
         tmp_path,
         {
@@ -74,7 +74,7 @@ def test_names_that_differ_in_case_have_pages_of_their_own(tmp_path: Path) -> No
     assert {"components/Base.html", "components/base-2.html"} <= set(site)
 
 
-def test_a_port_that_may_stay_alone_says_so(tmp_path: Path) -> None:
+def test_component_page_marks_optional_port(tmp_path: Path) -> None:
     ports = "requires Laser, Laser as spare optional;"
     text = COMPONENT.format(file="Laser.idsl", name="base", ports=ports)
     _write(tmp_path, {"base.cdsl": text})
@@ -83,7 +83,7 @@ def test_a_port_that_may_stay_alone_says_so(tmp_path: Path) -> None:
     assert "spare requires, optional Laser" in text
 
 
-def test_types_of_all_sorts(tmp_path: Path) -> None:
+def test_interface_page_shows_all_kinds_of_types(tmp_path: Path) -> None:
     _write(
         tmp_path,
         {
@@ -126,7 +126,7 @@ def test_types_of_all_sorts(tmp_path: Path) -> None:
     assert 'href="#type.Broken"' in site["interfaces/T.Garage.html"]
 
 
-def test_parameters_of_all_sorts(tmp_path: Path) -> None:
+def test_parameter_page_shows_all_kinds_of_parameters(tmp_path: Path) -> None:
     _write(
         tmp_path,
         {
@@ -156,14 +156,14 @@ def test_parameters_of_all_sorts(tmp_path: Path) -> None:
         assert item in text
 
 
-def test_a_component_without_anything(tmp_path: Path) -> None:
+def test_component_page_of_empty_component(tmp_path: Path) -> None:
     _write(tmp_path, {"e.cdsl": "Component e { language Python; period 0; };"})
     site = pages(tmp_path / "e.cdsl")
     assert check_links(site)
     assert "Computes only on events" in _text(site, "components/e")
 
 
-def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
+def test_index_page_draws_matching_ports(tmp_path: Path) -> None:
     ports = {"a": "requires Laser;", "b": "implements Laser; requires Laser as other;", "c": ""}
     _write(
         tmp_path,
@@ -179,6 +179,6 @@ def test_the_first_page_shows_what_fits(tmp_path: Path) -> None:
     assert '<a href="components/c.html">' in index
 
 
-def test_code_beside_code_is_told_in_markdown(tmp_path: Path) -> None:
+def test_markdown_page_joins_adjacent_code_spans(tmp_path: Path) -> None:
     _write(tmp_path, {"e.cdsl": "/** So `a``b` is. */ Component e { language Python; };"})
     assert "So `ab` is." in pages(tmp_path / "e.cdsl")["components/e.md"]

@@ -1,4 +1,4 @@
-"""Whatever stands in doc comments, defaults and units: the output compiles and says the same."""
+"""Any text in doc comments, defaults and units: the output compiles and keeps the text."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TEXTS = st.text(max_size=40) | st.text("\"'\\\n\r\t{}%#*/ \x00\u2028é`|", max_s
 
 
 def component(doc: str, text: str, unit: str) -> Component:
-    """A component with `doc` wherever there can be one, and so on."""
+    """A component with the texts in every place that takes a text."""
     fields = (t.Field("s", t.STRING, HERE, text, unit, doc),)
     struct = t.Struct("M", "S", HERE, doc, fields)
     enum = t.Enum("M", "E", HERE, doc, (t.Enumerator("One", 1, HERE, doc),))
@@ -42,13 +42,13 @@ def component(doc: str, text: str, unit: str) -> Component:
         Parameter("p", Kind.STRING, HERE, text, unit=unit, doc=doc),
         Parameter("c", Kind.CHOICE, HERE, "a", choices=("a", "b"), doc=doc),
     )
-    given_ = ParameterSet("c", Path("x.pdsl"), HERE, parameters, doc)
-    return Component("c", Path("x.cdsl"), HERE, "Python", (module,), ports, given_, doc=doc)
+    parameter_set = ParameterSet("c", Path("x.pdsl"), HERE, parameters, doc)
+    return Component("c", Path("x.cdsl"), HERE, "Python", (module,), ports, parameter_set, doc=doc)
 
 
 @settings(max_examples=60)
 @given(doc=TEXTS, text=TEXTS, unit=TEXTS)
-def test_any_text(doc: str, text: str, unit: str) -> None:
+def test_generated_code_with_random_texts_keeps_texts(doc: str, text: str, unit: str) -> None:
     files = {f.path: f for f in plan(component(doc, text, unit))}
     for path, file in files.items():
         if path.endswith(".py"):
@@ -68,9 +68,9 @@ def test_any_text(doc: str, text: str, unit: str) -> None:
 
 
 def executed(file: OutputFile) -> Any:
-    """The module, run."""
-    module = ModuleType("made")
-    sys.modules["made"] = module
+    """The module, executed."""
+    module = ModuleType("generated_module")
+    sys.modules["generated_module"] = module
     exec(compile(file.text, file.path, "exec", dont_inherit=True), module.__dict__)
     return module
 
@@ -79,8 +79,8 @@ def doc_of(class_: type) -> list[str]:
     return (inspect.getdoc(class_) or "").split("\n")
 
 
-def test_the_same_texts_through_the_languages() -> None:
-    """The hostile golden case has them in files; here is what they become."""
+def test_generated_code_of_hostile_case_keeps_texts() -> None:
+    """The texts of the hostile golden case in the executed module."""
     (file,) = (f for f in golden.files("hostile") if f.path == "hostile_generated/interfaces.py")
     module = executed(file)
     assert module.A().s == '""" {{ x }} \\ \' \n'

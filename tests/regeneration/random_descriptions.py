@@ -18,10 +18,10 @@ ROLES = ("implements", "requires", "publishes", "subscribesTo")
 
 
 @dataclass
-class Model:
-    """What the descriptions say now. An operation is (mark, result, inputs, outputs)."""
+class RandomDescriptions:
+    """The current descriptions. An operation is (mark, result, inputs, outputs)."""
 
-    chance: random.Random
+    rng: random.Random
     operations: dict[str, dict[str, tuple[str, str, tuple[str, ...], tuple[str, ...]]]] = field(
         default_factory=lambda: {"Talk": {}, "Ear": {}}
     )
@@ -32,14 +32,14 @@ class Model:
 
     def edit(self) -> None:
         """One change."""
-        change = self.chance.choice(
+        change = self.rng.choice(
             [
                 self.add,
                 self.add,
                 self.remove,
                 self.rename,
                 self.retype,
-                self.wire,
+                self.connect,
                 self.parameter,
                 self.state,
             ]
@@ -47,8 +47,8 @@ class Model:
         change()
 
     def add(self) -> None:
-        interface = self.chance.choice(list(self.operations))
-        name = f"do{self.chance.randrange(12)}"
+        interface = self.rng.choice(list(self.operations))
+        name = f"do{self.rng.randrange(12)}"
         self.operations[interface][name] = self._operation(topic=interface == "Ear")
 
     def remove(self) -> None:
@@ -58,27 +58,27 @@ class Model:
     def rename(self) -> None:
         if found := self._random_operation():
             table = self.operations[found[0]]
-            table[f"do{self.chance.randrange(12)}"] = table.pop(found[1])
+            table[f"do{self.rng.randrange(12)}"] = table.pop(found[1])
 
     def retype(self) -> None:
         if found := self._random_operation():
             operation = self._operation(topic=found[0] == "Ear")
             self.operations[found[0]][found[1]] = operation
 
-    def wire(self) -> None:
-        if len(self.ports) > 1 and self.chance.random() < 0.5:
-            self.ports.pop(self.chance.randrange(len(self.ports)))
+    def connect(self) -> None:
+        if len(self.ports) > 1 and self.rng.random() < 0.5:
+            self.ports.pop(self.rng.randrange(len(self.ports)))
             return
-        role = self.chance.choice(ROLES)
+        role = self.rng.choice(ROLES)
         self.ports.append((role, "Talk" if role in ROLES[:2] else "Ear"))
 
     def parameter(self) -> None:
-        name = f"p{self.chance.randrange(8)}"
+        name = f"p{self.rng.randrange(8)}"
         if self.parameters.pop(name, None) is None:
-            self.parameters[name] = self.chance.choice(list(VALUES))
+            self.parameters[name] = self.rng.choice(list(VALUES))
 
     def state(self) -> None:
-        name = f"s{self.chance.randrange(6)}"
+        name = f"s{self.rng.randrange(6)}"
         if name in self.states:
             self.states.remove(name)
         else:
@@ -86,16 +86,16 @@ class Model:
 
     def _random_operation(self) -> tuple[str, str] | None:
         found = [(i, o) for i, table in self.operations.items() for o in table]
-        return self.chance.choice(found) if found else None
+        return self.rng.choice(found) if found else None
 
     def _operation(self, *, topic: bool) -> tuple[str, str, tuple[str, ...], tuple[str, ...]]:
-        some = [self.chance.choice(TYPES) for _ in range(self.chance.randrange(4))]
+        inputs = [self.rng.choice(TYPES) for _ in range(self.rng.randrange(4))]
         if topic:
-            return "", "void", tuple(some), ()
-        results = [self.chance.choice(TYPES) for _ in range(self.chance.randrange(3))]
-        mark = "" if results else self.chance.choice(["", "[command] ", "[query] "])
-        result = self.chance.choice(["void", *TYPES]) if results else "void"
-        return mark, result, tuple(some), tuple(results)
+            return "", "void", tuple(inputs), ()
+        results = [self.rng.choice(TYPES) for _ in range(self.rng.randrange(3))]
+        mark = "" if results else self.rng.choice(["", "[command] ", "[query] "])
+        result = self.rng.choice(["void", *TYPES]) if results else "void"
+        return mark, result, tuple(inputs), tuple(results)
 
     def idsl(self) -> str:
         parts = [DECLARED]
@@ -118,13 +118,13 @@ class Model:
         return f"ComponentParams talker\n{{\n{rows}}};\n"
 
     def smdsl(self) -> str:
-        """A chain of the states; none of them is an end, so the component goes on."""
+        """A chain of the states; no state is final, so the component continues."""
         first, *rest = self.states or ["s"]
         states = f"    states {', '.join(rest)};\n" if rest else ""
         pairs = zip([first, *rest], [*rest, first], strict=True)
-        ways = "".join(f"        {a} => {b} on next;\n" for a, b in pairs)
-        ways = f"    transitions\n    {{\n{ways}    }};\n" if rest else ""
-        return f"machine\n{{\n    initial_state {first};\n{states}{ways}}};\n"
+        transitions = "".join(f"        {a} => {b} on next;\n" for a, b in pairs)
+        transitions = f"    transitions\n    {{\n{transitions}    }};\n" if rest else ""
+        return f"machine\n{{\n    initial_state {first};\n{states}{transitions}}};\n"
 
     def cdsl(self) -> str:
         machine = 'statemachine "talker.smdsl";\n    ' if self.states else ""

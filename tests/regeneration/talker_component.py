@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -16,17 +15,10 @@ from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.regeneration.update import update_user_files
 from robocomp_dsl.generate.write import write
 
-STARTS = """\
-import sys
-from specificworker import SpecificWorker
-from robocomp_dsl.runtime import main
-sys.exit(main(SpecificWorker, ["--version"]))
-"""
-
 
 @dataclass(frozen=True)
-class Talker:
-    """A component that implements and subscribes to what a test says."""
+class TalkerComponent:
+    """A component in a folder whose operations and ports a test selects."""
 
     folder: Path
 
@@ -44,7 +36,7 @@ class Talker:
         )
 
     def generate(self) -> list[Diagnostic]:
-        """Generate it; the findings about what is the user's."""
+        """Generate the component; returns the findings about user files."""
         report = Report()
         component = check_cdsl(self.folder / "talker.cdsl", Workspace(environ={}), report)
         assert not report.has_errors, render.full(report)
@@ -57,8 +49,8 @@ class Talker:
     def worker(self) -> Path:
         return self.folder / "specificworker.py"
 
-    def imports(self) -> None:
-        """Python runs the module of the user, with all that it imports."""
+    def check_import(self) -> None:
+        """Import the module of the user in a process."""
         code = "import specificworker; specificworker.SpecificWorker"
         run = subprocess.run(
             [sys.executable, "-c", code],
@@ -69,7 +61,26 @@ class Talker:
         )
         assert run.returncode == 0, run.stderr
 
-    def copy_to(self, folder: Path) -> Talker:
-        """The same in another folder."""
-        shutil.copytree(self.folder, folder)
-        return Talker(folder)
+
+WORKER_HEAD = """\
+from talker_generated.genericworker import GenericWorker
+from talker_generated.interfaces import *
+
+class SpecificWorker(GenericWorker):
+"""
+
+
+def write_worker(talker: TalkerComponent, *methods: str) -> None:
+    """Write `specificworker.py` with these methods."""
+    talker.worker.write_text(WORKER_HEAD + "\n".join(f"    {method}" for method in methods) + "\n")
+
+
+def add_machine(talker: TalkerComponent, text: str) -> None:
+    """Add the state machine `text` to the component."""
+    (talker.folder / "m.smdsl").write_text(text)
+    talker.describe("int say(Word w);")
+    cdsl = talker.folder / "talker.cdsl"
+    cdsl.write_text(cdsl.read_text().replace("language", 'statemachine "m.smdsl"; language'))
+
+
+MACHINE = "m {{ states a{0}; initial_state b; transitions {{ b => a{0} on start; }}; }};\n"

@@ -1,4 +1,4 @@
-"""XML as people have it: declarations, encodings, comments, texts of every kind."""
+"""Variants of XML: declarations, encodings, comments, text content."""
 
 from pathlib import Path
 
@@ -40,7 +40,7 @@ def nodes(path: Path) -> tuple[list[str], list[str]]:
         f'<?xml version="1.0" encoding="ISO-8859-1"?><!-- \xf1 -->{TREE}'.encode(),
     ],
 )
-def test_it_is_read_without_a_word(tmp_path: Path, data: str | bytes) -> None:
+def test_xml_variants_are_read_without_findings(tmp_path: Path, data: str | bytes) -> None:
     path = tmp_path / "w.xml"
     path.write_bytes(data.encode() if isinstance(data, str) else data)
     assert nodes(path) == (["root", "a", "b"], [])
@@ -61,7 +61,9 @@ def test_it_is_read_without_a_word(tmp_path: Path, data: str | bytes) -> None:
         (f"<!-- \xf1 -->{TREE}".encode("latin-1"), ["RC001 1:1"]),
     ],
 )
-def test_what_is_told(tmp_path: Path, data: str | bytes, findings: list[str]) -> None:
+def test_xml_errors_are_reported_with_location(
+    tmp_path: Path, data: str | bytes, findings: list[str]
+) -> None:
     path = tmp_path / "w.xml"
     path.write_bytes(data.encode() if isinstance(data, str) else data)
     found, received = nodes(path)
@@ -69,7 +71,7 @@ def test_what_is_told(tmp_path: Path, data: str | bytes, findings: list[str]) ->
     assert found == ([] if "RC001 1:1" in received else ["root", "a", "b"])
 
 
-def test_all_but_the_mistake_stands(tmp_path: Path) -> None:
+def test_xml_elements_around_error_are_kept(tmp_path: Path) -> None:
     path = tmp_path / "w.xml"
     wrong = '<joint id="j7" tx="1" tx="2" %><imu id="i"/> stray </joint>'
     right = "".join(f'<plane id="p{i}" size="1"/>' for i in range(50))
@@ -81,7 +83,7 @@ def test_all_but_the_mistake_stands(tmp_path: Path) -> None:
     assert {item.split()[0] for item in received} >= {"RC180", "RC181", "RC182", "RC184"}
 
 
-def test_a_fixed_file_says_its_encoding(tmp_path: Path) -> None:
+def test_xml_fix_updates_declared_encoding(tmp_path: Path) -> None:
     path = tmp_path / "w.xml"
     head = '<?xml version="1.0" encoding="ISO-8859-1"?><!-- \xf1 -->'
     path.write_bytes((head + TREE.replace('id="a"', 'id="a" id="a"')).encode("latin-1"))
@@ -91,7 +93,7 @@ def test_a_fixed_file_says_its_encoding(tmp_path: Path) -> None:
     assert nodes(path) == (["root", "a", "b"], [])
 
 
-def test_text_is_a_warning_only(tmp_path: Path) -> None:
+def test_xml_text_content_is_a_warning(tmp_path: Path) -> None:
     path = tmp_path / "w.xml"
     path.write_text(TREE.replace("<imu", "left <imu"))
     report = Report()
@@ -106,7 +108,9 @@ def test_text_is_a_warning_only(tmp_path: Path) -> None:
         ("version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 1\n", "Git LFS"),
     ],
 )
-def test_a_file_that_was_not_fetched(tmp_path: Path, text: str, message: str) -> None:
+def test_xml_placeholder_of_git_annex_or_lfs_is_reported(
+    tmp_path: Path, text: str, message: str
+) -> None:
     path = tmp_path / "w.xml"
     path.write_text(text)
     report = Report()
@@ -125,7 +129,7 @@ def test_a_file_that_was_not_fetched(tmp_path: Path, text: str, message: str) ->
         ("<transform/>", ""),
     ],
 )
-def test_xml_of_another_kind(tmp_path: Path, text: str, help: str) -> None:
+def test_xml_of_other_root_element_is_reported(tmp_path: Path, text: str, help: str) -> None:
     path = tmp_path / "w.xml"
     path.write_text(text)
     report = Report()
@@ -136,8 +140,8 @@ def test_xml_of_another_kind(tmp_path: Path, text: str, help: str) -> None:
     assert bool(help) == bool(finding.help)
 
 
-def test_comments_in_comments(tmp_path: Path) -> None:
-    """A comment ends at the first `-->`, whatever was begun in it."""
+def test_xml_comment_ends_at_first_terminator(tmp_path: Path) -> None:
+    """A comment ends at the first `-->`."""
     path = tmp_path / "w.xml"
     path.write_text(TREE.replace("<imu", "<!-- <!-- <imu id='x'/> --> <imu"))
     assert nodes(path) == (["root", "a", "b"], ["RC187 1:36"])

@@ -1,4 +1,4 @@
-"""Where the extension looks for `rcgen`: a table of what there is, and what is found."""
+"""The search of the VS Code extension for `rcgen`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ CASES: list[tuple[dict[str, Any], tuple[str, ...], str | None]] = [
     ({"configured": "~/rcgen"}, ("/home/me/rcgen",), "/home/me/rcgen"),
     ({"folders": []}, EVERYTHING[:1], None),
 ]
-"""What differs from `USUAL`, the programs that exist, the one that is found."""
+"""Differences from `USUAL`, the programs that exist, and the expected program."""
 
 USUAL = {
     "configured": "",
@@ -38,30 +38,30 @@ USUAL = {
     "searched": ["/bin", "/usr/bin"],
     "windows": False,
 }
-ASK = """
+SCRIPT = """
 const { findServer } = require(process.argv[1]);
-const asked = JSON.parse(process.argv[2]);
-const answers = asked.map(([places, there]) =>
+const requests = JSON.parse(process.argv[2]);
+const answers = requests.map(([places, there]) =>
   findServer({ ...places, isProgram: (file) => there.includes(file) }) ?? null);
 console.log(JSON.stringify(answers));
 """
 
 
-def test_where_the_server_is_found(vsix: Path, tmp_path: Path) -> None:
+def test_vscode_find_server_searches_in_order(vsix: Path, tmp_path: Path) -> None:
     assert vsix.exists()  # building it installed esbuild
     module = tmp_path / "finding.js"
     esbuild = FOLDER / "node_modules" / ".bin" / "esbuild"
     options = ("--bundle", "--platform=node", "--format=cjs", f"--outfile={module}")
     command = [esbuild, FOLDER / "src" / "finding.ts", "--log-level=warning", *options]
     subprocess.run(command, check=True, timeout=60)
-    asked = json.dumps([[{**USUAL, **places}, there] for places, there, _ in CASES])
-    answered = subprocess.run(
-        [need("node"), "-e", ASK, module, asked],
+    requests = json.dumps([[{**USUAL, **places}, there] for places, there, _ in CASES])
+    done = subprocess.run(
+        [need("node"), "-e", SCRIPT, module, requests],
         env={"HOME": "/home/me", "PATH": "/usr/bin:/bin"},
         capture_output=True,
         text=True,
         check=True,
         timeout=60,
     )
-    found = json.loads(answered.stdout)
+    found = json.loads(done.stdout)
     assert found == [expected for _, _, expected in CASES]

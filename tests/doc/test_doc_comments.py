@@ -1,4 +1,4 @@
-"""Any doc comment is told as it is: in HTML, and in Markdown as a reader of it sees it."""
+"""Any doc comment appears unchanged in HTML and in rendered Markdown."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ def _bare(text: str) -> str:
 @example("a\n===\n# b\n> c\n    d")
 @example("`a|b` ``x`` ` `")
 @example("&amp; &#60; <!-- <br> http://a.b [x]: y")
-def test_any_text(doc: str) -> None:
+def test_doc_page_shows_any_doc_comment(doc: str) -> None:
     pages_ = _pages(doc)
     html = pages_["components/c.html"]
     texts = read(html[html.index("</dl>") + len("</dl>") : html.index("</main>")])
     assert set(texts.tags) <= {"p", "ul", "li", "code"}
     letters = _bare("".join(literals.lines(doc)))
-    for sign in "`-+*":  # ticks and the signs of lists are not told
+    for sign in "`-+*":  # back quotes and list markers are dropped
         letters = letters.replace(sign, "")
     assert [c for c in _bare(texts.text) if c not in "`-+*"] == list(letters)
     markdown = READER.render(pages_["components/c.md"])

@@ -1,4 +1,4 @@
-"""Whatever is in a well-formed file: it becomes a MuJoCo model, and a tree at the same places."""
+"""Any well-formed world: the MuJoCo model and the transform tree have equal poses."""
 
 from pathlib import Path
 
@@ -18,23 +18,8 @@ from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.scene_spec import body_name, build_spec
 from robocomp_dsl.simulation.world.limits import clamp_scene
 from robocomp_dsl.simulation.world.simulation import Simulation
-from tests.innermodel.odd_worlds import odd_world
-
-CUBE = "".join(f"v {x} {y} {z}\n" for x in (0, 2) for y in (0, 4) for z in (0, 6))
-MESHES = {
-    "cube.obj": CUBE + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n",
-    "flat.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-    "damaged.obj": "v 1 2\n",
-    "points.osg": "VertexArray Vec3Array 2 { 0 0 0 1 2 3 }",
-    "letters.stl": "solid a\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 1\nendsolid\n",
-}
-
-
-def place(folder: Path, files: dict[str, str]) -> Path:
-    for name, text in (MESHES | files).items():
-        (folder / name).write_text(text, encoding="utf-8")
-    (folder / "folder").mkdir()
-    return folder / "world.xml"
+from tests.innermodel.random_worlds import random_world
+from tests.innermodel.world_files import place
 
 
 def load(path: Path) -> tuple[Scene, object, Report]:
@@ -47,70 +32,70 @@ def load(path: Path) -> tuple[Scene, object, Report]:
     return scene, compiled(spec, []), report
 
 
-def agree(scene: Scene, model) -> None:  # type: ignore[no-untyped-def]
+def assert_equal_poses(scene: Scene, model) -> None:  # type: ignore[no-untyped-def]
     """The scene's tree, the model's transforms and MuJoCo agree on every pose."""
     data = mujoco.MjData(model)
     own, found = TransformTree(scene.frames), model_transforms(model)
     mujoco.mj_kinematics(model, data)
     found.follow(data.qpos)
-    far = max(1.0, float(np.abs(data.xpos).max()))
+    extent = max(1.0, float(np.abs(data.xpos).max()))
     for i, name in enumerate(found.bodies):
         expected = axes.matrix(data.xpos[i], data.xmat[i])
         result = found.tree.matrix(name, "root")
         assert np.abs(result[:3, :3] - expected[:3, :3]).max() < 1e-9
-        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * far
+        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * extent
     for frame in scene.frames[1:]:
         body = model.body(body_name(frame.id)).id
         expected = axes.matrix(data.xpos[body], data.xmat[body])
         result = own.matrix(frame.id, "root")
         assert np.abs(result[:3, :3] - expected[:3, :3]).max() < 1e-9
-        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * far
+        assert np.abs(result[:3, 3] - expected[:3, 3]).max() * axes.MM < 1e-9 * extent
 
 
 @pytest.mark.parametrize("tens", range(20))
-def test_odd_worlds_load_and_are_where_they_should_be(tmp_path: Path, tens: int) -> None:
+def test_random_worlds_load_with_equal_poses_in_mujoco(tmp_path: Path, tens: int) -> None:
     for seed in range(10 * tens, 10 * tens + 10):
         folder = tmp_path / str(seed)
         folder.mkdir()
-        scene, model, _ = load(place(folder, odd_world(seed)))
-        agree(scene, model)
+        scene, model, _ = load(place(folder, random_world(seed)))
+        assert_equal_poses(scene, model)
 
 
-def test_the_worlds_are_odd_in_every_way(tmp_path: Path) -> None:
-    """What is generated reaches the findings that it is there for."""
+def test_random_worlds_cover_all_findings(tmp_path: Path) -> None:
+    """The random worlds cause all findings of InnerModel nodes."""
     seen: set[str] = set()
     for seed in range(60):
         folder = tmp_path / str(seed)
         folder.mkdir()
-        seen |= {item.code.id for item in load(place(folder, odd_world(seed)))[2]}
+        seen |= {item.code.id for item in load(place(folder, random_world(seed)))[2]}
     assert {"RC802", "RC803", "RC804", "RC805", "RC806", "RC807", "RC808"} <= seen
 
 
-def test_the_deepest_world(tmp_path: Path) -> None:
+def test_world_of_maximum_depth_loads(tmp_path: Path) -> None:
     text = "<innerModel>" + "".join(f'<transform id="t{i}" tx="10" ry="0.1">' for i in range(199))
     path = place(tmp_path, {"world.xml": text + "</transform>" * 199 + "</innerModel>"})
     scene, model, report = load(path)
     assert not report.has_errors
     assert len(scene.frames) == 200
-    agree(scene, model)
+    assert_equal_poses(scene, model)
 
 
-def test_a_file_that_is_included_twice_gives_every_node_a_name_of_its_own(tmp_path: Path) -> None:
+def test_world_including_file_twice_has_unique_names(tmp_path: Path) -> None:
     world = '<innerModel><include path="p.xml"/><include path="p.xml"/></innerModel>'
     part = '<innerModel><transform id="t"><plane id="p"/></transform></innerModel>'
     scene, model, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
     assert [frame.id for frame in scene.frames] == ["root", "t", "t#2"]
     assert [item.code.id for item in report] == ["RC804", "RC804"]
-    agree(scene, model)
+    assert_equal_poses(scene, model)
 
 
-def test_sticks_of_axes_leave_names_to_nodes(tmp_path: Path) -> None:
+def test_axes_boxes_get_names_unused_by_nodes(tmp_path: Path) -> None:
     world = '<innerModel><axes id="a"/><plane id="a.x"/></innerModel>'
     scene, _, _ = load(place(tmp_path, {"world.xml": world}))
     assert sorted(box.id for box in scene.boxes) == ["a.x", "a.x'", "a.y", "a.z"]
 
 
-def test_a_file_that_includes_itself_is_told_where_and_loaded(tmp_path: Path) -> None:
+def test_world_including_itself_is_reported_and_loaded(tmp_path: Path) -> None:
     world = '<innerModel>\n<plane id="a"/>\n<include path="p.xml"/></innerModel>'
     part = '<innerModel>\n<include path="world.xml"/></innerModel>'
     scene, _, report = load(place(tmp_path, {"world.xml": world, "p.xml": part}))
@@ -120,8 +105,8 @@ def test_a_file_that_includes_itself_is_told_where_and_loaded(tmp_path: Path) ->
     assert found.span.source.path.name == "p.xml"
 
 
-def test_thousands_of_nodes(tmp_path: Path) -> None:
-    """More bodies than MuJoCo has memory for, unless it is asked for."""
+def test_world_of_thousands_of_nodes_loads(tmp_path: Path) -> None:
+    """More bodies than fit into the default memory of MuJoCo."""
     inside = "".join(
         f'<transform id="t{i}" tx="{i}"><plane id="p{i}" size="5,5,5"/></transform>'
         for i in range(2900)
@@ -130,11 +115,11 @@ def test_thousands_of_nodes(tmp_path: Path) -> None:
         place(tmp_path, {"world.xml": f"<innerModel>{inside}</innerModel>"})
     )
     assert not report.has_errors
-    agree(scene, model)
+    assert_equal_poses(scene, model)
 
 
-# what stands in the outermost element, and the frames that come of it
-ODD = {
+# content of the root element, and the frames of the scene
+UNUSUAL = {
     "": ["root"],
     "<!-- a room -->": ["root"],
     '<include path="/home/somebody/else/gone.xml"/>': ["root"],
@@ -167,11 +152,11 @@ ODD = {
 }
 
 
-@pytest.mark.parametrize("inside", ODD)
-def test_what_people_have_written_loads(tmp_path: Path, inside: str) -> None:
+@pytest.mark.parametrize("inside", UNUSUAL)
+def test_world_with_unusual_syntax_loads(tmp_path: Path, inside: str) -> None:
     scene, model, _ = load(
         place(tmp_path, {"world.xml": f"<innerModel>{inside}</innerModel>\n<!-- by hand -->\n"})
     )
-    assert [frame.id for frame in scene.frames] == ODD[inside]
-    agree(scene, model)
+    assert [frame.id for frame in scene.frames] == UNUSUAL[inside]
+    assert_equal_poses(scene, model)
     Simulation(scene).world.advance(0.01)

@@ -1,4 +1,4 @@
-"""Worlds as people have them: every tag, every default, and all that is odd about them.
+"""Random InnerModel worlds: every tag, every default, and unusual values.
 
 In: a number. Out: files of one InnerModel world, well formed, by their names; `world.xml` is first.
 The same number gives the same files.
@@ -82,11 +82,11 @@ _IDS = (
 )
 
 
-def odd_world(seed: int) -> dict[str, str]:
+def random_world(seed: int) -> dict[str, str]:
     """The files of one world."""
-    dice = random.Random(seed)
-    maker = _Maker(dice)
-    inside = maker.many(0, dice.choice((0, 3, 10, 40)))
+    rng = random.Random(seed)
+    maker = _Maker(rng)
+    inside = maker.many(0, rng.choice((0, 3, 10, 40)))
     files = {"world.xml": maker.file(inside)}
     for name in maker.included:
         child = _Maker(random.Random(f"{seed}{name}"))
@@ -95,37 +95,35 @@ def odd_world(seed: int) -> dict[str, str]:
 
 
 class _Maker:
-    def __init__(self, dice: random.Random) -> None:
-        self.dice = dice
-        self.odd = dice.random() < 0.3
+    def __init__(self, rng: random.Random) -> None:
+        self.rng = rng
+        self.odd = rng.random() < 0.3
         self.count = 0
         self.included: set[str] = set()
 
     def file(self, inside: str) -> str:
-        root = self.dice.choice(("innerModel", "innermodel", "InnerModel"))
-        head = self.dice.choice(("", '<?xml version="1.0" encoding="UTF-8" ?>\n', "\ufeff"))
+        root = self.rng.choice(("innerModel", "innermodel", "InnerModel"))
+        head = self.rng.choice(("", '<?xml version="1.0" encoding="UTF-8" ?>\n', "\ufeff"))
         return f"{head}<{root}>\n{inside}</{root}>\n"
 
     def many(self, depth: int, count: int) -> str:
         return "".join(self.element(depth) for _ in range(count))
 
     def element(self, depth: int) -> str:
-        if self.dice.random() < 0.05:
+        if self.rng.random() < 0.05:
             return self.include()
-        if self.dice.random() < 0.05:
+        if self.rng.random() < 0.05:
             return "<!-- - a comment & <such> -->\n"
-        name = self.dice.choice(tuple(TAGS))
-        if self.dice.random() < 0.4:
-            name = self.dice.choice(("transform", "plane", "mesh", "joint"))
-        written = self.dice.choice((name, name, name, name.upper(), name.capitalize()))
+        name = self.rng.choice(tuple(TAGS))
+        if self.rng.random() < 0.4:
+            name = self.rng.choice(("transform", "plane", "mesh", "joint"))
+        written = self.rng.choice((name, name, name, name.upper(), name.capitalize()))
         attributes = "".join(self.attributes(name))
-        deep = 60 if self.dice.random() < 0.02 else 6
+        deep = 60 if self.rng.random() < 0.02 else 6
         inside = ""
         if TAGS[name].holds and depth < deep:
-            inside = self.many(
-                depth + 1, self.dice.choice((0, 0, 1, 2) if depth > 1 else (1, 2, 3))
-            )
-        if self.odd and self.dice.random() < 0.1:
+            inside = self.many(depth + 1, self.rng.choice((0, 0, 1, 2) if depth > 1 else (1, 2, 3)))
+        if self.odd and self.rng.random() < 0.1:
             inside += "stray text &amp; such"
         return (
             f"<{written}{attributes}>{inside}</{written}>\n"
@@ -134,10 +132,10 @@ class _Maker:
         )
 
     def include(self) -> str:
-        name = self.dice.choice(("part.xml", "world.xml", "gone.xml", "other.xml"))
+        name = self.rng.choice(("part.xml", "world.xml", "gone.xml", "other.xml"))
         if name in ("part.xml", "other.xml"):
             self.included.add(name)
-        folder = self.dice.choice(("", "./", "/home/somebody/else/"))
+        folder = self.rng.choice(("", "./", "/home/somebody/else/"))
         return f'<include path="{folder}{name}"/>\n'
 
     def attributes(self, name: str) -> list[str]:
@@ -145,22 +143,22 @@ class _Maker:
         known = TAGS[name].attributes
         for attribute, kind in known.items():
             likely = 0.9 if attribute in {"id", "file"} else 0.35
-            if self.dice.random() < likely:
+            if self.rng.random() < likely:
                 result.append(f' {attribute}="{self.value(attribute, kind)}"')
-        if self.odd and self.dice.random() < 0.1:
+        if self.odd and self.rng.random() < 0.1:
             result.append(' x="3"')
-        self.dice.shuffle(result)
+        self.rng.shuffle(result)
         return result
 
     def value(self, attribute: str, kind: Kind) -> str:
         if attribute == "id":
             self.count += 1
-            unique = self.dice.random() < 0.8
-            return f"node{self.count}" if unique else self.dice.choice(_IDS)
+            unique = self.rng.random() < 0.8
+            return f"node{self.count}" if unique else self.rng.choice(_IDS)
         if attribute == "file":
-            return self.dice.choice(_FILES)
-        if self.odd and self.dice.random() < 0.05:
-            return self.dice.choice(_ODD_NUMBERS)
+            return self.rng.choice(_FILES)
+        if self.odd and self.rng.random() < 0.05:
+            return self.rng.choice(_ODD_NUMBERS)
         if isinstance(kind, tuple):
-            return self.dice.choice((*kind, kind[0].upper()))
-        return self.dice.choice(_VALUES[kind])
+            return self.rng.choice((*kind, kind[0].upper()))
+        return self.rng.choice(_VALUES[kind])

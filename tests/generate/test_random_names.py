@@ -1,4 +1,4 @@
-"""Names that hurt, in every place: the output is typed, formatted and can be imported."""
+"""Reserved and colliding names in every place: the output is typed, formatted and importable."""
 
 from __future__ import annotations
 
@@ -35,10 +35,10 @@ PLAIN = (t.BOOL, t.BYTE, t.SHORT, t.INT, t.LONG, t.FLOAT, t.DOUBLE, t.STRING)
 
 
 class RandomComponent:
-    """A component of three modules, drawn by chance."""
+    """A component of three modules, of random names."""
 
     def __init__(self, seed: int) -> None:
-        self.chance = random.Random(seed)
+        self.rng = random.Random(seed)
         self.types: list[t.Type] = list(PLAIN)
         self.errors: list[t.ExceptionType] = []
         self.interfaces: list[Interface] = []
@@ -46,22 +46,22 @@ class RandomComponent:
     def component(self) -> Component:
         modules: list[Module] = []
         for name in ("One", "Two", "Three"):
-            declarations = tuple(self.declaration(name, n) for n in self.chance.sample(POOL, 40))
+            declarations = tuple(self.declaration(name, n) for n in self.rng.sample(POOL, 40))
             path = Path(f"{name}.idsl")
             modules.append(Module(name, path, HERE, "", tuple(modules), declarations))
         ports = tuple(self.ports())
-        name = self.chance.choice(POOL)
+        name = self.rng.choice(POOL)
         return Component(name, Path("c.cdsl"), HERE, "Python", tuple(modules), ports)
 
     def ports(self) -> Iterator[Port]:
         sides = (Role.IMPLEMENTS, Role.SUBSCRIBES), (Role.REQUIRES, Role.PUBLISHES)
         for side in sides:
-            called = dict.fromkeys(n.lower() for n in self.chance.sample(POOL, len(POOL)))
-            for interface, name in zip(self.interfaces * 2, called, strict=False):
-                yield Port(self.chance.choice(side), interface, name, HERE)
+            chosen = dict.fromkeys(n.lower() for n in self.rng.sample(POOL, len(POOL)))
+            for interface, name in zip(self.interfaces * 2, chosen, strict=False):
+                yield Port(self.rng.choice(side), interface, name, HERE)
 
     def declaration(self, module: str, name: str) -> t.Declaration:
-        make = self.chance.choice(
+        make = self.rng.choice(
             [
                 self.struct,
                 self.struct,
@@ -75,11 +75,11 @@ class RandomComponent:
         return make(module, name)
 
     def type(self) -> t.Type:
-        return self.chance.choice(self.types[-20:] + self.types[:8])
+        return self.rng.choice(self.types[-20:] + self.types[:8])
 
     def fields(self) -> tuple[t.Field, ...]:
-        called = self.chance.sample(POOL, self.chance.randrange(6))
-        return tuple(t.Field(n, self.type(), HERE) for n in called)
+        chosen = self.rng.sample(POOL, self.rng.randrange(6))
+        return tuple(t.Field(n, self.type(), HERE) for n in chosen)
 
     def register(self, type_: t.Type) -> t.Declaration:
         self.types.append(type_)
@@ -94,32 +94,32 @@ class RandomComponent:
         return self.errors[-1]
 
     def enum(self, module: str, name: str) -> t.Declaration:
-        called = self.chance.sample(POOL, self.chance.randrange(1, 5))
-        values = tuple(t.Enumerator(n, i, HERE) for i, n in enumerate(called))
+        chosen = self.rng.sample(POOL, self.rng.randrange(1, 5))
+        values = tuple(t.Enumerator(n, i, HERE) for i, n in enumerate(chosen))
         return self.register(t.Enum(module, name, HERE, "", values))
 
     def sequence(self, module: str, name: str) -> t.Declaration:
         return self.register(t.Sequence(module, name, HERE, "", self.type()))
 
     def dictionary(self, module: str, name: str) -> t.Declaration:
-        key = self.chance.choice([t.STRING, t.INT])
+        key = self.rng.choice([t.STRING, t.INT])
         return self.register(t.Dictionary(module, name, HERE, "", key, self.type()))
 
     def interface(self, module: str, name: str) -> t.Declaration:
-        called = self.chance.sample(POOL, self.chance.randrange(8))
-        operations = tuple(self.operation(n) for n in called)
+        chosen = self.rng.sample(POOL, self.rng.randrange(8))
+        operations = tuple(self.operation(n) for n in chosen)
         self.interfaces.append(Interface(module, name, HERE, "", operations))
         return self.interfaces[-1]
 
     def operation(self, name: str) -> Operation:
-        called = iter(self.chance.sample(POOL, 6))
+        chosen = iter(self.rng.sample(POOL, 6))
         inputs, outputs = (
-            tuple(Param(next(called), self.type(), HERE) for _ in range(self.chance.randrange(3)))
+            tuple(Param(next(chosen), self.type(), HERE) for _ in range(self.rng.randrange(3)))
             for _ in range(2)
         )
-        result = self.type() if self.chance.random() < 0.5 else None
+        result = self.type() if self.rng.random() < 0.5 else None
         one_way = (Pattern.UNMARKED, Pattern.COMMAND)
-        pattern = Pattern.QUERY if result or outputs else self.chance.choice(one_way)
+        pattern = Pattern.QUERY if result or outputs else self.rng.choice(one_way)
         throws = tuple(self.errors[:2])
         return Operation(name, HERE, pattern, inputs, outputs, result, throws, False, False)
 
@@ -133,7 +133,9 @@ COMMANDS = (
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_any_name(seed: int, tmp_path: Path) -> None:
+def test_generated_code_with_random_names_is_clean_and_importable(
+    seed: int, tmp_path: Path
+) -> None:
     golden.put(plan(RandomComponent(seed).component()), tmp_path)
     for command in COMMANDS:
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)

@@ -13,7 +13,7 @@ ROOT = HERE.parents[2]
 
 
 @pytest.mark.parametrize("file", sorted(HERE.glob("words.*")), ids=lambda file: file.name)
-def test_words_have_their_scopes(tester: Path, file: Path) -> None:
+def test_textmate_grammar_gives_expected_scopes(tester: Path, file: Path) -> None:
     grammar = ROOT / "editors/vscode/syntaxes" / f"{file.suffix[1:]}.tmLanguage.json"
     done = subprocess.run(
         [tester, "-g", grammar, file], capture_output=True, text=True, timeout=120, check=False

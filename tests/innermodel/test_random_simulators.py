@@ -1,4 +1,4 @@
-"""Whatever is in a well-formed file: a simulator is made of it, and time passes in its world."""
+"""Any well-formed world: rcgen generates a simulator, and its world advances."""
 
 from pathlib import Path
 
@@ -13,11 +13,11 @@ from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import Diverged
 from robocomp_dsl.simulation.world.simulation import Simulation
-from tests.innermodel.odd_worlds import odd_world
-from tests.innermodel.test_odd_worlds import place
+from tests.innermodel.random_worlds import random_world
+from tests.innermodel.world_files import place
 
 
-def listed(path: Path) -> str:
+def dry_run(path: Path) -> str:
     """What the dry run prints; anything but success fails."""
     done = CliRunner().invoke(command, [str(path), "--dry-run", "--format", "concise"])
     assert done.exception is None, (path, done.output, done.exception)
@@ -25,7 +25,7 @@ def listed(path: Path) -> str:
 
 
 def run(path: Path) -> None:
-    """Some steps; a world of absurd numbers may diverge, but it says so."""
+    """Some steps; a world of extreme numbers may diverge and reports that."""
     body = check_innermodel(path, Workspace(()), Report())
     assert body is not None
     simulation = Simulation(Scene.of_data(lower_body(body)))
@@ -36,19 +36,19 @@ def run(path: Path) -> None:
 
 
 @pytest.mark.parametrize("tens", range(6))
-def test_a_simulator_comes_of_every_odd_world(tmp_path: Path, tens: int) -> None:
+def test_simulator_of_random_world_is_generated_and_runs(tmp_path: Path, tens: int) -> None:
     for seed in range(1000 + 10 * tens, 1010 + 10 * tens):
         folder = tmp_path / str(seed)
         folder.mkdir()
-        path = place(folder, odd_world(seed))
-        assert "InnerModelManager" in listed(path)
+        path = place(folder, random_world(seed))
+        assert "InnerModelManager" in dry_run(path)
         run(path)
 
 
-def test_a_port_keeps_clear_of_others_in_any_case(tmp_path: Path) -> None:
+def test_simulator_port_names_are_unique_in_any_case(tmp_path: Path) -> None:
     names = ("simulation", "Simulation", "clock", "jointmotor", "Component", "a", "A", "a b", "a_b")
     inside = "".join(f'<imu id="{name}"/>' for name in names)
     path = place(tmp_path, {"world.xml": f'<innerModel>{inside}<joint id="j"/></innerModel>'})
-    ports = [line.split()[-1].lower() for line in listed(path).splitlines()[1:]]
+    ports = [line.split()[-1].lower() for line in dry_run(path).splitlines()[1:]]
     assert len(ports) == len(names) + 4
     assert len(set(ports)) == len(ports)
