@@ -1,4 +1,4 @@
-"""Whatever stands in the files, checking them ends, and ends in findings that point into them."""
+"""Random and mutated files: the check ends, and findings point into the files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every form that machines read says what was found, whatever stands in it."""
+"""Machine-readable formats hold the findings, with any text in them."""
 
 from __future__ import annotations
 

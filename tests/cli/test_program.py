@@ -1,4 +1,4 @@
-"""Whatever happens to a command, it ends with the right exit code and in a line of words."""
+"""Commands end with the right exit code and a message of one line, also after internal errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`rcgen view`: pictures of worlds and robots, and what it says about those that are wrong."""
+"""`rcgen view`: pictures of worlds and robots, and findings about invalid ones."""
 
 import importlib
 import struct

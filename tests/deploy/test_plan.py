@@ -131,7 +131,7 @@ WORLD = component("world", port(Role.PUBLISHES, SCAN))
             {"kind": "sim", "lockstep": True, "stop_on_timeout": True},
             "lockstep,from=w,with=a+b,limit=10,lost=stop",
             "lockstep,from=w,limit=10,lost=stop",
-            "never",  # a source that begins anew would not find the others where they were
+            "never",  # a restarted source would not match the state of the others
             "simulated, from w, lock-step: at most 10 s per step, stops on a time-out",
         ),
     ],

@@ -103,7 +103,7 @@ def test_killed_rcdeploy_lets_components_finalize(app_folder: Path, socket_folde
         reaper._wait_for_exit(running, 30)
         assert reaper.find_processes(token) == []
     assert [path.name for path in socket_folder.iterdir()] == [".deployments"]
-    # Its name is free at once, although nobody gave it back.
+    # Its name is free at once, although it was not released.
     with start_app("--duration", "0") as again:
         assert again.end() == 0
 

@@ -51,7 +51,7 @@ def undirected(suffix: str, seconds: float) -> int:
 
 def directed(suffix: str, seconds: float) -> None:
     """Mutations that atheris finds worth while; ends the process, with 1 if one broke a rule."""
-    import atheris  # noqa: PLC0415 - not everybody has it
+    import atheris  # noqa: PLC0415 - an optional package
 
     corpus = HOME / suffix[1:]
     corpus.mkdir(parents=True, exist_ok=True)

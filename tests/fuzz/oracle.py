@@ -1,4 +1,4 @@
-"""What must hold for whatever stands in a file.
+"""Properties that hold for any file content.
 
 In: a file name's suffix and a text. Out: nothing, or an `AssertionError` that says what is wrong.
 """

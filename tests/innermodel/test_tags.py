@@ -1,4 +1,4 @@
-"""Every tag of InnerModel with all its attributes, and what it is without them."""
+"""Every tag of InnerModel with all its attributes, and their defaults."""
 
 import math
 from pathlib import Path
@@ -27,7 +27,7 @@ FRAME = STILL | {"engine": "static", "mass": 0}
 DRIVEN = STILL | {"port": 0, "noise": 0, "collide": False}
 IMAGE: dict[str, object] = {"width": 0, "height": 0, "focal": 0}
 
-# tag, all its attributes (RoboComp's, and noise), what they are where they are left out
+# tag, all its attributes (RoboComp's, and noise), their defaults
 HISTORY: list[tuple[str, str, dict[str, object]]] = [
     ("transform", f'{MOVED} {TURNED} engine="bullet" mass="2"', FRAME),
     ("translation", f'{MOVED} engine="static" mass="2"', FRAME),

@@ -59,7 +59,7 @@ class Editor:
     async def until(
         self, name: str, condition: Callable[[list[lsp.Diagnostic]], bool]
     ) -> list[lsp.Diagnostic]:
-        """The diagnostics of a file once they are as wanted."""
+        """The diagnostics of a file, as soon as they satisfy `condition`."""
         async with asyncio.timeout(DEADLINE_S):
             while True:
                 found = self.client.diagnostics.get(self.uri(name))

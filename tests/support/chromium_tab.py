@@ -45,7 +45,7 @@ needs_chromium = pytest.mark.skipif(
 SWITCHES = (
     "--headless=new",
     "--no-sandbox",
-    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",  # nobody else is there
+    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",  # no other host
     "--remote-debugging-port=0",
     "--no-first-run",
     "--disable-background-networking",
@@ -112,7 +112,7 @@ def red(picture: np.ndarray) -> float:
 
 @contextmanager
 def opened_tab() -> Iterator[Tab]:
-    """A tab of a browser that is ended behind it, whatever happens."""
+    """A tab of a browser; the browser ends with the block."""
     assert CHROMIUM
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = subprocess.Popen(

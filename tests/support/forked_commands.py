@@ -52,7 +52,7 @@ def forked_commands(*modules: str) -> Iterator[list[str]]:
 
 def _serve(address: str) -> None:
     """Fork for each connection until standard input is closed."""
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for those that end
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel reaps children
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
         listener.bind(address)
         listener.listen()

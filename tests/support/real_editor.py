@@ -84,12 +84,12 @@ def run(
 
 
 def need(name: str) -> str:
-    """The path of a program; without it the test fails in CI and is skipped elsewhere."""
+    """The path of a program; without it the test fails in CI and is skipped otherwise."""
     return shutil.which(name) or missing(name)
 
 
 def missing(what: str) -> NoReturn:
-    """Fail in CI, skip elsewhere, as `what` is not here."""
+    """Fail in CI, skip otherwise, because `what` is missing."""
     reason = f"{what} is not installed: `make test-editors` installs what these tests need"
     if os.environ.get("CI"):
         pytest.fail(reason)

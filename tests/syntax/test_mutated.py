@@ -1,4 +1,4 @@
-"""Whatever stands in a file, a parser gives a tree and findings within the text, and ends."""
+"""For any text a parser ends, with a tree and findings within the text."""
 
 from __future__ import annotations
 

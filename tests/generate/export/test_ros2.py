@@ -38,7 +38,7 @@ def parsed(files: Iterable[OutputFile]) -> dict[str, Any]:
             found |= get_types_from_msg(file.text, f"{package}/msg/{stem}")
         elif rest.startswith("srv/"):
             request, response = re.split("(?m)^---\n", file.text)
-            # Halves of services are read as messages, which is what they are to the parser.
+            # The parser reads the two parts of a service as messages.
             found |= get_types_from_msg(request, f"{package}/msg/{stem}_Request")
             found |= get_types_from_msg(response, f"{package}/msg/{stem}_Response")
         if rest.startswith(("msg/", "srv/")):

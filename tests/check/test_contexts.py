@@ -1,4 +1,4 @@
-"""The checks and the running component take the same names for a search."""
+"""The checks and the runtime accept the same names of contexts and files."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ NAMES = (
 
 @pytest.mark.parametrize("name", NAMES)
 def test_context_pattern_equals_runtime(name: str) -> None:
-    assert bool(CONTEXT.fullmatch(name)) == _takes(validate_context, name)
-    assert is_searchable(name) == _takes(validate_file, name)
+    assert bool(CONTEXT.fullmatch(name)) == _accepts(validate_context, name)
+    assert is_searchable(name) == _accepts(validate_file, name)
 
 
-def _takes(check: object, name: str) -> bool:
+def _accepts(check: object, name: str) -> bool:
     try:
         check(name)  # type: ignore[operator]
     except InvalidName:

@@ -1,4 +1,4 @@
-"""The checks and running components take the same prefixes, and see the same neighbours."""
+"""The checks and the runtime accept the same prefixes and find the same peers."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ PREFIXES = (
 
 @pytest.mark.parametrize("prefix", PREFIXES)
 def test_prefix_pattern_equals_runtime(prefix: str) -> None:
-    assert bool(PREFIX.fullmatch(prefix)) == _takes(prefix)
+    assert bool(PREFIX.fullmatch(prefix)) == _accepts(prefix)
 
 
 def test_visible_peers_equal_runtime() -> None:
-    chance = random.Random(7)
+    rng = random.Random(7)
     for _ in range(500):
-        mine, *others = ["/".join(chance.choices("ab", k=chance.randrange(4))) for _ in range(6)]
+        mine, *others = ["/".join(rng.choices("ab", k=rng.randrange(4))) for _ in range(6)]
         names = [f"{diagnostic}/c".lstrip("/") for diagnostic in others]
         me = f"{mine}/me".lstrip("/")
         seen = on_branch(mine, names, naming.namespace_of)
@@ -32,7 +32,7 @@ def test_visible_peers_equal_runtime() -> None:
         assert nearest(mine, seen, naming.namespace_of) == naming.nearest(me, seen, str)
 
 
-def _takes(prefix: str) -> bool:
+def _accepts(prefix: str) -> bool:
     try:
         parse_prefix(prefix)
     except InvalidSetting:

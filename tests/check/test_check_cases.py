@@ -10,7 +10,7 @@ from robocomp_dsl.check.languages import CHECKS, TACTILE, check_file
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli.rcgen.explain import stage_codes
 from robocomp_dsl.diagnostics import Code, Report
-from tests.check.shown import shown
+from tests.check.report_text import report_text
 
 HERE = Path(__file__).parent.parent
 CASES = Path("cases")
@@ -42,7 +42,7 @@ def _in_tests(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_check_file_reports_expected_diagnostics(case: Path, update_golden: bool) -> None:
     report = Report()
     check_file(case, Workspace(environ={}, shipped=INTERFACES), report)
-    actual = shown(report, case.parent)
+    actual = report_text(report, case.parent)
     if update_golden:
         _expected(case).write_text(actual)
     assert _expected(case).read_text() == actual
@@ -54,7 +54,7 @@ def test_check_file_is_idempotent(case: Path) -> None:
     first, second = Report(), Report()
     check_file(case, workspace, first)
     check_file(case, workspace, second)
-    assert shown(first, case.parent) == shown(second, case.parent)
+    assert report_text(first, case.parent) == report_text(second, case.parent)
 
 
 def _codes() -> list[Code]:
@@ -63,7 +63,7 @@ def _codes() -> list[Code]:
 
 def test_every_code_has_a_case() -> None:
     expected = "".join(_expected(case).read_text() for case in _cases())
-    elsewhere = {"RC210", "RC220", "RC317", "RC709"}  # see test_limits.py
+    covered_elsewhere = {"RC210", "RC220", "RC317", "RC709"}  # see test_limits.py
     missing = [c.id for c in _codes() if c.id not in elsewhere and c.id not in expected]
     assert missing == []
 

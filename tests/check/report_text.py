@@ -1,4 +1,4 @@
-"""Findings as the texts that stand beside the cases."""
+"""Findings as text, for the expected output beside the cases."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Span
 
 
-def shown(report: Report, folder: Path) -> str:
-    """All findings with everything that they say; paths are relative to `folder`."""
+def report_text(report: Report, folder: Path) -> str:
+    """All findings with labels, notes, help and fixes; paths are relative to `folder`."""
     lines = [line for diagnostic in report.sorted() for line in _lines(diagnostic, folder)]
     return "\n".join(lines or ["nothing found"]) + "\n"
 

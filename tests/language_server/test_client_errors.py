@@ -166,7 +166,7 @@ async def test_crashing_feature_returns_internal_error(start, tmp_path, monkeypa
     await is_alive(editor)
 
 
-async def test_every_position_of_every_file_gets_a_response(editor: Editor) -> None:
+async def test_requests_at_every_position_get_a_response(editor: Editor) -> None:
     project.write(editor)
     for name, text in FILES.items():
         document = lsp.TextDocumentIdentifier(editor.open(name, text[: len(text) * 2 // 3]))

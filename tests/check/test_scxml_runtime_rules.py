@@ -1,4 +1,4 @@
-"""The check and the library in its safe mode refuse the same documents."""
+"""The check and the SCXML library in its safe mode reject the same documents."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DOCUMENT = """\
 </scxml>
 """
 
-# What stands in a state, and whether a machine with it can be loaded and begun.
+# Content of a state, and whether a machine with it loads and starts.
 PARTS = {
     '<transition event="go" cond="n === 1 &amp;&amp; true" target="f"/>': True,
     '<transition event="go" cond="n == 1 and not n" target="f"/>': True,
@@ -50,15 +50,15 @@ def test_scxml_check_agrees_with_runtime(tmp_path: Path, part: str) -> None:
     path.write_text(DOCUMENT.format(part))
     report = Report()
     check_file(path, Workspace(environ={}), report)
-    refused = [diagnostic.code.id for diagnostic in report if diagnostic.code.id == "RC710"]
-    assert bool(refused) is not PARTS[part]
-    assert _begins(path.read_text()) is PARTS[part]
+    rejected = [diagnostic.code.id for diagnostic in report if diagnostic.code.id == "RC710"]
+    assert bool(rejected) is not PARTS[part]
+    assert _starts(path.read_text()) is PARTS[part]
 
 
-def _begins(text: str) -> bool:
+def _starts(text: str) -> bool:
     try:
         machine = load(text, format="scxml", trusted=False)
-        type("Loud", (machine,), {"catch_errors_as_events": False})()
-    except Exception:  # whatever the library says
+        type("Strict", (machine,), {"catch_errors_as_events": False})()
+    except Exception:  # any exception of the library
         return False
     return True
