@@ -1,4 +1,4 @@
-"""Where imports lead: the order of the folders, and that nothing leads out of them."""
+"""The import resolver: order of folders, and rejection of paths outside them."""
 
 from __future__ import annotations
 

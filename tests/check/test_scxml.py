@@ -1,4 +1,4 @@
-"""What an SCXML file becomes: the same machine that SMDSL describes, and more."""
+"""Models of SCXML files, compared with those of SMDSL."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_scxml_model() -> None:
 
 
 def test_smdsl_and_scxml_give_equal_models(tmp_path: Path) -> None:
-    """Names, nesting, parts and ways of one machine written twice."""
+    """Names, nesting, regions and transitions of a machine in both languages."""
     (tmp_path / "m.smdsl").write_text(
         "m { initial_state a; states b; end_state c;"
         " transitions { a => b on go; b => c on stop; }; };"

@@ -1,4 +1,4 @@
-"""`rcgen breaking`: which deployments a change breaks, and in what."""
+"""`rcgen breaking`: deployments that a change breaks."""
 
 from __future__ import annotations
 

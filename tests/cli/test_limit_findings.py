@@ -1,4 +1,4 @@
-"""Very many findings: people get the first ones, machines all; and it ends soon."""
+"""`--limit-findings`: text output shows the first findings, JSON shows all."""
 
 from __future__ import annotations
 

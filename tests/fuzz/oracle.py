@@ -44,7 +44,7 @@ def judge(suffix: str, text: str) -> None:
 
 
 def judge_tree(suffix: str, text: str) -> None:
-    """A tree whose spans are nested, findings within the text, and nothing left out in silence."""
+    """A tree whose spans are nested, findings within the text, and no content lost silently."""
     source, report = Source(Path(f"x{suffix}"), text), Report()
     tree = PARSERS[suffix](source, report)
     assert isinstance(tree, Node)
@@ -88,7 +88,7 @@ def _places(diagnostic: Diagnostic) -> Iterator[Span]:
 
 
 def _nothing_lost(source: Source, tree: Node) -> None:
-    """Every word of the user that is no keyword is in a leaf of the tree."""
+    """Every word of the text that is no keyword is in a leaf of the tree."""
     leaves = [n.span for n in _nodes(tree) if n is not tree and not any(_children(n))]
     covered = {at for span in leaves for at in range(span.start, span.end)}
     lexer = Lexer(source, load(source.path.suffix[1:]), FileDiagnostics(source, Report()))

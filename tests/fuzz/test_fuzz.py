@@ -1,4 +1,4 @@
-"""Some seconds of what `make fuzz` does for minutes, always alike; and all that it has found."""
+"""Some seconds of fuzzing with fixed seeds, and regressions found by `make fuzz`."""
 
 from __future__ import annotations
 

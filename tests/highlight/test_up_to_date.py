@@ -1,4 +1,4 @@
-"""What is made from the grammars is what the grammars say."""
+"""Files generated from the grammars are up to date."""
 
 from __future__ import annotations
 

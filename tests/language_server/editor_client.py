@@ -1,4 +1,4 @@
-"""A real client of the server: what a user of an editor sees and does."""
+"""A client of the server with the operations of an editor."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DEADLINE_S = 120
 
 
 class Editor:
-    """What a user sees and does. A place is written as `|` in a text."""
+    """An editor with open documents. `|` in a text marks a position."""
 
     def __init__(
         self, client: LanguageClient, folder: Path, offered: lsp.ServerCapabilities

@@ -1,4 +1,4 @@
-"""A client without manners: it sends any bytes, and reads what comes back."""
+"""A client that sends any bytes and reads all messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Wrong positions, odd edits, huge and foreign files: an error answer at most, and life goes on."""
+"""Wrong positions, invalid edits, huge files: the server responds and continues."""
 
 from __future__ import annotations
 

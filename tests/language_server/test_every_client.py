@@ -1,4 +1,4 @@
-"""Every feature, as VS Code, Neovim and Emacs ask for it: with the capabilities that each has."""
+"""Every feature with the capabilities of VS Code, Neovim and Emacs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The protocol at its edges: messages that no proper client sends, and how a session ends."""
+"""The protocol with invalid messages, and the end of a session."""
 
 from __future__ import annotations
 
@@ -54,7 +54,9 @@ async def is_alive(client: RawClient) -> None:
 
 async def text_of(client: RawClient, uri: str) -> str:
     """The text that the server has, read from the outline: the name of the parameter set."""
-    response = await client.request("textDocument/documentSymbol", {"textDocument": {"uri": uri}}, 99)
+    response = await client.request(
+        "textDocument/documentSymbol", {"textDocument": {"uri": uri}}, 99
+    )
     return " ".join(message_["name"] for message_ in response["result"])
 
 

@@ -106,7 +106,7 @@ class Tab:
 
 
 def red(picture: np.ndarray) -> float:
-    """How much of a picture, values from 0 to 1, is red."""
+    """The red share of a picture, values from 0 to 1."""
     return float(((picture[:, :, 0] > 0.6) & (picture[:, :, 1:].max(axis=2) < 0.35)).mean())
 
 

@@ -37,7 +37,7 @@ os._exit(int(code or b"1"))
 
 @contextmanager
 def forked_commands(*modules: str) -> Iterator[list[str]]:
-    """Gives what to put in front of the arguments of `rcgen`."""
+    """The command line prefix that replaces `rcgen`."""
     with tempfile.TemporaryDirectory(prefix="rc-") as folder:  # paths of sockets must be short
         address = str(Path(folder, "fork"))
         command = [sys.executable, "-m", __name__, address, *modules]
@@ -84,7 +84,7 @@ def _answer(connection: socket.socket) -> None:
 
 
 def _run(request: dict[str, object], streams: list[int]) -> None:
-    """Be `rcgen`."""
+    """Run `rcgen` in this process."""
     from robocomp_dsl.cli.rcgen.main import main  # noqa: PLC0415 - imported before the fork
 
     for number, stream in enumerate(streams):

@@ -1,4 +1,4 @@
-"""Running real editors: where they are, what they get, and that nothing of them is left.
+"""Real editors: their programs, their project folder, and the end of their processes.
 
 In: a command. Out: what it printed. A tool that is missing is a failure where everything was to be
 installed (CI), and a reason to skip elsewhere.

@@ -1,4 +1,4 @@
-"""What RoboComp's users have written over the years: each form is understood, with these findings.
+"""Historical syntax of RoboComp: the parser accepts it with findings.
 
 A form of today gives none, an old one a warning (its fix leads to a text without it), a broken one
 an error where it is. Nothing of the rest of the file is lost.
