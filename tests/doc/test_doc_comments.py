@@ -50,6 +50,6 @@ def test_doc_page_shows_any_doc_comment(doc: str) -> None:
     assert [c for c in _bare(texts.text) if c not in "`-+*"] == list(letters)
     markdown = READER.render(pages_["components/c.md"])
     facts = "every 100 ms</p>"
-    seen = read(markdown[markdown.index(facts) + len(facts) :])
-    assert _bare(seen.text) == _bare(texts.text)
-    assert [tag for tag in seen.tags if tag != "p"] == [tag for tag in texts.tags if tag != "p"]
+    page = read(markdown[markdown.index(facts) + len(facts) :])
+    assert _bare(page.text) == _bare(texts.text)
+    assert [tag for tag in page.tags if tag != "p"] == [tag for tag in texts.tags if tag != "p"]

@@ -74,9 +74,9 @@ def test_html_page_escapes_hostile_text(hostile: dict[str, str]) -> None:
     check_links(hostile)
     for path, text in hostile.items():
         if path.endswith(".html"):
-            seen = read(text)
-            assert not {"script", "img", "b", "i", "s", "u"} & set(seen.tags), path
-            assert "49" not in seen.text
+            page = read(text)
+            assert not {"script", "img", "b", "i", "s", "u"} & set(page.tags), path
+            assert "49" not in page.text
     shown = _bare(read(hostile["interfaces/Hostile.I.html"]).text)
     assert shown.count(_bare(VISIBLE)) == 9
     assert '"<script>{{x}}</script>|"' in shown

@@ -92,14 +92,14 @@ def many_lines(number: int) -> str:
 
 
 BLOCKED_SERVER = """
-import sys, time
+import sys
 from pathlib import Path
 from robocomp_dsl.language_server import server
 from robocomp_dsl.language_server.documents import background_check
+from tests.support.waiting import wait_until
 check, gate = background_check._check, Path(sys.argv[1])
 def blocked(*arguments):
-    while not gate.exists():
-        time.sleep(0.01)
+    wait_until(gate.exists, "the gate", 600)
     return check(*arguments)
 background_check._check = blocked
 server.serve_stdio()
