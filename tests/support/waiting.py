@@ -12,7 +12,7 @@ PERIOD_S = 0.005
 
 
 def wait_until(
-    condition: Callable[[], T], message: str | Callable[[], str] = "", timeout: float = 60.0
+    condition: Callable[[], T], message: str | Callable[[], str] = "", timeout: float = 30.0
 ) -> T:
     """Poll `condition` until it is true, and return its value.
 
