@@ -69,7 +69,7 @@ def is_alive(pid: int) -> bool:
     return True
 
 
-def test_the_demo_drives_sums_up_and_draws(copy: Path, tmp_path: Path) -> None:
+def test_wander_deployment_drives_summarises_and_draws(copy: Path, tmp_path: Path) -> None:
     picture = tmp_path / "demo.png"
     ran = subprocess.run(
         [sys.executable, copy / "wander" / "demo.py", "--seconds", "4", "--picture", picture],
@@ -94,7 +94,7 @@ def test_the_demo_drives_sums_up_and_draws(copy: Path, tmp_path: Path) -> None:
     assert path["adv_mm_s"].max() == pytest.approx(450, abs=30)  # as wander's configuration says
 
 
-def test_the_robot_comes_back_after_sigkill_and_drives_on(copy: Path) -> None:
+def test_wander_deployment_restarts_killed_robot(copy: Path) -> None:
     name = f"kill-{os.getpid()}"
     with deployed(copy / "wander" / "wander.ddsl", name) as process:
         observer = load("wander/observer.py").Observer(name)

@@ -74,7 +74,7 @@ def drive(folder: Path, name: str) -> tuple[bytes, str]:
     return (folder / "build" / "wander" / "path.csv").read_bytes(), shown
 
 
-def test_two_drives_are_the_same(tmp_path: Path) -> None:
+def test_lockstep_deployment_drives_identically_twice(tmp_path: Path) -> None:
     (first, shown), (again, _) = (
         drive(tmp_path / str(number), f"step{number}-{os.getpid()}") for number in (1, 2)
     )
@@ -85,7 +85,7 @@ def test_two_drives_are_the_same(tmp_path: Path) -> None:
     assert max(abs(float(line[-1])) for line in lines) > 0.3, "it has not turned"
 
 
-def test_who_is_killed_holds_nobody_up_and_comes_back(tmp_path: Path) -> None:
+def test_deployment_continues_and_restarts_killed_component(tmp_path: Path) -> None:
     name = f"killed-{os.getpid()}"
     process = deployed(copied(tmp_path, 0.0), name)
     try:

@@ -13,12 +13,12 @@ MYPY = (sys.executable, "-m", "mypy", "--strict", "--config-file", "", "--ignore
 NAMES = sorted(path.stem for path in COMPONENTS.glob("*/*.cdsl"))
 
 
-def test_there_are_some() -> None:
+def test_shipped_components_exist() -> None:
     assert {"mobile_base", "wander", "path_logger"} <= set(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_generated_files_are_fresh(name: str) -> None:
+def test_shipped_components_are_freshly_generated(name: str) -> None:
     ran = subprocess.run(
         [RCGEN, "component", f"{name}.cdsl", "--check"],
         cwd=COMPONENTS / name,
@@ -30,7 +30,7 @@ def test_generated_files_are_fresh(name: str) -> None:
     assert ran.returncode == 0, ran.stdout + ran.stderr
 
 
-def test_descriptions_have_no_findings() -> None:
+def test_shipped_descriptions_have_no_findings() -> None:
     files = [path for path in COMPONENTS.glob("*/*") if path.suffix in {".cdsl", ".pdsl", ".ddsl"}]
     ran = subprocess.run(
         [RCGEN, "check", *files], capture_output=True, text=True, timeout=60, check=False
@@ -39,7 +39,7 @@ def test_descriptions_have_no_findings() -> None:
     assert "no findings" in ran.stdout + ran.stderr
 
 
-def test_their_code_passes_mypy_strict() -> None:
+def test_shipped_components_pass_mypy_strict() -> None:
     """One after the other, since each has a module called `specificworker`."""
     wrong = []
     for name in NAMES:

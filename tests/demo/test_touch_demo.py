@@ -52,7 +52,7 @@ def log(components: Path, name: str) -> str:
 
 
 @pytest.mark.parametrize(("key", "name"), [("nao", "NAO"), ("icub", "iCub")])
-def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, name: str) -> None:
+def test_touch_demo_reports_and_draws_withdrawals(copy: Path, key: str, name: str) -> None:
     ran = run(copy, "--robot", key)
     assert ran.returncode == 0, ran.stdout + ran.stderr + log(copy, key)
     output = ran.stdout.splitlines()
@@ -76,7 +76,7 @@ def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, 
     assert {answer.field for answer in saved.answers} >= {"lower_arm_outer"}
 
 
-def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
+def test_touch_demo_fails_if_arm_does_not_withdraw(copy: Path) -> None:
     ddsl = copy / "touch_demo" / "nao.ddsl"
     ddsl.write_text(ddsl.read_text().replace("set full", "set enabled = false;\n        set full"))
     ran = run(copy, "--robot", "nao")
@@ -86,7 +86,7 @@ def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
     assert imread(copy.parent / "demo.png").shape[1] == 1600
 
 
-def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
+def test_touch_demo_fails_at_once_if_component_exits(copy: Path) -> None:
     process = subprocess.Popen(
         command(copy, "--robot", "nao", "--touches", "5"),  # it is not over when it is killed
         stdout=subprocess.PIPE,
@@ -131,7 +131,7 @@ def is_alive(pid: int) -> bool:
     return True
 
 
-def test_a_deployment_that_does_not_start_is_told_with_its_words(copy: Path) -> None:
+def test_touch_demo_reports_failed_deployment_start(copy: Path) -> None:
     ddsl = copy / "touch_demo" / "nao.ddsl"
     ddsl.write_text(ddsl.read_text().replace("robot.LArm", "robot.LeftArm"))
     ran = run(copy, "--robot", "nao")

@@ -33,7 +33,7 @@ def others() -> int:
     return int(where.of("right_arm/lower_arm")[0])
 
 
-def test_the_skin_is_free_since_the_first_frame_without_touch(heard) -> None:
+def test_topic_buffer_skin_is_free_since_first_frame_without_touch(heard) -> None:
     message = []
     for i, felt in enumerate([(), (mine(),), (mine(),), (), (others(),)]):
         heard.frame(frame(0.02 * i, *felt))
@@ -42,14 +42,14 @@ def test_the_skin_is_free_since_the_first_frame_without_touch(heard) -> None:
     assert message == pytest.approx([0.0, inf, inf, 0.06, 0.06])
 
 
-def test_frames_of_another_length_are_not_taken(heard) -> None:
+def test_topic_buffer_drops_frames_of_another_length(heard) -> None:
     heard.frame(frame(0.0, mine()))
     heard.frame(frame(0.02, size=3))
     assert heard.free_since == float("inf")
     assert len(heard.felt_within(1.0)) == len(skin().limb)
 
 
-def test_what_was_felt_just_now_is_the_largest_of_it(heard) -> None:
+def test_topic_buffer_reports_largest_recent_force(heard) -> None:
     for i, felt in enumerate([(others(),), (mine(),), ()]):
         heard.frame(frame(0.02 * i, *felt))
     assert not heard.felt_within(0.01).any()
@@ -67,18 +67,18 @@ def test_what_was_felt_just_now_is_the_largest_of_it(heard) -> None:
         ([0.5, 0, 0, 0, 0], False, False),
     ],
 )
-def test_an_arm_stands_when_it_has_not_moved(heard, angles, moving, stands) -> None:
+def test_topic_buffer_reports_resting_arm(heard, angles, moving, stands) -> None:
     for i, angle in enumerate(angles):
         heard.arm_state(state(0.01 * i, angle, moving=moving))
     assert heard.stands(0.04, 0.004) is stands
 
 
-def test_a_moment_is_too_short_to_tell_that_it_stands(heard) -> None:
+def test_topic_buffer_needs_enough_time_to_report_rest(heard) -> None:
     heard.arm_state(state(0.0, 0.1))
     assert not heard.stands(0.04, 0.004)
 
 
-def test_a_frozen_reflex_is_remembered(heard) -> None:
+def test_topic_buffer_stores_frozen_reflex(heard) -> None:
     heard.arm_state(state(0.0, 0.1))
     heard.frame(frame(0.1))
     heard.reflex_state(SimpleNamespace(name="Frozen"))
@@ -88,7 +88,7 @@ def test_a_frozen_reflex_is_remembered(heard) -> None:
     assert not heard.frozen_since(0.15)
 
 
-def test_time_may_begin_anew(heard) -> None:
+def test_topic_buffer_accepts_restarted_time(heard) -> None:
     for i in range(300):
         heard.frame(frame(0.02 * i))
         heard.arm_state(state(0.02 * i, 0.1))
@@ -104,7 +104,7 @@ def test_time_may_begin_anew(heard) -> None:
     assert heard.finger.tolist() == [0, 0, 0]
 
 
-def test_all_of_it_becomes_a_recording(heard) -> None:
+def test_topic_buffer_becomes_recording(heard) -> None:
     heard.frame(frame(0.02, mine()))
     heard.arm_state(state(0.03, 0.1))
     heard.arm_state(state(0.04, 0.2))
@@ -123,7 +123,7 @@ def test_all_of_it_becomes_a_recording(heard) -> None:
     assert it.part == ARM
 
 
-def test_only_the_latest_are_kept_when_there_is_no_end() -> None:
+def test_topic_buffer_stores_latest_samples_only() -> None:
     heard = demo().topic_buffer.TopicBuffer(skin(), ARM, 3)
     for i in range(10):
         heard.arm_state(state(0.01 * i, float(i)))

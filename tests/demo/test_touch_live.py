@@ -44,7 +44,7 @@ def frame(time: float, force: np.ndarray) -> SimpleNamespace:
     return SimpleNamespace(time=time, force=force)
 
 
-def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None:
+def test_live_page_sends_only_limbs_with_changed_forces(monkeypatch) -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
@@ -70,7 +70,7 @@ def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None
     assert (colours[felt, 0] > colours[felt, 2] + 60).all()
 
 
-def test_a_port_that_is_taken_is_told() -> None:
+def test_live_page_reports_occupied_port() -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
@@ -88,7 +88,7 @@ def warm(picture: np.ndarray) -> int:
 
 
 @needs_chromium
-def test_a_real_browser_shows_the_touch() -> None:
+def test_live_page_shows_touch_in_browser() -> None:
     it = recording()
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))

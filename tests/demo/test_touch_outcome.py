@@ -16,7 +16,7 @@ def body(tmp_path_factory: pytest.TempPathFactory) -> object:
     return demo().body.Body(world(tmp_path_factory.mktemp("body")), skin(), part())
 
 
-def test_times_force_and_field_are_those_of_the_recording(body) -> None:
+def test_touch_metrics_match_recorded_times_force_and_field(body) -> None:
     first, second = outcome.outcomes(recording(), body)
     assert (first.robot, first.place, first.field) == ("NAO", "lower_arm_outer", "lower_arm_outer")
     assert second.field == "lower_arm_under"
@@ -29,7 +29,7 @@ def test_times_force_and_field_are_those_of_the_recording(body) -> None:
     assert not second.trouble
 
 
-def test_the_way_of_the_place_is_that_of_the_body(body) -> None:
+def test_touch_metrics_path_is_that_of_body(body) -> None:
     it = recording()
     first, _ = outcome.outcomes(it, body)
     place, field = it.places[0], part().fields[0]
@@ -51,12 +51,12 @@ def test_the_way_of_the_place_is_that_of_the_body(body) -> None:
         ({"motion": 0.0}, "the arm went away by 0 mm only"),
     ],
 )
-def test_what_is_no_withdrawal_is_told(body, changes, message) -> None:
+def test_touch_metrics_report_missing_withdrawal(body, changes, message) -> None:
     first, _ = outcome.outcomes(recording(**changes), body)
     assert first.trouble == f"NAO, lower arm outer: {message}"
 
 
-def test_an_arm_that_stays_in_touch_did_not_come_free(body) -> None:
+def test_touch_metrics_report_arm_that_stays_in_contact(body) -> None:
     it = recording()
     felt = it.force.copy()
     felt[it.frame_time > FELT + 0.01] = it.force[np.argmax(it.force.any(axis=1))]
@@ -64,7 +64,7 @@ def test_an_arm_that_stays_in_touch_did_not_come_free(body) -> None:
     assert first.trouble == "NAO, lower arm outer: the arm did not come free of the finger"
 
 
-def test_forces_on_the_other_arm_are_not_this_arms() -> None:
+def test_touch_metrics_ignore_forces_on_other_arm() -> None:
     it = recording()
     other = [i for i, limb in enumerate(it.skin.limbs) if not limb.startswith(f"{ARM}/")]
     it.force[:, np.isin(it.skin.limb, other)] = 1.0
@@ -72,7 +72,7 @@ def test_forces_on_the_other_arm_are_not_this_arms() -> None:
     assert outcome.arm_force(it).min() == 0.0
 
 
-def test_the_table(body) -> None:
+def test_touch_metrics_table_lists_outcomes(body) -> None:
     rows = outcome.outcomes(recording(), body)
     assert list(outcome.table(rows)) == [
         "robot  place            force  field            withdrawn  to motion  cleared",
@@ -86,7 +86,7 @@ def test_the_table(body) -> None:
     ]  # fmt: skip
 
 
-def test_a_recording_is_read_as_it_was_written(tmp_path: Path) -> None:
+def test_recording_file_round_trips(tmp_path: Path) -> None:
     it = recording()
     demo().recording.save(it, tmp_path / "new" / "nao.npz")
     back = demo().recording.load(tmp_path / "new" / "nao.npz")

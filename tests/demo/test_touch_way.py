@@ -19,14 +19,14 @@ def sampled(points):
     return np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(points)])
 
 
-def test_the_way_is_straight_where_nothing_is_between() -> None:
+def test_path_planner_goes_straight_without_obstacles() -> None:
     goal = np.array([0.3, 0.0, 0.0])
     assert [
         p.tolist() for p in path_planner.plan_path(ball((0, 1, 0), 0.1), np.zeros(3), goal)
     ] == [[0.3, 0, 0]]
 
 
-def test_the_way_goes_around_what_is_between() -> None:
+def test_path_planner_goes_around_obstacles() -> None:
     clear, start, goal = ball((0.2, 0, 0), 0.05), np.zeros(3), np.array([0.4, 0.0, 0.0])
     points = [start, *path_planner.plan_path(clear, start, goal)]
     assert len(points) > 2
@@ -34,13 +34,13 @@ def test_the_way_goes_around_what_is_between() -> None:
     assert min(map(clear, sampled(points))) > 0.005
 
 
-def test_a_goal_close_to_something_is_reached_from_its_free_side() -> None:
+def test_path_planner_reaches_goal_near_obstacle_from_free_side() -> None:
     clear, start, goal = ball((0.2, 0, 0), 0.05), np.zeros(3), np.array([0.254, 0.0, 0.0])
     points = [start, *path_planner.plan_path(clear, start, goal)]
     assert min(map(clear, sampled(points))) > 0.003
 
 
-def test_no_way_is_told() -> None:
+def test_path_planner_reports_missing_path() -> None:
     def shell(point):
         return abs(float(np.linalg.norm(point)) - 0.1) - 0.02
 
@@ -49,7 +49,7 @@ def test_no_way_is_told() -> None:
 
 
 @pytest.mark.parametrize("name", ["nao_h25", "icub_v2"])
-def test_places_are_where_the_finger_begins_to_touch(tmp_path, name) -> None:
+def test_skin_map_places_are_first_contacts_of_finger(tmp_path, name) -> None:
     body = demo().body.Body(world(tmp_path, name), skin(name), part(name))
     body.pose(ROBOTS[name]().start, finger=np.zeros(3))
     home = body.finger_point
@@ -67,7 +67,7 @@ def test_places_are_where_the_finger_begins_to_touch(tmp_path, name) -> None:
         body.pose(finger=np.zeros(3))
 
 
-def test_the_map_is_cut_where_nothing_is_pressed() -> None:
+def test_skin_map_is_cut_where_nothing_is_pressed() -> None:
     seam, unrolled = demo().skin_map.seam, demo().skin_map.unrolled
     assert seam(places()[:4]) == pytest.approx(np.radians(-135))
     front = places()[4]
@@ -75,7 +75,7 @@ def test_the_map_is_cut_where_nothing_is_pressed() -> None:
     assert at == pytest.approx([np.pi * 30, 35])  # in the middle, and 35 mm along the limb
 
 
-def test_the_edge_of_a_field_is_its_radius_away() -> None:
+def test_skin_map_field_edge_is_at_radius() -> None:
     it, place = recording(), places()[0]
     points = it.skin.points[it.skin.of(place.limb)]
     turns, along, away = demo().skin_map.outline(points, place, -np.pi)

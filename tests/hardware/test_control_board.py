@@ -33,7 +33,7 @@ from robocomp_dsl.simulation.world.world import World
 from tests.support.simulated_arm import Arm
 
 
-def test_velocities_are_reached_by_the_acceleration_and_held(arm):
+def test_control_board_reaches_and_holds_velocity_by_acceleration(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
@@ -53,7 +53,7 @@ def test_velocities_are_reached_by_the_acceleration_and_held(arm):
     arm.command.stop()
 
 
-def test_direct_velocities_are_there_at_once(arm):
+def test_control_board_sets_direct_velocity_at_once(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
@@ -68,7 +68,7 @@ def test_direct_velocities_are_there_at_once(arm):
     assert arm.board.velocity == pytest.approx(np.zeros(len(arm.inside)), abs=0.01)
 
 
-def test_mixed_mode_adds_a_velocity_to_a_motion(arm):
+def test_control_board_mixed_mode_adds_velocity_to_motion(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     start = arm.inside - 0.15
@@ -81,7 +81,7 @@ def test_mixed_mode_adds_a_velocity_to_a_motion(arm):
     assert arm.board.position == pytest.approx(start + 0.15, abs=0.02)
 
 
-def test_a_compliant_arm_gives_way_and_comes_back(arm):
+def test_control_board_compliant_arm_yields_and_returns(arm):
     joint = 3
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
@@ -130,7 +130,7 @@ def plain_board(n: int = 3, **joint) -> tuple[Board, Commands]:
 
 @pytest.mark.parametrize("mode", [m for m in SELECTABLE if m is not Mode.FORCE_IDLE])
 @pytest.mark.parametrize("name", WRONG_COMMANDS)
-def test_a_command_for_another_mode_is_refused(name, mode):
+def test_control_board_refuses_command_of_another_mode(name, mode):
     _, command = plain_board()
     command.set_mode(None, mode)
     if mode in WRONG_COMMANDS[name]:
@@ -153,7 +153,7 @@ def test_a_command_for_another_mode_is_refused(name, mode):
     ],
 )
 @pytest.mark.parametrize("name", WRONG_COMMANDS)
-def test_commands_that_cannot_be_meant_change_nothing(name, joints, values, error):
+def test_control_board_refuses_invalid_commands_unchanged(name, joints, values, error):
     board, command = plain_board()
     command.set_mode(None, WRONG_COMMANDS[name][0])
     board.step(np.zeros(3), np.zeros(3), 0.001)
@@ -162,7 +162,7 @@ def test_commands_that_cannot_be_meant_change_nothing(name, joints, values, erro
     assert not board.step(np.zeros(3), np.zeros(3), 0.001).any()
 
 
-def test_other_refusals():
+def test_control_board_refuses_other_invalid_requests():
     board, command = plain_board(torque_control=False)
     with pytest.raises(NotEquipped):
         command.set_interaction(None, Interaction.COMPLIANT)
@@ -179,7 +179,7 @@ def test_other_refusals():
     assert board.table.modes == [Mode.IDLE, Mode.POSITION, Mode.VELOCITY]
 
 
-def test_an_encoder_without_a_number_is_a_fault_of_its_joint_alone():
+def test_control_board_encoder_without_number_is_fault_of_its_joint():
     board, command = plain_board()
     command.set_mode(None, Mode.POSITION)
     board.step(np.full(3, 0.1), np.zeros(3), 0.001)
@@ -191,7 +191,7 @@ def test_an_encoder_without_a_number_is_a_fault_of_its_joint_alone():
     assert board.position == pytest.approx([0.1, 0.1, 0.2])
 
 
-def test_heat_and_lateness_are_faults():
+def test_control_board_heat_and_lateness_are_faults():
     board, command = plain_board()
     command.set_mode(None, [Mode.POSITION, Mode.POSITION, Mode.IDLE])
     board.step(np.zeros(3), np.zeros(3), 0.001)
@@ -205,7 +205,7 @@ def test_heat_and_lateness_are_faults():
     ]
 
 
-def test_coupled_joints_change_together():
+def test_control_board_coupled_joints_change_mode_together():
     icub = robot_board(ROBOTS["icub_v2"](), "right_arm")
     board = Board(icub.spec)
     command = Commands(board)
@@ -218,7 +218,7 @@ def test_coupled_joints_change_together():
     assert board.table.modes == [Mode.HW_FAULT] * 3 + [Mode.IDLE] * 4
 
 
-def test_the_whole_robot_may_be_one_board():
+def test_control_board_may_contain_whole_robot():
     for name in ROBOTS:
         robot = ROBOTS[name]()
         whole = whole_robot(robot)
@@ -229,7 +229,7 @@ def test_the_whole_robot_may_be_one_board():
         robot_board(robot, "tail")
 
 
-def test_the_eyes_turn_by_version_and_vergence():
+def test_control_board_eyes_turn_by_version_and_vergence():
     robot = ROBOTS["icub_v2"]()
     spec = new_world()
     add_robot(spec, robot)
@@ -243,7 +243,7 @@ def test_the_eyes_turn_by_version_and_vergence():
     assert (left, right) == pytest.approx((0.35, 0.05), abs=0.01)
 
 
-def test_a_world_without_the_joints_is_refused():
+def test_control_board_refuses_world_without_its_joints():
     robot = ROBOTS["nao_h21"]()
     spec = new_world()
     add_robot(spec, robot, prefix="a_")
@@ -256,7 +256,7 @@ def test_a_world_without_the_joints_is_refused():
 ZERO = np.array([0.4, -0.3, 0.2, 0.5, -0.6, 0.1])
 
 
-def test_calibration_finds_the_zero_and_goes_home():
+def test_control_board_calibration_finds_zero_and_goes_home():
     arm = Arm("nao", ZERO)
     assert set(arm.board.table.modes) == {Mode.NOT_CONFIGURED}
     with pytest.raises(ModeRefused, match="not calibrated"):
@@ -283,7 +283,7 @@ def test_calibration_finds_the_zero_and_goes_home():
     assert arm.board.position[:2] == pytest.approx([home[0], home[1] + 0.2], abs=0.03)
 
 
-def test_a_calibration_that_takes_too_long_is_a_fault():
+def test_control_board_calibration_that_times_out_is_fault():
     arm = Arm("nao", ZERO)
     slow = Procedure(CalibrationMethod.HARD_STOP, duty=0.5, stop=1.0, timeout=0.5)
     calibrator = Calibrator(arm.board, (slow,) * 6)
@@ -302,7 +302,7 @@ def test_a_calibration_that_takes_too_long_is_a_fault():
     assert arm.board.table.modes[0] is Mode.NOT_CONFIGURED
 
 
-def test_impossible_calibrations_are_refused():
+def test_control_board_refuses_invalid_calibrations():
     board, _ = plain_board()
     for wrong in ({"kind": CalibrationMethod.HARD_STOP}, {"speed": 0.0}, {"timeout": 0.0}):
         with pytest.raises(BadValue):
@@ -311,7 +311,7 @@ def test_impossible_calibrations_are_refused():
         Calibrator(board, (Procedure(),))
 
 
-def test_parking_brings_the_arm_to_rest_and_switches_it_off(arm):
+def test_control_board_parking_brings_arm_to_rest_and_switches_off(arm):
     arm.world.model.opt.gravity[:] = 0  # what is switched off would fall
     parking = Parking(arm.board, arm.inside, speed=1.0)
     parking.park()
@@ -322,7 +322,7 @@ def test_parking_brings_the_arm_to_rest_and_switches_it_off(arm):
     assert arm.board.position == pytest.approx(arm.inside, abs=0.25)  # it swings out
 
 
-def test_parking_may_be_stopped_and_may_fail(arm):
+def test_control_board_parking_may_be_stopped_and_may_fail(arm):
     parking = Parking(arm.board, arm.inside, speed=0.01, timeout=0.3)
     parking.park()
     parking.quit()
@@ -336,7 +336,7 @@ def test_parking_may_be_stopped_and_may_fail(arm):
         parking.park()
 
 
-def test_settings_are_checked_and_move_nothing(arm):
+def test_control_board_checks_settings_without_motion(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.world.advance(0.2)
     first = arm.spec.names[0]
@@ -366,7 +366,7 @@ def test_settings_are_checked_and_move_nothing(arm):
             wrong()
 
 
-def test_settings_are_read_back_and_regulators_switched():
+def test_control_board_reads_back_settings_and_switches_regulators():
     board, command = plain_board()
     settings = ControlSettings(board)
     command.set_mode(None, Mode.POSITION)
@@ -397,7 +397,7 @@ def test_settings_are_read_back_and_regulators_switched():
         settings.set_max_current([0], -1.0)
 
 
-def test_remote_variables_are_read_and_written():
+def test_control_board_remote_variables_are_read_and_written():
     board, _ = plain_board()
     variables = RemoteVariables(board)
     assert "pid.j1" in variables.keys()  # noqa: SIM118 - not a dictionary

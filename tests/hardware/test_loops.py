@@ -41,14 +41,14 @@ def speed_after(seconds: float, **gains: float) -> float:
     return float(arm.board.velocity[ELBOW])
 
 
-def test_a_regulator_of_velocity_is_as_fast_as_its_gain() -> None:
+def test_velocity_regulator_is_as_fast_as_its_gain() -> None:
     slow, fast = (speed_after(0.005, kp=kp, ki=0.0) for kp in (1.0, 2.0))
     assert 0.0 < slow < 0.1
     assert fast / slow == pytest.approx(2.0, rel=0.15)  # long before it is there
     assert speed_after(0.5) == pytest.approx(0.5, abs=0.01)
 
 
-def test_what_is_constant_in_its_output_is_a_speed_of_its_own() -> None:
+def test_velocity_regulator_constant_output_is_a_speed() -> None:
     arm = ready("icub", Mode.VELOCITY)
     adjust(arm, Loop.VELOCITY, kp=4.0, ki=0.0, offset=0.4)
     arm.world.advance(0.6)
@@ -57,7 +57,7 @@ def test_what_is_constant_in_its_output_is_a_speed_of_its_own() -> None:
     assert arm.settings.pid_error(ONE, Loop.VELOCITY) == pytest.approx(-arm.board.velocity[ONE])
 
 
-def test_the_gains_of_position_do_not_tell_in_velocity_mode() -> None:
+def test_velocity_mode_is_independent_of_position_gains() -> None:
     ways = []
     for kp in (1.0, 100.0):
         arm = ready("nao", Mode.VELOCITY)
@@ -69,7 +69,7 @@ def test_the_gains_of_position_do_not_tell_in_velocity_mode() -> None:
 
 
 @pytest.mark.parametrize("name", ["nao", "icub"])
-def test_a_regulator_of_torque_makes_good_what_the_motor_keeps_for_itself(name: str) -> None:
+def test_torque_regulator_compensates_motor_losses(name: str) -> None:
     """Its drag and its inertia."""
     missing, speeds = [], []
     for kp in (1e-9, 4.0):
@@ -86,7 +86,7 @@ def test_a_regulator_of_torque_makes_good_what_the_motor_keeps_for_itself(name: 
     assert speeds[1] > 2.0 * speeds[0] > 0.0
 
 
-def test_a_regulator_of_current_makes_good_what_the_turning_motor_takes_off() -> None:
+def test_current_regulator_compensates_back_emf() -> None:
     missing = []
     for gains in ({"kp": 0.0, "ki": 0.0}, {"ki": 0.0}, {}):
         arm = ready("icub", Mode.CURRENT)
@@ -113,7 +113,7 @@ def test_a_regulator_of_current_makes_good_what_the_turning_motor_takes_off() ->
         (Mode.CURRENT, Loop.CURRENT, lambda arm: arm.command.set_current(ONE, 0.1)),
     ],
 )
-def test_no_gain_gets_past_the_limits(mode: Mode, loop: Loop, push) -> None:
+def test_regulator_gains_respect_limits(mode: Mode, loop: Loop, push) -> None:
     arm = ready("nao", mode)
     arm.settings.set_pid(ELBOW, Gains(50.0, 500.0, 0.0, 3.0, feedforward=50.0), loop)
     most = arm.board.limits.torque + 1e-12
@@ -126,7 +126,7 @@ def test_no_gain_gets_past_the_limits(mode: Mode, loop: Loop, push) -> None:
 
 
 @pytest.mark.parametrize("loop", [Loop.VELOCITY, Loop.TORQUE, Loop.CURRENT])
-def test_a_regulator_is_bounded_forgets_and_is_switched_off(loop: Loop) -> None:
+def test_regulator_is_bounded_resets_and_is_switched_off(loop: Loop) -> None:
     mode = {Loop.VELOCITY: Mode.VELOCITY, Loop.TORQUE: Mode.TORQUE, Loop.CURRENT: Mode.CURRENT}
     arm = ready("nao", mode[loop])
     arm.settings.set_pid(ELBOW, Gains(offset=0.02, max_output=0.01), loop)
@@ -149,7 +149,7 @@ def test_a_regulator_is_bounded_forgets_and_is_switched_off(loop: Loop) -> None:
     assert summed.integral[ELBOW] == 0.0
 
 
-def test_a_reference_is_passed_on_ahead_of_its_error() -> None:
+def test_regulator_feeds_reference_forward() -> None:
     arm = ready("icub", Mode.VELOCITY_DIRECT)
     arm.settings.set_pid(ELBOW, Gains(feedforward=2.0), Loop.VELOCITY)
     arm.command.set_velocity(ONE, 0.5)
@@ -157,7 +157,7 @@ def test_a_reference_is_passed_on_ahead_of_its_error() -> None:
     assert arm.settings.pid_output(ONE, Loop.VELOCITY) == pytest.approx([1.0])
 
 
-def test_a_spring_needs_no_regulator() -> None:
+def test_stiffness_needs_no_regulator() -> None:
     arm = ready("nao", Mode.VELOCITY)
     arm.command.set_interaction(ONE, Interaction.COMPLIANT)
     assert arm.board.loops.active[ELBOW] is None
@@ -168,6 +168,6 @@ def test_a_spring_needs_no_regulator() -> None:
 
 
 @pytest.mark.parametrize("wrong", [{"feedforward": np.nan}, {"feedforward": -1.0}])
-def test_impossible_feedforward_is_refused(wrong: dict[str, float]) -> None:
+def test_regulator_refuses_invalid_feedforward(wrong: dict[str, float]) -> None:
     with pytest.raises(BadValue):
         Gains(**wrong)

@@ -78,14 +78,12 @@ def until(what: Callable[[], object]) -> None:
         time.sleep(0.002)
 
 
-def test_before_it_is_opened_it_is_not_there(hardware: DriverHost) -> None:
+def test_driver_host_refuses_calls_before_device_is_opened(hardware: DriverHost) -> None:
     with pytest.raises(HardwareError, match="`pan` is not there: it has not been opened yet"):
         hardware.devices["pan"]
 
 
-def test_motors_start_idle_where_they_are_and_obey_the_board(
-    hardware: DriverHost, motor: Motor
-) -> None:
+def test_driver_host_motors_start_idle_and_follow_board(hardware: DriverHost, motor: Motor) -> None:
     with hardware.working():
         board = hardware.devices["pan"].board
         commands = hardware.devices["pan"].commands
@@ -99,7 +97,7 @@ def test_motors_start_idle_where_they_are_and_obey_the_board(
     until(lambda: abs(motor.position - 1.0) < 0.02)
 
 
-def test_a_failure_lets_go_of_motors_and_opens_them_again(
+def test_driver_host_releases_motors_after_failure_and_reopens_them(
     hardware: DriverHost, motor: Motor
 ) -> None:
     with hardware.working():
@@ -119,7 +117,7 @@ def test_a_failure_lets_go_of_motors_and_opens_them_again(
     assert motor.opened == 2
 
 
-def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
+def test_driver_host_closing_leaves_motors_without_torque(motor: Motor) -> None:
     hardware = DriverHost(motor, ("pan",), motors=True)
     with hardware.working():
         hardware.devices["pan"].commands.set_mode(None, Mode.POSITION)
@@ -128,7 +126,7 @@ def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
     assert motor.torque == 0.0
 
 
-def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
+def test_driver_host_motor_holds_position_after_push_ends(
     hardware: DriverHost, motor: Motor
 ) -> None:
     hardware.set_reference_timeout(3600.0)
@@ -157,7 +155,7 @@ class Feeling(Motor):
         return np.array([np.nan if self.broken else 0.8 * self.torque])
 
 
-def test_a_motor_with_a_sensor_gives_the_torque_that_is_asked_for() -> None:
+def test_driver_host_motor_with_sensor_gives_requested_torque() -> None:
     motor = Feeling()
     hardware = DriverHost(motor, ("pan",), motors=True)
     try:
@@ -187,7 +185,7 @@ def test_motor_driver_conforms(
     assert motor.closed == 1
 
 
-def test_what_moves_is_skipped_unless_there_is_room(
+def test_conformance_skips_moving_rules_without_free_space(
     motor: Motor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv(MAY_MOVE, raising=False)
@@ -208,7 +206,7 @@ class Unwritten:
         pass
 
 
-def test_what_is_not_written_is_skipped_with_its_name() -> None:
+def test_conformance_skips_unimplemented_driver_by_name() -> None:
     message: list[str] = []
     on_hardware(RULES["laser"][0], Unwritten(), ("laser",), skip=message.append)
     assert message == ["`open` of driver.py is not implemented yet"]
@@ -224,12 +222,12 @@ class Deaf(Unwritten):
         return -1.0
 
 
-def test_a_broken_rule_is_told_and_the_device_closed() -> None:
+def test_conformance_reports_broken_rule_and_closes_device() -> None:
     with pytest.raises(Violation, match="the value is -1"):
         on_hardware(RULES["touchsensor"][0], Deaf(), ("bump",), skip=pytest.fail)
 
 
-def test_a_driver_that_cannot_be_closed_hides_nothing() -> None:
+def test_conformance_reports_broken_rule_despite_failing_close() -> None:
     class Torn(Deaf):
         def open(self) -> None:
             raise OSError("no such port")
@@ -244,7 +242,7 @@ def test_a_driver_that_cannot_be_closed_hides_nothing() -> None:
         hardware.close()
 
 
-def test_a_call_that_fails_closes_the_device_and_the_next_work_opens_it() -> None:
+def test_driver_host_closes_device_after_failed_call_and_reopens_it() -> None:
     class Loose(Deaf):
         opened = 0
 

@@ -237,7 +237,7 @@ def talk(folder: Path, name: str, domain: str, cable: str) -> None:
     assert component.wait(timeout=60) == 0
 
 
-def test_code_for_the_simulated_laser_runs_on_the_real_one(home: Path, tmp_path: Path) -> None:
+def test_hardware_component_runs_user_code_of_simulated_laser(home: Path, tmp_path: Path) -> None:
     """The same client; and when the cable is out the component is in Emergency until it is back."""
     assert run(RCGEN, "simulator", "world.xml", cwd=home).returncode == 0
     domain = f"twin-{os.getpid()}"
@@ -265,7 +265,7 @@ def test_rcgen_hardware_keeps_user_files(home: Path) -> None:
     assert [item.read_bytes() for item in mine] == before
 
 
-def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
+def test_hardware_component_motors_keep_configured_order(home: Path) -> None:
     folder = twin(home, "nod,neck", "head")
     driver = (folder / "driver.py").read_text()
     assert driver.index('name="nod"') < driver.index('name="neck"')
@@ -273,7 +273,7 @@ def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
     assert sorted(ports) == ["ControlBoard", "JointMotor"]
 
 
-def test_board_of_model_file_has_a_hardware_component(home: Path) -> None:
+def test_board_of_model_file_has_hardware_component(home: Path) -> None:
     """Its motors are known from the file; the rules are held against them alone."""
     model = Path(__file__).parents[2] / "components" / "nao_simulator" / "nao.xml"
     done = run(RCGEN, "hardware", "arm", "--like", f"{model}#LArm", cwd=home)

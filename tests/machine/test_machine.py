@@ -82,7 +82,7 @@ def build_machine(spec: MachineSpec, worker: object, clock: HandClock) -> Machin
     return machine
 
 
-def test_the_way(worker: Worker, clock: HandClock) -> None:
+def test_machine_follows_transitions(worker: Worker, clock: HandClock) -> None:
     machine = build_machine(GAME, worker, clock)
     assert machine.states == ("waiting",)
     assert machine.send("start") is True
@@ -100,7 +100,7 @@ def test_the_way(worker: Worker, clock: HandClock) -> None:
     assert worker.calls[-1] == "on_enter_paused"
 
 
-def test_the_methods_of_the_active_states(worker: Worker, clock: HandClock) -> None:
+def test_machine_calls_methods_of_active_states(worker: Worker, clock: HandClock) -> None:
     machine = build_machine(GAME, worker, clock)
     machine.send("start")
     worker.calls.clear()
@@ -108,7 +108,7 @@ def test_the_methods_of_the_active_states(worker: Worker, clock: HandClock) -> N
     assert worker.calls == ["state_playing", "state_music", "state_loud", "state_moves"]
 
 
-def test_a_state_that_is_left_meanwhile_is_not_called(clock: HandClock) -> None:
+def test_machine_does_not_call_state_that_is_left(clock: HandClock) -> None:
     called = []
 
     class Leaving:
@@ -128,7 +128,7 @@ def test_a_state_that_is_left_meanwhile_is_not_called(clock: HandClock) -> None:
     assert called == ["playing"]
 
 
-def test_by_time(worker: Worker, clock: HandClock) -> None:
+def test_machine_takes_timed_transitions(worker: Worker, clock: HandClock) -> None:
     machine = build_machine(GAME, worker, clock)
     assert machine.next_due() is None
     machine.send("start")
@@ -150,7 +150,7 @@ def test_by_time(worker: Worker, clock: HandClock) -> None:
     assert machine.next_due() is None
 
 
-def test_events_in_methods_come_behind_them(clock: HandClock) -> None:
+def test_machine_handles_events_of_methods_afterwards(clock: HandClock) -> None:
     seen: list[tuple[str, ...]] = []
 
     class Eager:
@@ -168,7 +168,7 @@ def test_events_in_methods_come_behind_them(clock: HandClock) -> None:
     assert "paused" not in seen[0]
 
 
-def test_failures_reach_the_caller(clock: HandClock) -> None:
+def test_machine_failures_reach_caller(clock: HandClock) -> None:
     class Failing:
         def on_enter_playing(self) -> None:
             raise ZeroDivisionError
@@ -181,7 +181,7 @@ def test_failures_reach_the_caller(clock: HandClock) -> None:
     assert machine.next_due() is None
 
 
-def test_unknown_names(worker: Worker, clock: HandClock) -> None:
+def test_machine_reports_unknown_names(worker: Worker, clock: HandClock) -> None:
     machine = Machine(GAME, worker, clock, lambda: None)
     with pytest.raises(UnknownEvent, match="starts after `initialize`"):
         machine.send("start")
@@ -192,7 +192,7 @@ def test_unknown_names(worker: Worker, clock: HandClock) -> None:
         machine.is_in("pausd")
 
 
-def test_somebody_is_told(worker: Worker, clock: HandClock) -> None:
+def test_machine_notifies_observers(worker: Worker, clock: HandClock) -> None:
     changes: list[int] = []
     machine = Machine(GAME, worker, clock, lambda: changes.append(1))
     machine.start()
@@ -201,7 +201,7 @@ def test_somebody_is_told(worker: Worker, clock: HandClock) -> None:
     assert changes
 
 
-def test_many_threads_lose_nothing(clock: HandClock) -> None:
+def test_machine_loses_no_event_of_many_threads(clock: HandClock) -> None:
     threads, each = 8, 300
     inside: list[int] = []
     most: list[int] = []
@@ -237,7 +237,7 @@ def test_many_threads_lose_nothing(clock: HandClock) -> None:
     assert machine.states == ("a",)
 
 
-def test_nobody_waits_for_a_thread_that_is_at_it(clock: HandClock) -> None:
+def test_machine_event_does_not_wait_for_running_thread(clock: HandClock) -> None:
     entered, leave = threading.Event(), threading.Event()
 
     class Slow:
@@ -256,7 +256,7 @@ def test_nobody_waits_for_a_thread_that_is_at_it(clock: HandClock) -> None:
     assert machine.states == ("paused",)
 
 
-def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
+def test_machine_failure_discards_only_its_own_events(clock: HandClock) -> None:
     entered, leave = threading.Event(), threading.Event()
     failures: list[BaseException] = []
 
@@ -288,7 +288,7 @@ def test_a_failure_takes_only_its_own_events_along(clock: HandClock) -> None:
     assert machine.states == ("waiting",)
 
 
-def test_a_timer_whose_transition_failed_is_due_again(clock: HandClock) -> None:
+def test_machine_timer_of_failed_transition_is_due_again(clock: HandClock) -> None:
     class Once:
         failed = False
 

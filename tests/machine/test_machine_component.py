@@ -83,7 +83,7 @@ def runner() -> Iterator[Runner]:
     component.wait()
 
 
-def test_the_machine_lives_with_the_component(runner: Runner) -> None:
+def test_machine_runs_with_its_component(runner: Runner) -> None:
     player = runner.worker
     assert isinstance(player, Player)
     wait_for(lambda: runner.worker.machine.is_in("playing"))
@@ -99,7 +99,7 @@ def test_the_machine_lives_with_the_component(runner: Runner) -> None:
     middleware.close()
 
 
-def test_the_end_of_the_machine_is_that_of_the_component() -> None:
+def test_machine_end_ends_component() -> None:
     runner = Runner(Waiter, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     assert runner.wait()
@@ -147,7 +147,7 @@ class Stumbler(Component):
         self.restored += 1
 
 
-def test_failures_are_emergencies_and_it_goes_on() -> None:
+def test_machine_failures_are_emergencies_and_component_recovers() -> None:
     runner = Runner(Stumbler, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     assert runner.wait()
@@ -164,7 +164,7 @@ class Reacting(Stumbler):
     SPEC = replace(Stumbler.SPEC, period=0)
 
 
-def test_failures_without_a_period() -> None:
+def test_machine_failures_without_period_are_emergencies() -> None:
     runner = Runner(Reacting, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     worker = runner.worker

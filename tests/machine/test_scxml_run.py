@@ -161,7 +161,7 @@ def spec(body: str, states: str, events: str) -> MachineSpec:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_documents(name: str) -> None:
+def test_scxml_document_runs_as_specified(name: str) -> None:
     case = CASES[name]
     clock = HandClock()
     machine = Machine(spec(case.body, case.states, case.events), Worker(), clock, lambda: None)
@@ -184,7 +184,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_nothing_of_a_document_is_run_as_code(name: str) -> None:
+def test_scxml_executes_no_code_of_document(name: str) -> None:
     machine = Machine(spec(REFUSED[name], "a", ""), Worker(), HandClock(), lambda: None)
     with pytest.raises(Exception, match=r".") as failed:
         machine.start()

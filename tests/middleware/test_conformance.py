@@ -43,37 +43,39 @@ HANDLERS = {
 }
 
 
-def test_a_query_returns(network: Network) -> None:
+def test_query_returns_result(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     assert network.node("client").probe().add(2, 3) == 5
 
 
-def test_a_query_with_a_result_and_an_output(network: Network) -> None:
+def test_query_returns_result_and_output(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     assert network.node("client").probe().divide(17, 5) == (3, 2)
 
 
-def test_a_query_without_outputs_returns_when_it_is_done(network: Network) -> None:
+def test_query_without_outputs_returns_when_done(network: Network) -> None:
     done: list[int] = []
     network.node("server").serve({"nothing": lambda: done.append(1)})
     network.node("client").probe().nothing()
     assert done == [1]
 
 
-def test_an_array_comes_back(network: Network) -> None:
+def test_query_returns_array(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     sent = np.arange(1_300_000, dtype=np.float32)
     assert np.array_equal(network.node("client").probe().echo(sent), sent)
 
 
-def test_a_declared_exception_arrives_as_itself(network: Network) -> None:
+def test_query_raises_declared_exception(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     with pytest.raises(Broken) as caught:
         network.node("client").probe().divide(1, 0)
     assert (caught.value.code, caught.value.what) == (7, "by zero")
 
 
-def test_any_other_exception_is_a_remote_error_and_the_server_lives_on(network: Network) -> None:
+def test_query_raises_remote_error_for_other_exception_and_server_continues(
+    network: Network,
+) -> None:
     network.node("server").serve(HANDLERS)
     probe = network.node("client").probe()
     with pytest.raises(RemoteError, match=r"server\.\w+.*KeyError.*no such thing"):
@@ -82,7 +84,7 @@ def test_any_other_exception_is_a_remote_error_and_the_server_lives_on(network: 
 
 
 @pytest.mark.usefixtures("hasty")
-def test_a_query_to_nobody(network: Network) -> None:
+def test_query_without_server_raises_no_server(network: Network) -> None:
     probe = network.node("client").probe()
     for _ in range(2):
         with pytest.raises(
@@ -92,13 +94,13 @@ def test_a_query_to_nobody(network: Network) -> None:
 
 
 @pytest.mark.usefixtures("hasty")
-def test_a_command_to_nobody(network: Network) -> None:
+def test_command_without_server_raises_no_server(network: Network) -> None:
     with pytest.raises(NoServer):
         network.node("client").probe().note("hello")
 
 
 @pytest.mark.usefixtures("hasty")
-def test_a_wire_to_somebody_who_is_not_there(network: Network) -> None:
+def test_connection_to_missing_component_raises_no_server(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     with pytest.raises(NoServer, match="other does not serve"):
         network.node("client").probe("other").add(1, 2)
@@ -127,7 +129,7 @@ def test_commands_arrive_once_and_in_order(network: Network) -> None:
     assert heard == [str(i) for i in range(300)]
 
 
-def test_a_server_that_starts_a_moment_later_is_waited_for(network: Network) -> None:
+def test_call_waits_for_server_that_starts_later(network: Network) -> None:
     client, server = network.node("client"), network.node("server")
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(client.probe().add, 2, 2)
@@ -135,7 +137,7 @@ def test_a_server_that_starts_a_moment_later_is_waited_for(network: Network) -> 
         assert asked.result(DEADLINE) == 4
 
 
-def test_no_answer_in_time(network: Network) -> None:
+def test_query_times_out_without_reply(network: Network) -> None:
     free = threading.Event()
     server = network.node("server")
     server.serve({"block": lambda: blocked(free), "add": lambda a, b: a + b})
@@ -152,13 +154,13 @@ def test_no_answer_in_time(network: Network) -> None:
     assert second.add(1, 1) == 2
 
 
-def test_interfaces_of_another_shape(network: Network) -> None:
+def test_different_interface_shapes_raise_interface_mismatch(network: Network) -> None:
     network.node("server").serve(HANDLERS, OTHER_PROBE)
     with pytest.raises(InterfaceMismatch, match=r"client and server .*Test::Probe"):
         network.node("client").probe().add(1, 2)
 
 
-def test_publications_reach_all_in_the_order_of_each_publisher(network: Network) -> None:
+def test_publications_reach_all_in_order_of_each_publisher(network: Network) -> None:
     heard: dict[str, list[tuple[str, int]]] = {"a": [], "b": []}
     for name, into in heard.items():
         network.node(name).hear(lambda who, n, into=into: into.append((who, n)))
@@ -181,11 +183,11 @@ def _subscribers(node: object) -> list[object]:
     return node.middleware._registry.find("subscriber", NEWS.name)  # type: ignore[attr-defined]
 
 
-def test_a_publication_nobody_hears_is_no_failure(network: Network) -> None:
+def test_publication_without_subscriber_does_not_fail(network: Network) -> None:
     network.node("publisher").news().spoke("me", 1)
 
 
-def test_a_subscriber_wired_to_one_publisher(network: Network) -> None:
+def test_subscriber_connects_to_one_publisher(network: Network) -> None:
     heard: list[str] = []
     network.node("s").hear(lambda who, _n: heard.append(who), "right")
     wrong, right = network.node("wrong").news(), network.node("right").news()
@@ -196,7 +198,7 @@ def test_a_subscriber_wired_to_one_publisher(network: Network) -> None:
     assert heard == ["right"]
 
 
-def test_a_failing_subscriber_hears_the_next(network: Network) -> None:
+def test_failing_subscriber_receives_next_publication(network: Network) -> None:
     heard: list[int] = []
 
     def hear(_who: str, n: int) -> None:
@@ -214,7 +216,7 @@ def test_a_failing_subscriber_hears_the_next(network: Network) -> None:
     assert node.count("spoke", "News").failures == 1
 
 
-def test_a_topic_knows_whether_it_is_heard(network: Network) -> None:
+def test_topic_knows_whether_it_has_subscribers(network: Network) -> None:
     news = network.node("p").news()
     assert not news.has_subscribers()
     network.node("deaf").serve(HANDLERS)
@@ -225,7 +227,7 @@ def test_a_topic_knows_whether_it_is_heard(network: Network) -> None:
     wait_for(lambda: not news.has_subscribers())
 
 
-def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> None:
+def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> None:
     free = threading.Event()
     heard: list[int] = []
 
@@ -267,7 +269,7 @@ def test_a_slow_subscriber_keeps_the_latest_of_its_depth(network: Network) -> No
     assert 45 <= node.count("spoke", "News").drops <= 50
 
 
-def test_publications_behind_their_deadline_are_counted(network: Network) -> None:
+def test_publications_after_their_deadline_are_counted(network: Network) -> None:
     heard: list[int] = []
     node = network.node("s")
     node.hear(lambda _who, n: heard.append(n), qos=Qos(deadline=1e-6))
@@ -280,7 +282,7 @@ def test_publications_behind_their_deadline_are_counted(network: Network) -> Non
     assert strict.missed == 2
 
 
-def test_the_proxy_follows_a_server_that_comes_back(network: Network) -> None:
+def test_proxy_follows_restarted_server(network: Network) -> None:
     server = network.node("server")
     server.serve({"add": lambda *_: 1})
     probe = network.node("client").probe()
@@ -301,7 +303,7 @@ def test_the_proxy_follows_a_server_that_comes_back(network: Network) -> None:
 
 
 @pytest.mark.parametrize("how", ["called", "waited for"])
-def test_who_was_there_and_has_gone_is_missed_at_once(network: Network, how: str) -> None:
+def test_proxy_reports_departed_server_at_once(network: Network, how: str) -> None:
     server = network.node("server")
     server.serve(HANDLERS)
     probe = network.node("client").probe()
@@ -315,7 +317,7 @@ def test_who_was_there_and_has_gone_is_missed_at_once(network: Network, how: str
 
 
 @pytest.mark.usefixtures("hasty")
-def test_domains_do_not_see_each_other(network: Network) -> None:
+def test_domains_are_separate(network: Network) -> None:
     network.node("server").serve(HANDLERS)
     other = Network(network.kind)
     try:
@@ -325,7 +327,7 @@ def test_domains_do_not_see_each_other(network: Network) -> None:
         other.close()
 
 
-def test_an_interrupt_ends_a_call_that_waits(network: Network) -> None:
+def test_interrupt_ends_waiting_call(network: Network) -> None:
     if network.kind == "inproc":
         pytest.skip("a call within the process runs in the caller; there is nothing to wait for")
     free = threading.Event()
@@ -341,7 +343,7 @@ def test_an_interrupt_ends_a_call_that_waits(network: Network) -> None:
         free.set()
 
 
-def test_calls_behind_the_end_of_their_component_say_so(network: Network) -> None:
+def test_calls_after_component_end_report_it(network: Network) -> None:
     if network.kind == "inproc":
         pytest.skip("a call within the process needs no connection")
     network.node("server").serve(HANDLERS)

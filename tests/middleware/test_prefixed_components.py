@@ -86,7 +86,7 @@ def start(middleware: str, domain: str) -> Iterator[Start]:
         runner.wait()
 
 
-def test_two_copies_of_a_set(start: Start) -> None:
+def test_prefixed_copies_of_components_are_independent(start: Start) -> None:
     arms = {}
     for prefix, offset in (("left", 100), ("right", 200)):
         base = start(Base, prefix=prefix)
@@ -102,7 +102,7 @@ def test_two_copies_of_a_set(start: Start) -> None:
         assert arm.publishers == {f"{prefix}/base"}
 
 
-def test_a_wire_is_under_the_prefix(start: Start) -> None:
+def test_prefix_applies_to_connection(start: Start) -> None:
     for name, offset in (("first", 1), ("second", 2)):
         base = start(Base, prefix="left", name=name)
         assert isinstance(base, Base)
@@ -114,7 +114,7 @@ def test_a_wire_is_under_the_prefix(start: Start) -> None:
     assert arm.publishers == {"left/first"}
 
 
-def test_ports_by_other_names(start: Start) -> None:
+def test_prefixed_ports_may_have_other_names(start: Start) -> None:
     for name, front in (("a", "Probe"), ("b", "front")):
         base = start(Base, name=name, remaps={"Probe": front, "News": f"{front}-news"})
         assert isinstance(base, Base)
@@ -126,7 +126,7 @@ def test_ports_by_other_names(start: Start) -> None:
     assert arm.publishers == {"b"}
 
 
-def test_introspection_tells_whole_names(start: Start, middleware: str, domain: str) -> None:
+def test_introspection_reports_prefixed_names(start: Start, middleware: str, domain: str) -> None:
     start(Base, prefix="left", remaps={"Probe": "front"})
     start(Arm, prefix="left", connections={"Probe": ("base",)}, remaps={"Probe": "front"})
     looker = open_middleware(

@@ -40,7 +40,7 @@ SERVERS = ("base", "left/base", "right/base", "left/hand/base")
         ("left/hand/arm", "left/hand/base"),
     ],
 )
-def test_the_one_beside_is_found(network: Network, client: str, server: str) -> None:
+def test_prefix_selects_server_beside(network: Network, client: str, server: str) -> None:
     serve(network, *SERVERS)
     assert SERVERS[asked(network, client)] == server
 
@@ -56,7 +56,7 @@ def test_the_one_beside_is_found(network: Network, client: str, server: str) -> 
     ],
 )
 @pytest.mark.usefixtures("hasty")
-def test_else_one_around_it_and_then_one_inside(
+def test_prefix_selects_outer_server_then_inner_server(
     network: Network, client: str, there: tuple[str, ...], server: str
 ) -> None:
     serve(network, *there)
@@ -64,19 +64,19 @@ def test_else_one_around_it_and_then_one_inside(
 
 
 @pytest.mark.usefixtures("hasty")
-def test_one_on_another_branch_is_not_found(network: Network) -> None:
+def test_prefix_excludes_server_on_another_branch(network: Network) -> None:
     serve(network, "right/base", "leftish/base")
     with pytest.raises(NoServer, match=r"no component serves Test::Probe, which left/arm requires"):
         asked_when_all_are_known(network, "left/arm", 2)
 
 
-def test_one_on_another_branch_is_reached_by_its_name(network: Network) -> None:
+def test_prefix_reaches_server_on_another_branch_by_name(network: Network) -> None:
     serve(network, "left/base", "right/base")
     assert asked(network, "left/arm", "right/base") == 1
     assert asked(network, "left/arm2", "right/base.Probe") == 1
 
 
-def test_the_one_beside_that_starts_later_is_waited_for(network: Network) -> None:
+def test_prefix_waits_for_server_beside_that_starts_later(network: Network) -> None:
     serve(network, "base")
     client, beside = network.node("left/arm"), network.node("left/base")
     probe = client.probe()
@@ -86,7 +86,7 @@ def test_the_one_beside_that_starts_later_is_waited_for(network: Network) -> Non
         assert answer.result(DEADLINE) == 7
 
 
-def test_two_beside_are_ambiguous_and_the_way_out_works(network: Network) -> None:
+def test_prefix_with_two_servers_beside_is_ambiguous_until_connected(network: Network) -> None:
     serve(network, "left/a", "left/b", "c")
     probe = network.node("left/arm").probe()
     wait_for(lambda: len(_known(probe, network)) == 3)
@@ -104,7 +104,7 @@ def _known(probe: ProbeProxy, network: Network) -> list[object]:
     return found
 
 
-def test_topics_stay_on_their_branch(network: Network) -> None:
+def test_prefix_keeps_topics_on_their_branch(network: Network) -> None:
     names = ("base", "left/base", "right/base", "left/hand/base")
     heard: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
     for name, into in heard.items():
@@ -129,7 +129,7 @@ def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
         again()
 
 
-def test_a_publisher_does_not_wait_for_another_branch(network: Network) -> None:
+def test_prefix_publisher_does_not_wait_for_another_branch(network: Network) -> None:
     network.node("right/arm").hear(lambda *_: None)
     publisher = network.node("left/base").news()
     assert not publisher.wait_for_server(0.2)
@@ -137,7 +137,7 @@ def test_a_publisher_does_not_wait_for_another_branch(network: Network) -> None:
     assert publisher.wait_for_server(DEADLINE)
 
 
-def test_a_port_of_a_name_of_whomever_is_beside(network: Network) -> None:
+def test_prefix_selects_named_port_beside(network: Network) -> None:
     """What `--remap` gives: `*.front`."""
     for prefix, result in (("left", 1), ("right", 2)):
         base = network.node(f"{prefix}/base")
@@ -147,7 +147,7 @@ def test_a_port_of_a_name_of_whomever_is_beside(network: Network) -> None:
     assert asked(network, "right/arm", "*.front") == 2
 
 
-def test_publications_of_a_port_of_a_name(network: Network) -> None:
+def test_prefix_routes_publications_of_named_port(network: Network) -> None:
     heard: set[str] = set()
     network.node("left/arm").hear(lambda who, _n: heard.add(who), "*.scan")
     proxies = {}

@@ -237,7 +237,7 @@ def recorded(home: Path, name: str, seed: int, last: float = SECONDS, more: str 
     return written.read_bytes()
 
 
-def test_in_lockstep_a_seed_says_all(home: Path) -> None:
+def test_simulator_in_lockstep_is_determined_by_seed(home: Path) -> None:
     item, again, other = (
         recorded(home, f"step-{os.getpid()}-{number}", seed)
         for number, seed in enumerate((7, 7, 8))
@@ -253,7 +253,7 @@ def test_in_lockstep_a_seed_says_all(home: Path) -> None:
     assert len({line.split(";", 2)[2] for line in lines}) == len(lines)
 
 
-def test_in_lockstep_a_component_may_change_the_world_and_its_time(home: Path) -> None:
+def test_simulator_in_lockstep_accepts_changes_of_world_and_time(home: Path) -> None:
     item, again = (
         recorded(home, f"meddle-{os.getpid()}-{number}", 3, 3.0, "set meddle = true;")
         for number in range(2)
@@ -303,9 +303,7 @@ print("held")
 
 
 @pytest.mark.parametrize("clock", ["clock sim;", "clock sim lockstep;"])
-def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(
-    home: Path, clock: str
-) -> None:
+def test_simulator_leads_clock_with_simulated_time(home: Path, clock: str) -> None:
     name = f"sim-{len(clock)}-{os.getpid()}"
     with deployed(home, name, clock, last=1000) as (process, written):
         until(lambda: bool(times(written)), process, "the first line")
@@ -322,7 +320,7 @@ def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(
     assert second < first, "a reset is a new beginning"
 
 
-def test_with_the_clock_of_the_machine_it_is_driven(home: Path) -> None:
+def test_simulator_is_driven_on_wall_clock(home: Path) -> None:
     name = f"wall-{os.getpid()}"
     with deployed(home, name, "") as (process, written):
         until(lambda: len(times(written)) > 1, process, "the first lines")

@@ -19,11 +19,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "room_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path) -> None:
+def test_generated_simulator_is_clean_and_typed(folder: Path) -> None:
     assert_clean(folder)
 
 
-def test_again_nothing_is_to_do(folder: Path) -> None:
+def test_generated_simulator_is_unchanged_by_second_run(folder: Path) -> None:
     """The same world gives the same bytes, and what is the user's stays."""
     worker = folder / "specificworker.py"
     kinds = {".py", ".json", ".cdsl"}
@@ -84,7 +84,7 @@ print("driven")
 
 
 @pytest.mark.parametrize("middleware", ["inproc", "zenoh"])
-def test_it_runs_and_is_driven(folder: Path, middleware: str) -> None:
+def test_generated_simulator_runs_and_is_driven(folder: Path, middleware: str) -> None:
     code = with_simulator(middleware, DRIVE)
     message = run(
         folder, code, middleware, f"test-{folder.parent.name}-{middleware}", "room_simulator"
@@ -109,6 +109,6 @@ middleware.close()
 """
 
 
-def test_the_speed_of_a_time_from_elsewhere_is_not_set_here(folder: Path) -> None:
+def test_generated_simulator_refuses_to_set_speed_of_external_clock(folder: Path) -> None:
     message = run(folder, CLIENT + FOLLOWS, "inproc", "follows", "room_simulator")
     assert "`speed` stays 1.0: another component is the clock source" in message

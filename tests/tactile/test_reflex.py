@@ -64,21 +64,21 @@ def withdrawn(*frames: list[Response], facts: ArmProperties = FACTS) -> Withdraw
         ([[response(0.2), response(0.6)]], 0.6 * THETA),  # two touches in one field
     ],
 )
-def test_each_field_counts_with_its_strongest_response(frames, motion):
+def test_reflex_counts_strongest_response_of_each_field(frames, motion):
     withdrawal = withdrawn(*frames)
     assert withdrawal.goal == pytest.approx(START + motion)
     assert withdrawal.began == 7.0
     assert withdrawal.origin is START
 
 
-def test_news_are_the_responses_that_count_anew():
+def test_reflex_news_are_responses_that_count_anew():
     weak, strong, other = response(0.2), response(0.6), response(0.5, "b", OTHER)
     before = withdrawn([weak])
     assert new_responses(before, add_responses(before, [strong, other], FACTS)) == [strong, other]
     assert new_responses(before, add_responses(before, [response(0.1)], FACTS)) == []
 
 
-def test_goals_stay_within_limits_and_joints_that_are_not_there_stay_put():
+def test_reflex_goals_stay_within_limits_and_missing_joints_stay_put():
     motion = withdrawn([response(1.0, "b", 50 * OTHER), response(1.0, "c", -50 * THETA)])
     assert (motion.goal >= FACTS.low).all()
     assert (motion.goal <= FACTS.high).all()
@@ -90,7 +90,7 @@ def test_goals_stay_within_limits_and_joints_that_are_not_there_stay_put():
 
 
 @given(st.lists(st.lists(st.floats(0.0, 1.0), min_size=1, max_size=3), max_size=8))
-def test_a_withdrawal_never_takes_back_what_it_has_begun(gains):
+def test_reflex_never_takes_back_withdrawal(gains):
     motion, far = initial(START, 0.0), 0.0
     for frame in gains:
         motion = add_responses(
@@ -100,7 +100,7 @@ def test_a_withdrawal_never_takes_back_what_it_has_begun(gains):
         far = max_joint_distance(motion.goal, START)
 
 
-def test_a_motion_lasts_as_long_as_its_slowest_joint():
+def test_reflex_motion_lasts_as_long_as_slowest_joint():
     speed = np.array([1.0, 0.5, 2.0, 0.0, 1.0])
     assert duration(np.zeros(5), np.array([1.0, -1.0, 1.0, 1.0, 0.0]), speed) == 2.0
     assert duration(START, START, speed) == 0.0
@@ -116,12 +116,12 @@ def test_a_motion_lasts_as_long_as_its_slowest_joint():
         ({"speed": np.zeros(5)}, "speed limit of 0"),
     ],
 )
-def test_facts_that_no_arm_can_have_are_refused(changes, message):
+def test_reflex_refuses_invalid_arm_facts(changes, message):
     with pytest.raises(ValueError, match=message):
         replace(FACTS, **changes)
 
 
-def test_facts_of_joints_that_are_not_there_may_be_anything():
+def test_reflex_ignores_facts_of_missing_joints():
     nothing = np.array([False] * 5)
     wild = np.full(5, np.nan)
     assert ArmProperties(wild, wild, wild, wild, nothing).within(THETA, START) == pytest.approx(
@@ -148,39 +148,39 @@ GOOD = np.ones(4)
         ((11, np.nan, 3, GOOD), FrameFault.NOT_FINITE),
     ],
 )
-def test_bad_frames_are_rejected_and_counted(frame, fault):
-    gate = FrameValidator()
-    gate.expect(3, 4)
-    gate.check(10, 1.0, 3, GOOD)
+def test_frame_validator_rejects_and_counts_bad_frames(frame, fault):
+    validator = FrameValidator()
+    validator.expect(3, 4)
+    validator.check(10, 1.0, 3, GOOD)
     if fault is None:
-        assert (gate.check(*frame) == GOOD).all()
-        assert gate.accepted == 2
+        assert (validator.check(*frame) == GOOD).all()
+        assert validator.accepted == 2
         return
     with pytest.raises(RejectedFrame) as caught:
-        gate.check(*frame)
+        validator.check(*frame)
     assert caught.value.fault is fault
-    assert gate.rejected[fault] == 1
-    assert gate.accepted == 1
-    assert gate.is_outdated == (frame[2] == 4)
-    gate.reset_sequence()
-    gate.check(1, 0.0, 3, GOOD)
-    assert not gate.is_outdated
+    assert validator.rejected[fault] == 1
+    assert validator.accepted == 1
+    assert validator.is_outdated == (frame[2] == 4)
+    validator.reset_sequence()
+    validator.check(1, 0.0, 3, GOOD)
+    assert not validator.is_outdated
 
 
-def test_without_a_geometry_every_frame_is_of_another_one():
-    gate = FrameValidator()
+def test_frame_validator_without_geometry_rejects_frames():
+    validator = FrameValidator()
     with pytest.raises(RejectedFrame, match="none is known yet"):
-        gate.check(1, 0.0, 3, GOOD)
-    assert gate.is_outdated
-    gate.expect(3, 4)
-    assert not gate.is_outdated
-    assert gate.rejected.total() == 1
+        validator.check(1, 0.0, 3, GOOD)
+    assert validator.is_outdated
+    validator.expect(3, 4)
+    assert not validator.is_outdated
+    assert validator.rejected.total() == 1
 
 
-def test_negative_forces_count_as_none():
-    gate = FrameValidator()
-    gate.expect(1, 2)
-    assert gate.check(1, 1.0, 1, np.array([-1.0, 2.0])).tolist() == [0.0, 2.0]
+def test_frame_validator_clips_negative_forces():
+    validator = FrameValidator()
+    validator.expect(1, 2)
+    assert validator.check(1, 1.0, 1, np.array([-1.0, 2.0])).tolist() == [0.0, 2.0]
 
 
 CONE = Cone(0.02, 0.10, 0.03, 0.03)
@@ -203,7 +203,7 @@ def robot() -> RobotDescription:
     return RobotDescription("r", (part("left_arm", 0), part("right_arm", 1000)))
 
 
-def test_receptors_answer_for_their_own_arm_only():
+def test_receptive_fields_respond_for_their_own_arm_only():
     geometry = SkinGeometry.of(robot())
     centre = CONE.points(0.06, 0.0)
     fields = (
@@ -229,7 +229,7 @@ def test_receptors_answer_for_their_own_arm_only():
         ReceptiveFields(geometry, "left_arm", (Field("x", "hand", centre, 0.03, THETA),), Law())
 
 
-def test_a_sense_takes_other_fields_laws_and_geometries_or_stays_as_it_was():
+def test_reflex_reconfigures_completely_or_not_at_all():
     geometry = SkinGeometry.of(robot())
     here, there = (Field(n, "lower", CONE.points(0.06, at), 0.03, THETA) for n, at in
                    (("here", 0.0), ("there", np.pi)))  # fmt: skip
@@ -277,7 +277,7 @@ def as_told(geometry: SkinGeometry, **changes: object) -> SimpleNamespace:
     return SimpleNamespace(**(message | changes))
 
 
-def test_a_geometry_comes_back_from_what_is_told_of_it():
+def test_geometry_survives_message_round_trip():
     geometry = SkinGeometry.of(robot(), version=4)
     back = geometry_from_message(as_told(geometry))
     assert (back.version, back.size, back.limbs) == (4, geometry.size, geometry.limbs)
@@ -301,6 +301,6 @@ def test_a_geometry_comes_back_from_what_is_told_of_it():
         ({"patches": [SimpleNamespace(name="p", gain=0, floor=0, saturation=1)] * 2}, "gain > 0"),
     ],
 )
-def test_a_geometry_that_contradicts_itself_is_refused(changes, message):
+def test_geometry_message_with_contradictions_is_refused(changes, message):
     with pytest.raises(BadGeometry, match=message):
         geometry_from_message(as_told(SkinGeometry.of(robot()), **changes))

@@ -18,7 +18,7 @@ BOTH = pytest.mark.parametrize("robot", ROBOTS)
 
 
 @BOTH
-def test_it_tells_where_the_arm_is(robot: str) -> None:
+def test_generic_arm_publishes_its_position(robot: str) -> None:
     """The robots stand in the start pose of their descriptions."""
     with arm_on(robot) as (arm, _):
         limits, state = arm.getLimits(), arm.getState()
@@ -29,7 +29,7 @@ def test_it_tells_where_the_arm_is(robot: str) -> None:
         assert times == sorted(set(times))
 
 
-def test_the_same_commands_give_the_same_angles() -> None:
+def test_generic_arm_commands_give_same_angles_on_all_robots() -> None:
     ends = []
     for robot in ROBOTS:
         with arm_on(robot) as (arm, served):
@@ -50,7 +50,7 @@ def test_the_same_commands_give_the_same_angles() -> None:
 
 
 @BOTH
-def test_speeds_are_kept_and_goals_are_clipped(robot: str) -> None:
+def test_generic_arm_respects_speeds_and_clips_goals(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         limits = arm.getLimits()
         arm.move(limits.start + 0.4 * ELBOW, np.array([1, 1, 1, 0.2, 1]))
@@ -63,7 +63,7 @@ def test_speeds_are_kept_and_goals_are_clipped(robot: str) -> None:
         assert there[[0, 3]] == pytest.approx(limits.high[[0, 3]], abs=0.06)
 
 
-def test_what_the_robot_lacks_reads_sigma_and_drops_commands() -> None:
+def test_generic_arm_reads_sigma_and_drops_commands_of_missing_joints() -> None:
     with arm_on("nao_h21") as (arm, _):
         limits = arm.getLimits()
         assert limits.available.tolist() == [True] * 4 + [False]
@@ -77,7 +77,7 @@ def test_what_the_robot_lacks_reads_sigma_and_drops_commands() -> None:
 
 
 @BOTH
-def test_what_cannot_be_meant_changes_nothing(robot: str) -> None:
+def test_generic_arm_refuses_invalid_commands_unchanged(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         before = len([call for call in served.calls if call[1] == "positionMove"])
         assert "5 values are needed, not 3" in refused(arm.move, np.zeros(3), NONE)
@@ -97,7 +97,7 @@ def test_what_cannot_be_meant_changes_nothing(robot: str) -> None:
 
 
 @BOTH
-def test_speeds_last_until_the_next_command(robot: str) -> None:
+def test_generic_arm_velocity_lasts_until_next_command(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         start = arm.getState().position
         arm.drive(np.array([0, 0.3, 0, 0.4, 0]))
@@ -114,7 +114,7 @@ def test_speeds_last_until_the_next_command(robot: str) -> None:
 
 
 @BOTH
-def test_speeds_end_after_hold_when_their_caller_is_silent(robot: str) -> None:
+def test_generic_arm_ends_velocity_after_hold_without_renewal(robot: str) -> None:
     with arm_on(robot, "hold=0.2") as (arm, _):
         arm.sets_off(arm.drive, np.array([0, 0, 0, 0.5, 0]))
         there = arm.rest().position
@@ -122,7 +122,7 @@ def test_speeds_end_after_hold_when_their_caller_is_silent(robot: str) -> None:
 
 
 @BOTH
-def test_a_stream_of_positions_is_followed(robot: str) -> None:
+def test_generic_arm_follows_position_stream(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         start = arm.getState().position
         for step in range(1, 101):
@@ -136,7 +136,7 @@ def test_a_stream_of_positions_is_followed(robot: str) -> None:
 
 
 @BOTH
-def test_a_pushed_joint_turns_the_way_it_is_pushed(robot: str) -> None:
+def test_generic_arm_pushed_joint_turns_in_push_direction(robot: str) -> None:
     """Torque follows power: the generic elbow flexes under a positive torque on every robot."""
     with arm_on(robot) as (arm, _):
         before = arm.getState().position
@@ -151,7 +151,7 @@ def test_a_pushed_joint_turns_the_way_it_is_pushed(robot: str) -> None:
 
 
 @BOTH
-def test_a_push_ends_when_who_pushed_is_silent_and_the_arm_holds_its_place(robot: str) -> None:
+def test_generic_arm_holds_position_when_push_is_not_renewed(robot: str) -> None:
     """The board of the test lets joints be pushed for ever: it is the arm that ends it."""
     with arm_on(robot, "push_hold=0.2") as (arm, served):
         arm.push({"nao_h25": 0.4, "icub_v2": 1.5}[robot] * ELBOW)
@@ -170,7 +170,7 @@ def elbow(served: ServedRobot) -> Mode:
 
 
 @BOTH
-def test_springs_are_set_in_the_units_of_the_device(robot: str) -> None:
+def test_generic_arm_sets_stiffness_in_device_units(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         arm.setStiffness(np.full(5, 6.0), np.full(5, 0.3))
         board = served.part.board
@@ -188,7 +188,7 @@ def test_springs_are_set_in_the_units_of_the_device(robot: str) -> None:
 
 
 @BOTH
-def test_it_begins_as_it_is_told(robot: str) -> None:
+def test_generic_arm_begins_as_configured(robot: str) -> None:
     with arm_on(robot, "begin=nothing") as (arm, served):
         kinds = {operation for _, operation in served.calls}
         assert kinds == {"getJoints", "getState"}
@@ -202,7 +202,7 @@ BEYOND = {"nao_h25": {"LHand": 0.8}, "icub_v2": {"l_wrist_pitch": -0.6, "l_wrist
 
 
 @BOTH
-def test_joints_beyond_the_arm_go_to_their_places_and_stay_there(robot: str) -> None:
+def test_generic_arm_moves_other_joints_to_initial_positions(robot: str) -> None:
     with arm_on(robot, pose=BEYOND[robot]) as (arm, served):
         board = served.part.board
         rows = [board.spec.names.index(name) for name in BEYOND[robot]]
@@ -219,7 +219,7 @@ def test_joints_beyond_the_arm_go_to_their_places_and_stay_there(robot: str) -> 
 
 
 @BOTH
-def test_live_parameters_change_speed_and_rate(robot: str) -> None:
+def test_generic_arm_live_parameters_change_speed_and_rate(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         full = arm.getLimits().speed
         arm.runner.params.set({"speed": 0.1, "period": 5})

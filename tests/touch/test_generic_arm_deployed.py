@@ -119,7 +119,7 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
         yield deploy
 
 
-def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> None:
+def test_deployed_generic_arm_gives_same_angles_on_both_robots(deployed: Any) -> None:
     reached = {}
     for name in ROBOTS:
         deployment = deployed(name)
@@ -137,7 +137,9 @@ def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> 
         assert nao == pytest.approx(icub, abs=0.05)
 
 
-def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> None:
+def test_deployed_generic_arm_reports_suspended_or_killed_robot_and_reconnects(
+    deployed: Any,
+) -> None:
     deployment = deployed("icub")
     robot = deployment.processes[deployment.simulator]
     robot.send_signal(signal.SIGSTOP)
@@ -163,7 +165,7 @@ def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> No
         ("connect arm.board2 -> body.Head;", "error[RC508]: `arm` requires `board`, which"),
     ],
 )
-def test_a_deployment_wires_the_physical_parts_that_there_are(
+def test_generic_arm_deployment_connects_existing_boards(
     wires: str, found: str, tmp_path: Path
 ) -> None:
     (tmp_path / "arm.ddsl").write_text(

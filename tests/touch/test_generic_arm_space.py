@@ -49,7 +49,7 @@ def hand_of(served: ServedRobot, robot: str) -> np.ndarray:
 
 
 @BOTH
-def test_the_chain_puts_the_hand_where_physics_has_it(robot: str) -> None:
+def test_generic_arm_chain_places_hand_like_physics(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         arm.move(GOAL, np.zeros(0))
         angles = arm.rest().position
@@ -63,7 +63,7 @@ def test_the_chain_puts_the_hand_where_physics_has_it(robot: str) -> None:
 
 
 @BOTH
-def test_the_hand_reaches_points_and_poses(robot: str) -> None:
+def test_generic_arm_moves_hand_to_points_and_poses(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         goal = pose_by_chain(arm, GOAL)
         outcome = arm.reach(*goal[:3, 3].tolist())
@@ -78,7 +78,7 @@ def test_the_hand_reaches_points_and_poses(robot: str) -> None:
 
 
 @BOTH
-def test_what_is_out_of_reach_is_told_with_how_far(robot: str) -> None:
+def test_generic_arm_reports_distance_of_unreachable_goal(robot: str) -> None:
     with arm_on(robot, "begin=nothing") as (arm, served):
         with pytest.raises(ARM.interfaces.Unreachable) as far:
             arm.reach(2.0, 0.0, 0.0)
@@ -92,7 +92,7 @@ def test_what_is_out_of_reach_is_told_with_how_far(robot: str) -> None:
 
 
 @BOTH
-def test_the_hand_glides_along_a_line_until_it_is_stopped(robot: str) -> None:
+def test_generic_arm_moves_hand_along_line_until_stopped(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         arm.move(GOAL, np.zeros(0))
         arm.rest()
@@ -109,7 +109,7 @@ def test_the_hand_glides_along_a_line_until_it_is_stopped(robot: str) -> None:
         assert arm.getState().position == pytest.approx(there.position, abs=0.03)
 
 
-def test_a_glide_ends_after_hold_when_its_caller_is_silent() -> None:
+def test_generic_arm_ends_line_motion_after_hold_without_renewal() -> None:
     with arm_on("icub_v2", "hold=0.3") as (arm, _):
         arm.move(GOAL, np.zeros(0))
         arm.rest()

@@ -67,7 +67,7 @@ class Ticking:
         self._thread.join()
 
 
-def test_while_nobody_tells_the_time_the_arm_is_stopped_and_all_goes_on_behind() -> None:
+def test_generic_arm_stops_when_clock_is_lost_and_resumes() -> None:
     """The board answers all the while: it is the time that is missing."""
     ticking = Ticking()
     try:
@@ -93,7 +93,7 @@ def test_while_nobody_tells_the_time_the_arm_is_stopped_and_all_goes_on_behind()
 
 
 @BOTH
-def test_a_board_that_goes_away_is_an_emergency_until_it_is_there_again(robot: str) -> None:
+def test_generic_arm_is_in_emergency_while_board_is_away(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         arm.sets_off(arm.drive, np.array([0, 0, 0, 0.2, 0]))
         served.away()
@@ -117,7 +117,7 @@ def test_a_board_that_goes_away_is_an_emergency_until_it_is_there_again(robot: s
         assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
 
 
-def test_springs_come_back_with_the_board_and_the_start_pose_does_not() -> None:
+def test_generic_arm_restores_stiffness_but_no_start_pose_with_board() -> None:
     with arm_on("nao_h25", "begin=start") as (arm, served):
         arm.rest()
         arm.move(GOAL, NONE)
@@ -135,7 +135,7 @@ def test_springs_come_back_with_the_board_and_the_start_pose_does_not() -> None:
         assert arm.rest().position == pytest.approx(GOAL, abs=0.15)
 
 
-def test_a_glide_that_a_board_no_longer_takes_ends_without_an_emergency(
+def test_generic_arm_ends_refused_line_motion_without_emergency(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with arm_on("icub_v2") as (arm, served):
@@ -152,7 +152,7 @@ def test_a_glide_that_a_board_no_longer_takes_ends_without_an_emergency(
         assert arm.runner.worker.control._glide is None
 
 
-def test_a_port_that_is_wired_to_the_wrong_board_says_so() -> None:
+def test_generic_arm_reports_wrong_board_connection() -> None:
     with arm_on("nao_h25", board="RArm") as (arm, _):
         message = refused(arm.getState)
         for word in ("`board`", "`LShoulderPitch`", "`LArm`", "RShoulderPitch", "connected"):
@@ -160,7 +160,7 @@ def test_a_port_that_is_wired_to_the_wrong_board_says_so() -> None:
         assert arm.runner.lifecycle.state is LifecycleState.EMERGENCY
 
 
-def test_a_joint_at_fault_is_told_in_the_words_of_its_board() -> None:
+def test_generic_arm_reports_joint_fault_of_board() -> None:
     with arm_on("nao_h25") as (arm, served):
         board = served.part.board
         board.fault(
@@ -177,7 +177,7 @@ def test_a_joint_at_fault_is_told_in_the_words_of_its_board() -> None:
 
 
 @pytest.mark.parametrize("wrong", ["position", "velocity", "torque"])
-def test_a_board_that_tells_no_numbers_is_an_emergency(wrong: str) -> None:
+def test_generic_arm_is_in_emergency_while_board_reports_non_finite_values(wrong: str) -> None:
     with arm_on("nao_h25") as (arm, served):
 
         def broken(state: Any) -> None:
@@ -193,7 +193,7 @@ def test_a_board_that_tells_no_numbers_is_an_emergency(wrong: str) -> None:
         assert arm.getState().position.shape == (5,)
 
 
-def test_a_board_that_has_become_another_is_looked_at_again() -> None:
+def test_generic_arm_examines_changed_board_again() -> None:
     with arm_on("nao_h25") as (arm, served):
 
         def short(state: Any) -> None:
@@ -206,7 +206,7 @@ def test_a_board_that_has_become_another_is_looked_at_again() -> None:
         until(lambda: arm.runner.lifecycle.state is LifecycleState.COMPUTE)
 
 
-def test_what_fails_in_a_stream_is_told_once(caplog: pytest.LogCaptureFixture) -> None:
+def test_generic_arm_reports_stream_failure_once(caplog: pytest.LogCaptureFixture) -> None:
     with arm_on("nao_h25") as (arm, _):
         for _ in range(30):
             arm.follow(np.zeros(3))
@@ -228,7 +228,7 @@ SERVO = """
   </generic_servo>"""
 
 
-def test_an_arm_that_the_papers_listing_describes(tmp_path: Path) -> None:
+def test_generic_arm_runs_with_xml_listing(tmp_path: Path) -> None:
     """Joints by their numbers on the board, two servos left out, and its misspelt tag."""
     servos = "".join(
         SERVO.format(index=index, joint=joint, gamma=gamma, sigma=sigma)
@@ -256,7 +256,7 @@ def test_an_arm_that_the_papers_listing_describes(tmp_path: Path) -> None:
 # -- several boards -------------------------------------------------------------------------------
 
 
-def test_one_arm_on_two_boards(on_two: Path) -> None:
+def test_generic_arm_drives_two_boards(on_two: Path) -> None:
     with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
         assert arm.getLimits().available.all()
         arm.move(GOAL, NONE)
@@ -273,7 +273,7 @@ def test_one_arm_on_two_boards(on_two: Path) -> None:
         assert boards == {"LArm", "Head"}
 
 
-def test_when_one_board_refuses_the_other_is_not_moved(on_two: Path) -> None:
+def test_generic_arm_moves_no_board_when_first_one_refuses(on_two: Path) -> None:
     with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
         board = served.part.board
         board.fault(np.array([board.spec.names.index("HeadYaw")]), FaultCode.OVERCURRENT, "burnt")
@@ -286,7 +286,7 @@ def test_when_one_board_refuses_the_other_is_not_moved(on_two: Path) -> None:
         assert arm.rest().position == pytest.approx(before, abs=0.02)
 
 
-def test_a_board_that_refuses_the_goal_itself_stops_the_others(on_two: Path) -> None:
+def test_generic_arm_stops_other_boards_when_goal_is_refused(on_two: Path) -> None:
     with arm_on("nao_h25", description=on_two, board="LArm", board2="Head") as (arm, served):
         before = arm.getState().position
         served.failing["Head", "positionMove"] = ARM.interfaces.Refused("not today")
@@ -298,7 +298,7 @@ def test_a_board_that_refuses_the_goal_itself_stops_the_others(on_two: Path) -> 
         assert arm.rest().position == pytest.approx(before, abs=0.1)
 
 
-def test_a_mode_that_somebody_else_changed_is_changed_back() -> None:
+def test_generic_arm_restores_mode_changed_by_another_client() -> None:
     with arm_on("nao_h25") as (arm, served):
 
         def meanwhile() -> None:
@@ -310,7 +310,7 @@ def test_a_mode_that_somebody_else_changed_is_changed_back() -> None:
         assert arm.rest().position == pytest.approx(GOAL, abs=0.05)
 
 
-def test_a_glide_that_is_renewed_and_other_commands_do_not_disturb_each_other(
+def test_generic_arm_renews_line_motion_beside_other_commands(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
     with arm_on("icub_v2") as (arm, _):
@@ -327,7 +327,7 @@ def test_a_glide_that_is_renewed_and_other_commands_do_not_disturb_each_other(
         assert arm.runner.statistics.failures == 0
 
 
-def test_the_later_command_wins() -> None:
+def test_generic_arm_carries_out_later_command() -> None:
     """`stop` comes while the board still changes its mode for `drive`: it must not drive then."""
     with arm_on("nao_h25") as (arm, served):
         boards = arm.runner.worker.control._boards
@@ -373,9 +373,7 @@ def written(folder: Path) -> dict[str, Path]:
 
 
 @pytest.mark.parametrize("case", WRONG)
-def test_a_wrong_description_ends_it_with_the_place_and_the_way_out(
-    case: str, tmp_path: Path
-) -> None:
+def test_generic_arm_exits_with_position_of_wrong_description(case: str, tmp_path: Path) -> None:
     settings, words = WRONG[case]
     files = written(tmp_path)
     options = []

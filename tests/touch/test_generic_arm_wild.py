@@ -37,7 +37,7 @@ def command(arm: RunningArm, chance: np.random.Generator) -> str:
 
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
-def test_no_command_takes_the_arm_out_of_its_limits(robot: str, seed: int) -> None:
+def test_generic_arm_stays_in_limits_with_random_commands(robot: str, seed: int) -> None:
     chance = np.random.default_rng(seed)
     with arm_on(robot) as (arm, served):
         limits, board, asked = arm.getLimits(), served.part.board, []

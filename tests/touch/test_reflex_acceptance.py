@@ -88,7 +88,7 @@ def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
 
 @pytest.mark.parametrize(("rows", "motion"), [r[1:] for r in TABLE], ids=[r[0] for r in TABLE])
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table(start_reflex, robot, side, rows, motion) -> None:
+def test_reflex_matches_acceptance_table(start_reflex, robot, side, rows, motion) -> None:
     touched = start_reflex(robot, side, TableSkin)
     limb = f"{side}/lower_arm"
     touched.reflex.setFields([interfaces.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
@@ -188,7 +188,7 @@ def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], flo
 
 @pytest.mark.parametrize("name", PLACES)
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table_on_the_taxels_of_the_real_skin(start_reflex, robot, side, name) -> None:
+def test_reflex_matches_acceptance_table_on_real_taxels(start_reflex, robot, side, name) -> None:
     touched = start_reflex(robot, side, CentredRobot, refractory=0.0, hold=0.02, return_speed=1.0)
     skin = OwnSkin(touched, name)
     touched.reflex.setFields([f for f in touched.reflex.getFields() if f.name == name])

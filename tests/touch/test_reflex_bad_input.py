@@ -66,7 +66,7 @@ BAD: dict[str, tuple[str, Callable[[Any], Any]]] = {
 
 
 @pytest.mark.parametrize(("counter", "spoil"), BAD.values(), ids=list(BAD))
-def test_a_bad_frame_is_rejected_counted_and_moves_nothing(touched, counter, spoil) -> None:
+def test_reflex_rejects_and_counts_bad_frame(touched, counter, spoil) -> None:
     touched.press("lower_arm_under", 20.0)  # it would withdraw if it believed it
     touched.robot.spoil = spoil
     touched.run(0.1)
@@ -83,7 +83,7 @@ def test_a_bad_frame_is_rejected_counted_and_moves_nothing(touched, counter, spo
 
 
 @pytest.mark.parametrize(("counter", "spoil"), BAD.values(), ids=list(BAD))
-def test_only_bad_frames_are_as_good_as_none(start_reflex, counter, spoil) -> None:
+def test_reflex_freezes_on_bad_frames_only(start_reflex, counter, spoil) -> None:
     touched = start_reflex().awake()
     touched.robot.spoil = spoil
     touched.run(0.3)
@@ -101,14 +101,14 @@ def test_only_bad_frames_are_as_good_as_none(start_reflex, counter, spoil) -> No
     assert touched.runners[0].state is LifecycleState.COMPUTE
 
 
-def test_frames_before_the_geometry_is_known_are_not_judged(start_reflex) -> None:
+def test_reflex_ignores_frames_before_geometry_is_known(start_reflex) -> None:
     touched = start_reflex()
     touched.run(0.7)
     seen = touched.reflex.getStatistics()
     assert [getattr(seen, name) for name in COUNTERS] == [0, 0, 0, 0]
 
 
-def test_those_who_count_anew_are_believed_after_a_while(touched) -> None:
+def test_reflex_accepts_restarted_frame_numbers_after_timeout(touched) -> None:
     touched.robot.spoil = lambda f: changed(f, sequence=f.sequence - 1000, time=f.time - 100)
     touched.run(0.3)
     assert touched.state == "Frozen"
@@ -118,7 +118,7 @@ def test_those_who_count_anew_are_believed_after_a_while(touched) -> None:
     assert touched.state == "Withdrawing"
 
 
-def test_a_newer_geometry_is_fetched(touched) -> None:
+def test_reflex_requests_newer_geometry(touched) -> None:
     asked = touched.robot.asked
     geometry = touched.robot.geometry
     keep = np.arange(geometry.size) >= 10  # ten taxels are gone
@@ -134,7 +134,7 @@ def test_a_newer_geometry_is_fetched(touched) -> None:
     assert touched.reflex.getStatistics().framesOtherGeometry <= 2
 
 
-def test_a_skin_that_was_started_anew_with_an_older_version_is_found(touched) -> None:
+def test_reflex_detects_restarted_skin_with_older_version(touched) -> None:
     touched.robot.geometry = replace(touched.robot.geometry, version=5)
     touched.run(0.2)
     touched.robot.geometry = replace(touched.robot.geometry, version=1)
@@ -156,7 +156,7 @@ class Confused(KinematicRobot):
         return geometry
 
 
-def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(start_reflex) -> None:
+def test_reflex_is_in_emergency_while_geometry_is_invalid(start_reflex) -> None:
     touched = start_reflex("nao_h25", "left_arm", Confused)
     touched.run(1.0)
     assert touched.state == "Frozen"
@@ -166,7 +166,7 @@ def test_a_geometry_that_makes_no_sense_is_an_emergency_until_it_does(start_refl
     assert touched.state == "Watching"
 
 
-def test_a_skin_without_the_limbs_of_the_fields_is_told(start_reflex) -> None:
+def test_reflex_reports_skin_without_limbs_of_fields(start_reflex) -> None:
     class Bare(KinematicRobot):
         def get_geometry(self) -> Any:
             geometry = super().get_geometry()
@@ -191,7 +191,7 @@ WRONG_LIMITS = {
 
 
 @pytest.mark.parametrize(("message", "wrong"), WRONG_LIMITS.items(), ids=list(WRONG_LIMITS))
-def test_limits_that_no_arm_has_keep_it_frozen(start_reflex, message, wrong) -> None:
+def test_reflex_stays_frozen_with_invalid_arm_limits(start_reflex, message, wrong) -> None:
     class Odd(KinematicRobot):
         def limits(self) -> Any:
             return changed(super().limits(), **wrong)
@@ -203,7 +203,7 @@ def test_limits_that_no_arm_has_keep_it_frozen(start_reflex, message, wrong) -> 
 
 
 @pytest.mark.parametrize("pose", [np.full(5, np.nan), np.zeros(4), np.zeros(0)])
-def test_a_state_of_the_arm_that_makes_no_sense_counts_as_none(touched, pose) -> None:
+def test_reflex_ignores_invalid_arm_state(touched, pose) -> None:
     publish = touched.robot.states_proxy.armState
     touched.robot.states_proxy.armState = lambda state: publish(changed(state, position=pose))
     touched.run(0.4)
@@ -214,7 +214,7 @@ def test_a_state_of_the_arm_that_makes_no_sense_counts_as_none(touched, pose) ->
 
 
 @pytest.mark.parametrize("lost", ["feels", "tells"])
-def test_while_nothing_happens_it_freezes_and_goes_on_watching(touched, lost) -> None:
+def test_reflex_freezes_and_keeps_watching_while_peers_are_silent(touched, lost) -> None:
     setattr(touched.robot, lost, False)
     touched.run(0.6)
     assert touched.state == "Frozen"
@@ -228,7 +228,7 @@ def test_while_nothing_happens_it_freezes_and_goes_on_watching(touched, lost) ->
 
 
 @pytest.mark.parametrize(("lost", "state"), [(10, "Watching"), (11, "Watching"), (12, "Frozen")])
-def test_it_looks_twice_before_it_freezes(touched, lost, state) -> None:
+def test_reflex_freezes_only_after_second_look(touched, lost, state) -> None:
     """Eleven frames are more than 0.2 s; but one that was held up itself has them waiting."""
     touched.robot.feels = False
     touched.run(0.02 * lost)
@@ -238,7 +238,7 @@ def test_it_looks_twice_before_it_freezes(touched, lost, state) -> None:
 
 
 @pytest.mark.parametrize("lost", ["feels", "tells"])
-def test_an_arm_on_its_way_is_stopped_and_comes_back_later(touched, lost) -> None:
+def test_reflex_stops_moving_arm_and_returns_later(touched, lost) -> None:
     touched.press("lower_arm_outer", 20.0)
     touched.run(0.06)
     touched.release()
@@ -258,7 +258,7 @@ def test_an_arm_on_its_way_is_stopped_and_comes_back_later(touched, lost) -> Non
     assert touched.robot.pose == pytest.approx(touched.robot.part.start, abs=0.03)
 
 
-def test_an_arm_that_refuses_freezes_it_and_is_stopped_as_soon_as_it_listens(touched) -> None:
+def test_reflex_freezes_when_arm_refuses_and_stops_it_later(touched) -> None:
     touched.robot.answers = False
     touched.press("lower_arm_under", 20.0)
     touched.run(0.1)
@@ -277,7 +277,7 @@ def test_an_arm_that_refuses_freezes_it_and_is_stopped_as_soon_as_it_listens(tou
     assert touched.robot.stops == 1
 
 
-def test_an_arm_that_cannot_go_back_freezes_it_again(touched) -> None:
+def test_reflex_freezes_again_when_arm_cannot_return(touched) -> None:
     touched.press("lower_arm_under", 20.0)
     touched.run(0.04)
     touched.release()
@@ -289,7 +289,7 @@ def test_an_arm_that_cannot_go_back_freezes_it_again(touched) -> None:
     touched.until("Watching")
 
 
-def test_the_emergency_can_be_seen_from_outside_with_its_reason(touched) -> None:
+def test_reflex_emergency_is_visible_with_reason(touched) -> None:
     about = touched.proxy(ComponentProxy, "reflex", "Component")
     assert COMPONENT is ComponentProxy.INTERFACE
     assert about.getInfo().state == LifeState.Compute
@@ -309,7 +309,7 @@ def test_the_emergency_can_be_seen_from_outside_with_its_reason(touched) -> None
     assert about.getInfo().reason == ""
 
 
-def test_time_that_begins_anew_is_an_interruption_and_no_more(touched) -> None:
+def test_reflex_treats_restarted_time_as_interruption(touched) -> None:
     touched.press("lower_arm_under", 20.0)
     touched.run(0.04)
     touched.release()
@@ -337,7 +337,7 @@ WRONG_FIELDS = {
 
 
 @pytest.mark.parametrize(("message", "wrong"), WRONG_FIELDS.items(), ids=list(WRONG_FIELDS))
-def test_invalid_fields_are_rejected_unchanged(start_reflex, message, wrong) -> None:
+def test_reflex_rejects_invalid_fields_unchanged(start_reflex, message, wrong) -> None:
     touched = start_reflex("icub_v2").awake()
     before = [field.name for field in touched.reflex.getFields()]
     with pytest.raises(interfaces.RoboCompReflex_NotPossible) as caught:
@@ -348,7 +348,7 @@ def test_invalid_fields_are_rejected_unchanged(start_reflex, message, wrong) -> 
     assert [field.name for field in touched.reflex.getFields()] == before
 
 
-def test_two_fields_of_one_name_are_refused(touched) -> None:
+def test_reflex_refuses_duplicate_field_names(touched) -> None:
     with pytest.raises(interfaces.RoboCompReflex_NotPossible, match="two fields of the name `f`"):
         touched.reflex.setFields([interfaces.Field(**FIELD), interfaces.Field(**FIELD)])
 
@@ -356,7 +356,7 @@ def test_two_fields_of_one_name_are_refused(touched) -> None:
 @pytest.mark.parametrize(
     ("threshold", "full"), [(1.0, 1.0), (2.0, 1.0), (-1.0, 1.0), (np.nan, 1.0), (0.1, np.inf)]
 )
-def test_forces_that_cannot_be_are_refused_and_nothing_changes(touched, threshold, full) -> None:
+def test_reflex_refuses_invalid_forces_unchanged(touched, threshold, full) -> None:
     law = touched.worker().sense.law
     with pytest.raises(interfaces.RoboCompReflex_NotPossible):
         touched.reflex.setForces(threshold, full)

@@ -199,7 +199,7 @@ def deployed(
     assert not [pid for pid in deployment.pids if Path(f"/proc/{pid}").exists()]
 
 
-def test_the_finger_touches_and_the_arm_withdraws_and_comes_back(deployed: Deployed) -> None:
+def test_deployed_reflex_withdraws_from_finger_and_returns(deployed: Deployed) -> None:
     start = deployed.arm.getState().position
     deployed.touch("lower_arm_outer")
     until(lambda: deployed.reflex.getStatistics().withdrawals, "a withdrawal")
@@ -215,7 +215,9 @@ def test_the_finger_touches_and_the_arm_withdraws_and_comes_back(deployed: Deplo
 
 
 @pytest.mark.parametrize("who", ["arm", "robot"])
-def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who: str) -> None:
+def test_deployed_reflex_is_in_emergency_while_peer_is_suspended(
+    deployed: Deployed, who: str
+) -> None:
     deployed.awake()
     os.kill(deployed.pid(who), signal.SIGSTOP)
     try:
@@ -234,7 +236,7 @@ def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who
     deployed.awake()
 
 
-def test_an_arm_that_hangs_on_its_way_is_stopped_when_it_is_back(deployed: Deployed) -> None:
+def test_deployed_reflex_stops_suspended_arm_when_it_resumes(deployed: Deployed) -> None:
     deployed.awake()
     count = deployed.reflex.getStatistics().withdrawals
     deployed.touch("lower_arm_outer")
@@ -252,7 +254,9 @@ def test_an_arm_that_hangs_on_its_way_is_stopped_when_it_is_back(deployed: Deplo
 
 
 @pytest.mark.parametrize("who", ["arm", "robot", "reflex"])
-def test_one_that_is_killed_is_started_again_and_all_goes_on(deployed: Deployed, who: str) -> None:
+def test_deployed_reflex_recovers_when_killed_peer_is_restarted(
+    deployed: Deployed, who: str
+) -> None:
     deployed.awake()
     before = deployed.pid(who)
     os.kill(before, signal.SIGKILL)

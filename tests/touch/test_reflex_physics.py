@@ -48,7 +48,7 @@ def keeps_to_its_limits(robot: PhysicalRobot) -> None:
 
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_a_pressed_arm_withdraws_and_comes_back(start_reflex, robot, side, place) -> None:
+def test_reflex_withdraws_pressed_arm_and_returns(start_reflex, robot, side, place) -> None:
     touched = start_reflex(robot, side)
     it, field = touched.robot, touched.field(place)
     before = it.spot(field)
@@ -71,7 +71,7 @@ def test_a_pressed_arm_withdraws_and_comes_back(start_reflex, robot, side, place
     assert touched.worker().sense.validator.rejected.total() < 20  # while the geometry was unknown
 
 
-def test_a_gentle_touch_below_the_threshold_is_left_alone(start_reflex) -> None:
+def test_reflex_ignores_gentle_touch_below_threshold(start_reflex) -> None:
     touched = start_reflex("nao_h21", "left_arm", threshold=50.0, full=60.0)
     touched.robot.press(touched.field("lower_arm_under"), 0.002, 0.3)
     touched.run(0.5)
@@ -96,7 +96,7 @@ BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
 
 
 @BOTH
-def test_every_answer_is_what_the_equations_say_of_the_frame(start_reflex, robot) -> None:
+def test_reflex_responses_to_physics_match_equations(start_reflex, robot) -> None:
     """Rows 2, 3 and 7 of the acceptance table, with the forces that physics makes of a press."""
     touched = start_reflex(robot, "left_arm", full=5.0)
     it, place = touched.robot, "lower_arm_outer"
@@ -118,7 +118,7 @@ def test_every_answer_is_what_the_equations_say_of_the_frame(start_reflex, robot
 
 @BOTH
 @pytest.mark.parametrize("place", ["lower_arm_under", "upper_arm_front"])
-def test_a_hard_press_at_the_centre_saturates(start_reflex, robot, place) -> None:
+def test_reflex_saturates_at_hard_press_on_centre(start_reflex, robot, place) -> None:
     """Rows 1 and 6: as far as the base motion says, and no further."""
     touched = start_reflex(robot, "right_arm", threshold=0.01, full=0.05)
     only(touched, place)
@@ -156,7 +156,7 @@ def one_field(touched: ReflexHarness, radius: float) -> Field:
 
 
 @BOTH
-def test_the_harder_the_press_the_further(start_reflex, robot) -> None:
+def test_reflex_withdraws_further_with_harder_press(start_reflex, robot) -> None:
     """Rows 2, 5 and 6."""
     responses = []
     for depth in (0.0004, 0.0008, 0.0016, 0.0032):
@@ -172,7 +172,7 @@ def test_the_harder_the_press_the_further(start_reflex, robot) -> None:
 
 
 @BOTH
-def test_the_further_from_the_centre_the_weaker_and_outside_nothing(start_reflex, robot) -> None:
+def test_reflex_responds_weaker_off_centre_and_not_outside(start_reflex, robot) -> None:
     """Rows 3 and 4: along the limb from the centre to beyond the edge."""
     responses = []
     for along in (0.0, 0.012, 0.02, 0.03):
@@ -190,7 +190,7 @@ def test_the_further_from_the_centre_the_weaker_and_outside_nothing(start_reflex
 
 
 @BOTH
-def test_a_dead_patch_feels_nothing_and_the_other_goes_on(start_reflex, robot) -> None:
+def test_reflex_ignores_dead_patch_in_physics(start_reflex, robot) -> None:
     touched = start_reflex(robot, "left_arm")
     it = touched.robot
     dead = it.geometry.patch == it.geometry.patches.index("left_lower_arm")
@@ -206,7 +206,7 @@ def test_a_dead_patch_feels_nothing_and_the_other_goes_on(start_reflex, robot) -
 
 
 @BOTH
-def test_when_the_skin_falls_silent_on_the_way_the_arm_stops(start_reflex, robot) -> None:
+def test_reflex_stops_arm_when_skin_falls_silent(start_reflex, robot) -> None:
     touched = start_reflex(robot, "left_arm", withdraw_speed=0.1)
     it = touched.robot
     it.press(touched.field("lower_arm_outer"), 0.003, 0.3)

@@ -29,7 +29,7 @@ def system(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
         system.close()
 
 
-def test_the_arm_withdraws_from_the_finger_and_comes_back(system: ShippedSystem) -> None:
+def test_shipped_reflex_withdraws_from_finger_and_returns(system: ShippedSystem) -> None:
     for place in PLACES:
         field, start = system.field(place), system.arm.getState().position
         before, count = system.spot(field), system.reflex.getStatistics().withdrawals
@@ -55,7 +55,7 @@ def test_the_arm_withdraws_from_the_finger_and_comes_back(system: ShippedSystem)
     keeps_to_its_limits(system)
 
 
-def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
+def test_shipped_reflex_ignores_touch_below_threshold_and_outside_fields(
     system: ShippedSystem,
 ) -> None:
     fields = system.reflex.getFields()
@@ -84,7 +84,7 @@ def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
     assert seen.framesOtherGeometry == 0
 
 
-def test_every_answer_is_what_the_equations_say_of_the_frame(system: ShippedSystem) -> None:
+def test_shipped_reflex_responses_match_equations(system: ShippedSystem) -> None:
     """The forces that physics makes, through the simulated skin; a little off the centre."""
     system.until("Watching")
     system.run(1.0)
@@ -108,7 +108,7 @@ def test_every_answer_is_what_the_equations_say_of_the_frame(system: ShippedSyst
     system.until("Watching")
 
 
-def test_a_skin_that_dies_on_the_way_stops_the_arm_and_all_recovers(system: ShippedSystem) -> None:
+def test_shipped_reflex_stops_arm_when_skin_ends_and_recovers(system: ShippedSystem) -> None:
     """Frames come twice a second, for a reflex that is blind after 0.2 s."""
     system.reflex.setForces(0.005, 0.02)
     system.press(system.field("lower_arm_outer"), 0.004)

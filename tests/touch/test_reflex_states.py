@@ -21,7 +21,7 @@ def touched() -> Iterator[ReflexHarness]:
     system.close()
 
 
-def test_a_touch_withdraws_holds_and_returns(touched: ReflexHarness) -> None:
+def test_reflex_withdraws_holds_and_returns(touched: ReflexHarness) -> None:
     touched.awake()
     start, field = touched.robot.pose, touched.field("lower_arm_under")
     assert touched.robot.moves == []
@@ -46,14 +46,14 @@ def test_a_touch_withdraws_holds_and_returns(touched: ReflexHarness) -> None:
     assert np.isfinite(touched.robot.poses).all()
 
 
-def test_the_states_of_the_machine_are_those_that_the_interface_tells() -> None:
+def test_reflex_states_match_interface() -> None:
     machine = REFLEX.worker.SPEC.machine
     assert {state.name for state in machine.states} == {
         state_.name for state_ in interfaces.ReflexState
     }
 
 
-def test_its_page_draws_the_machine(tmp_path: Path) -> None:
+def test_reflex_documentation_draws_state_machine(tmp_path: Path) -> None:
     rcgen = Path(sys.executable).with_name("rcgen")
     file = REFLEX.folder / "reflex.cdsl"
     subprocess.run([rcgen, "doc", "-q", file, "-o", tmp_path / "doc"], check=True, timeout=60)

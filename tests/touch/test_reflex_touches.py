@@ -48,7 +48,7 @@ def withdrawal(touched: ReflexHarness, taxels: np.ndarray, newtons: float) -> np
     return goal - start
 
 
-def test_the_harder_the_further(start_reflex) -> None:
+def test_reflex_withdraws_further_with_more_force(start_reflex) -> None:
     for robot in ROBOTS:
         touched = start_reflex(robot, "left_arm", CentredRobot, **QUICK)
         near = touched.near(touched.field("lower_arm_under"), 0.01)
@@ -61,7 +61,7 @@ def test_the_harder_the_further(start_reflex) -> None:
         assert far[-1] == far[-2]
 
 
-def test_the_nearer_to_the_centre_the_further(start_reflex) -> None:
+def test_reflex_withdraws_further_near_field_centre(start_reflex) -> None:
     for robot in ROBOTS:
         touched = start_reflex(robot, "left_arm", CentredRobot, **QUICK)
         name = "lower_arm_outer"
@@ -83,7 +83,7 @@ def test_the_nearer_to_the_centre_the_further(start_reflex) -> None:
         assert [not f for f in far] == outside.tolist()
 
 
-def test_below_the_threshold_and_outside_all_fields_nothing_moves(touched) -> None:
+def test_reflex_ignores_touch_below_threshold_and_outside_fields(touched) -> None:
     geometry = touched.robot.geometry
     touched.robot.forces = np.full(geometry.size, 0.049)
     touched.run(1.0)
@@ -98,7 +98,7 @@ def test_below_the_threshold_and_outside_all_fields_nothing_moves(touched) -> No
     assert touched.reflex.getStatistics().withdrawals == 0
 
 
-def test_a_touch_of_the_other_arm_moves_nothing(touched) -> None:
+def test_reflex_ignores_touch_of_other_arm(touched) -> None:
     geometry = touched.robot.geometry
     other = np.array([not geometry.limbs[i].startswith(touched.robot.side) for i in geometry.limb])
     assert other.any()
@@ -107,7 +107,7 @@ def test_a_touch_of_the_other_arm_moves_nothing(touched) -> None:
     assert touched.robot.moves == []
 
 
-def test_two_touches_at_once_add_up(touched) -> None:
+def test_reflex_adds_two_simultaneous_touches(touched) -> None:
     a, b = touched.field("lower_arm_under"), touched.field("upper_arm_front")
     first = withdrawal(touched, touched.near(a, 0.01), 5.0)
     touched.run(1.0)
@@ -119,7 +119,7 @@ def test_two_touches_at_once_add_up(touched) -> None:
     assert both == pytest.approx(first + other, abs=1e-9)
 
 
-def test_touches_on_both_sides_of_a_limb_are_two(touched) -> None:
+def test_reflex_separates_touches_on_both_sides_of_limb(touched) -> None:
     """One mean of both would lie inside the limb, where no field is."""
     a, b = touched.field("lower_arm_outer"), touched.field("lower_arm_inner")
     first = withdrawal(touched, touched.near(a, 0.01), 5.0)
@@ -130,7 +130,7 @@ def test_touches_on_both_sides_of_a_limb_are_two(touched) -> None:
     assert both == pytest.approx(first + other, abs=1e-9)
 
 
-def test_a_touch_during_a_withdrawal_adds_to_it(touched) -> None:
+def test_reflex_adds_touch_during_withdrawal(touched) -> None:
     start = touched.robot.pose
     touched.press("lower_arm_under", 5.0)
     touched.run(0.02)
@@ -147,7 +147,7 @@ def test_a_touch_during_a_withdrawal_adds_to_it(touched) -> None:
     assert touched.reflex.getStatistics().withdrawals == 1
 
 
-def test_a_touch_that_grows_sends_it_further_and_one_that_fades_does_not_bring_it_back(
+def test_reflex_follows_growing_but_not_fading_touch(
     touched,
 ) -> None:
     start, near = touched.robot.pose, touched.near(touched.field("lower_arm_under"), 0.01)
@@ -160,7 +160,7 @@ def test_a_touch_that_grows_sends_it_further_and_one_that_fades_does_not_bring_i
     assert touched.reflex.getStatistics().withdrawals == 1
 
 
-def test_a_touch_while_it_stays_away_sends_it_further(touched) -> None:
+def test_reflex_withdraws_further_while_holding(touched) -> None:
     touched.press("lower_arm_under", 0.2)
     touched.run(0.04)
     touched.release()
@@ -172,7 +172,7 @@ def test_a_touch_while_it_stays_away_sends_it_further(touched) -> None:
     assert len(touched.robot.moves) == moves + 1
 
 
-def test_a_touch_on_the_way_back_withdraws_from_there(start_reflex) -> None:
+def test_reflex_withdraws_from_touch_while_returning(start_reflex) -> None:
     touched = start_reflex("icub_v2", "left_arm", CentredRobot, refractory=0.5, hold=0.1)
     touched.press("lower_arm_under", 5.0)
     touched.run(0.04)
@@ -190,7 +190,7 @@ def test_a_touch_on_the_way_back_withdraws_from_there(start_reflex) -> None:
     assert touched.reflex.getStatistics().withdrawals == 2
 
 
-def test_a_lasting_touch_withdraws_again_after_the_refractory_time(touched) -> None:
+def test_reflex_withdraws_again_from_lasting_touch_after_refractory_time(touched) -> None:
     touched.press("lower_arm_under", 0.2)
     touched.run(0.98)
     assert touched.reflex.getStatistics().withdrawals == 1
@@ -199,7 +199,7 @@ def test_a_lasting_touch_withdraws_again_after_the_refractory_time(touched) -> N
     assert touched.reflex.getStatistics().withdrawals == 2
 
 
-def test_a_dead_patch_is_no_touch_and_the_others_work(touched) -> None:
+def test_reflex_ignores_dead_patch_and_uses_others(touched) -> None:
     geometry = touched.robot.geometry
     dead = geometry.patch == geometry.patches.index(
         f"{touched.robot.side.removesuffix('_arm')}_lower_arm"
@@ -216,7 +216,7 @@ def test_a_dead_patch_is_no_touch_and_the_others_work(touched) -> None:
     assert touched.state == "Withdrawing"
 
 
-def test_single_lost_frames_do_not_matter(touched) -> None:
+def test_reflex_tolerates_single_lost_frames(touched) -> None:
     """Two of three are lost all the time; the touch is in one that comes."""
     touched.robot.spoil = lambda frame: frame if frame.sequence % 3 == 0 else None
     touched.run(1.0)
@@ -231,7 +231,7 @@ def test_single_lost_frames_do_not_matter(touched) -> None:
     assert seen.framesOutOfOrder == 0
 
 
-def test_a_blocked_arm_does_not_hold_the_reflex_for_ever(touched) -> None:
+def test_reflex_gives_up_on_blocked_arm(touched) -> None:
     touched.press("lower_arm_under", 5.0)
     touched.run(0.02)
     touched.release()
@@ -241,7 +241,7 @@ def test_a_blocked_arm_does_not_hold_the_reflex_for_ever(touched) -> None:
     touched.until("Watching", 4.0)
 
 
-def test_switched_off_it_only_watches(touched) -> None:
+def test_reflex_only_watches_while_disabled(touched) -> None:
     touched.reflex.enable(False)
     touched.press("lower_arm_under", 5.0)
     touched.run(0.5)
@@ -251,7 +251,7 @@ def test_switched_off_it_only_watches(touched) -> None:
     assert len(touched.robot.moves) == 1
 
 
-def test_switched_off_on_its_way_it_ends_what_it_began(touched) -> None:
+def test_reflex_completes_withdrawal_when_disabled(touched) -> None:
     touched.press("lower_arm_under", 5.0)
     touched.run(0.04)
     touched.reflex.enable(False)
@@ -259,7 +259,7 @@ def test_switched_off_on_its_way_it_ends_what_it_began(touched) -> None:
     assert touched.robot.pose == pytest.approx(touched.robot.rest, abs=0.03)
 
 
-def test_forces_and_fields_change_while_it_runs(touched) -> None:
+def test_reflex_applies_changed_forces_and_fields(touched) -> None:
     touched.reflex.setForces(6.0, 12.0)
     assert (touched.worker().params.threshold, touched.worker().params.full) == (6.0, 12.0)
     touched.press("lower_arm_under", 5.0)
@@ -281,7 +281,7 @@ def test_forces_and_fields_change_while_it_runs(touched) -> None:
     assert np.delete(moved, 2) == pytest.approx(0.0)
 
 
-def test_parameters_of_the_machine_change_while_it_runs(touched) -> None:
+def test_reflex_applies_changed_machine_parameters(touched) -> None:
     params = touched.worker().params
     with pytest.raises(
         ParameterRejected, match=r"`threshold`, 0.6 N, must be less than `full`, 0.5 N"
@@ -297,7 +297,7 @@ def test_parameters_of_the_machine_change_while_it_runs(touched) -> None:
     assert touched.state == "Returning"
 
 
-def test_taxels_within_reach_are_one_touch(touched) -> None:
+def test_reflex_joins_taxels_within_reach_to_one_touch(touched) -> None:
     """Two neighbours: one weak touch of their mean, or a weak and a strong one."""
     skin, field = touched.robot.geometry, touched.field("lower_arm_under")
     near = np.flatnonzero(touched.near(field, 0.03))
@@ -314,7 +314,7 @@ def test_taxels_within_reach_are_one_touch(touched) -> None:
     assert max(e.force for e in events) == pytest.approx(0.5)
 
 
-def test_events_tell_what_was_answered_and_what_it_does(touched) -> None:
+def test_reflex_events_report_response_and_state(touched) -> None:
     touched.press("lower_arm_under", 5.0)
     touched.run(0.02)
     touched.release()
@@ -345,7 +345,7 @@ TOUCHES = st.lists(
 
 
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_whatever_touches_it_no_limit_and_no_speed_is_left(robot: str, side: str) -> None:
+def test_reflex_keeps_limits_and_speeds_with_random_touches(robot: str, side: str) -> None:
     touched = ReflexHarness(robot, side, refractory=0.1, hold=0.05, full=1.0).awake()
     names = [field.name for field in touched.robot.part.fields]
 

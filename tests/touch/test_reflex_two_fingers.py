@@ -83,7 +83,7 @@ def touched(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
     return geometry.points[index], force[index]
 
 
-def test_fingers_on_both_sides_are_two_touches(system: ShippedSystem) -> None:
+def test_reflex_counts_fingers_on_both_sides_as_two_touches(system: ShippedSystem) -> None:
     """Row 8: one mean of both lies inside the limb, where no field would answer."""
     system.reflex.enable(False)
     count, field = system.reflex.getStatistics().withdrawals, system.field(OUTER)
@@ -104,7 +104,7 @@ def test_fingers_on_both_sides_are_two_touches(system: ShippedSystem) -> None:
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_touch_elsewhere_on_the_limb_takes_nothing_away(system: ShippedSystem) -> None:
+def test_reflex_response_is_unchanged_by_touch_elsewhere_on_limb(system: ShippedSystem) -> None:
     """Row 9: the second finger presses the same limb beyond the field, at the same time."""
     system.reflex.enable(False)
     count, cone = system.reflex.getStatistics().withdrawals, system.part.limb("lower_arm").cone
@@ -125,7 +125,7 @@ def test_a_touch_elsewhere_on_the_limb_takes_nothing_away(system: ShippedSystem)
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_finger_off_all_fields_is_felt_and_left_alone(system: ShippedSystem) -> None:
+def test_reflex_ignores_finger_outside_fields(system: ShippedSystem) -> None:
     """With the fields that ship: nobody watches the back of the upper arm."""
     count, start = system.reflex.getStatistics().withdrawals, system.arm.getState().position
     front = system.field(FRONT)
@@ -142,7 +142,7 @@ def test_a_finger_off_all_fields_is_felt_and_left_alone(system: ShippedSystem) -
     assert system.arm.getState().position == pytest.approx(start, abs=0.05)
 
 
-def test_two_fingers_at_once_withdraw_by_both_fields(system: ShippedSystem) -> None:
+def test_reflex_withdraws_by_both_fields_from_two_fingers(system: ShippedSystem) -> None:
     system.reflex.enable(False)
     count = system.reflex.getStatistics().withdrawals
     fields = [system.field(name) for name in (UNDER, FRONT)]
@@ -157,7 +157,7 @@ def test_two_fingers_at_once_withdraw_by_both_fields(system: ShippedSystem) -> N
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_finger_that_comes_during_a_withdrawal_adds_to_it(system: ShippedSystem) -> None:
+def test_reflex_adds_second_finger_during_withdrawal(system: ShippedSystem) -> None:
     system.reflex.setForces(0.005, 0.02)
     system.params(withdraw_speed=0.05)
     system.press(system.field(OUTER), 0.003)

@@ -105,7 +105,7 @@ def device(name: str, kind: str) -> dict[str, str]:
 ARM = [device("arm", "driver"), device("zero", "calibrator"), device("all", "wrapper")]
 
 
-def test_phases_go_through_their_levels_and_devices_close_in_reverse():
+def test_device_manager_runs_levels_in_order_and_closes_in_reverse():
     bench = Bench()
     conductor = bench.conductor(
         devices=ARM,
@@ -145,7 +145,7 @@ def test_phases_go_through_their_levels_and_devices_close_in_reverse():
     ("backwards", "expected"),
     [(False, ["park a", "park b"]), (True, ["park b", "park a"])],
 )
-def test_levels_may_go_down_at_the_end_but_not_at_the_beginning(backwards, expected):
+def test_device_manager_runs_levels_backwards_in_shutdown_only(backwards, expected):
     bench = Bench()
     verbs = [("startup", "calibrate"), ("shutdown", "park")]
     conductor = bench.conductor(
@@ -165,7 +165,7 @@ def test_levels_may_go_down_at_the_end_but_not_at_the_beginning(backwards, expec
     assert [item for item in bench.journal if item.startswith("park")] == expected
 
 
-def test_what_stands_on_others_is_attached_from_below():
+def test_device_manager_attaches_devices_bottom_up():
     bench = Bench()
     conductor = bench.conductor(
         devices=[device("top", "wrapper"), device("mid", "wrapper"), device("low", "driver")],
@@ -177,7 +177,7 @@ def test_what_stands_on_others_is_attached_from_below():
     assert bench.journal[5:] == ["top off", "mid off", "close low", "close mid", "close top"]
 
 
-def test_a_device_that_cannot_be_opened_closes_the_others():
+def test_device_manager_closes_devices_if_another_cannot_be_opened():
     bench = Bench()
     devices = [device("arm", "driver"), device("leg", "broken"), device("tail", "driver")]
     conductor = bench.conductor(devices=devices)
@@ -187,7 +187,7 @@ def test_a_device_that_cannot_be_opened_closes_the_others():
     assert conductor.phase is Phase.CLOSED
 
 
-def test_what_fails_is_logged_and_the_rest_goes_on(caplog):
+def test_device_manager_logs_failures_and_continues(caplog):
     bench = Bench()
     conductor = bench.conductor(
         devices=[device("arm", "driver"), device("bad", "faulty"), device("good", "calibrator")],
@@ -214,7 +214,7 @@ def test_what_fails_is_logged_and_the_rest_goes_on(caplog):
     ]
 
 
-def test_actions_of_one_level_run_side_by_side_and_the_next_waits():
+def test_device_manager_runs_actions_of_level_in_parallel():
     bench = Bench()
     conductor = bench.conductor(
         devices=[
@@ -243,7 +243,7 @@ def test_actions_of_one_level_run_side_by_side_and_the_next_waits():
     assert conductor.shutdown()
 
 
-def test_an_interrupt_stops_a_startup_that_hangs():
+def test_device_manager_interrupt_stops_blocked_startup():
     bench = Bench()
     conductor = bench.conductor(
         devices=[device("arm", "driver"), device("s", "slow")],
@@ -265,7 +265,7 @@ def test_an_interrupt_stops_a_startup_that_hangs():
     assert bench.journal[3:] == ["calibrate arm", "stopped arm", "s off", "close s", "close arm"]
 
 
-def test_three_interrupts_and_the_second_does_not_wait():
+def test_device_manager_handles_three_interrupts_and_second_does_not_wait():
     bench = Bench()
     conductor = bench.conductor(
         devices=[device("arm", "driver"), device("s", "slow"), device("z", "calibrator")],
@@ -296,7 +296,7 @@ def test_three_interrupts_and_the_second_does_not_wait():
     assert bench.journal[-1] == "close arm"
 
 
-def test_abort_ends_what_lasts():
+def test_device_manager_abort_ends_running_actions():
     bench = Bench()
     conductor = bench.conductor(
         devices=[device("arm", "driver"), device("s", "slow")],
@@ -311,7 +311,7 @@ def test_abort_ends_what_lasts():
     conductor.shutdown()
 
 
-def test_devices_may_start_again():
+def test_device_manager_starts_devices_again():
     bench = Bench()
     conductor = bench.conductor(devices=ARM, attach={"zero": "arm"})
     assert conductor.start()
@@ -378,7 +378,7 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("data", "message"), WRONG)
-def test_descriptions_that_cannot_be_carried_out_are_refused_before_anything_opens(data, message):
+def test_device_manager_refuses_invalid_plan_before_opening_devices(data, message):
     bench = Bench()
     with pytest.raises(PlanError) as refused:
         bench.conductor(**data)
@@ -386,7 +386,7 @@ def test_descriptions_that_cannot_be_carried_out_are_refused_before_anything_ope
     assert bench.journal == []
 
 
-def test_the_same_level_may_have_several_actions():
+def test_device_manager_runs_several_actions_of_one_level():
     bench = Bench()
     actions = [{"phase": "shutdown", "level": 4, verb: "zero"} for verb in ("detach", "abort")]
     assert bench.conductor(devices=ARM, attach={"zero": "arm"}, actions=actions).start()

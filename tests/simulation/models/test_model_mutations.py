@@ -29,7 +29,9 @@ def mutated(text: str, seed: int) -> str:
 
 @pytest.mark.parametrize("seed", range(0, 60, 10))
 @pytest.mark.parametrize(("text", "name"), [(ARM, "arm.xml"), (BOT, "bot.urdf")])
-def test_other_numbers(text: str, name: str, seed: int, tmp_path: Path) -> None:
+def test_model_file_with_other_numbers_loads_or_reports(
+    text: str, name: str, seed: int, tmp_path: Path
+) -> None:
     ran = 0
     for item in range(seed, seed + 10):
         (tmp_path / name).write_text(mutated(text, item))

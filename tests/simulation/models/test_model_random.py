@@ -81,7 +81,7 @@ class Tree:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_random_tree(seed: int, tmp_path: Path) -> None:
+def test_model_of_random_tree_matches_mujoco(seed: int, tmp_path: Path) -> None:
     tree = Tree(seed)
     world = served_model(tmp_path, tree.text())
     driven = [name for names in tree.boards.values() for name in names]

@@ -30,21 +30,21 @@ def goal(world: Served, name: str, position: float, speed: float = 0.0) -> Any:
 # -- control boards -----------------------------------------------------------------------------
 
 
-def test_it_begins_at_the_first_key_frame_and_holds_it(arm: Served) -> None:
+def test_model_starts_at_first_key_frame_and_holds_it(arm: Served) -> None:
     """Against gravity, with the file's own masses."""
     assert arm.ports["arm"].getState().position.tolist() == [-1.0, 0.5]
     arm.simulation.advance(2.0)
     assert np.abs(arm.ports["arm"].getState().position - (-1.0, 0.5)).max() < 0.01
 
 
-def test_a_board_has_the_joints_of_its_tuple_in_order(arm: Served) -> None:
+def test_model_board_has_joints_of_tuple_in_order(arm: Served) -> None:
     assert [getJoint.name for getJoint in arm.ports["arm"].getJoints()] == ["elbow", "shoulder"]
     assert [getJoint.name for getJoint in arm.ports["ControlBoard"].getJoints()] == ["grip"]
     torque = [getJoint.torqueLimit for getJoint in arm.ports["arm"].getJoints()]
     assert torque == [12.0, 20.0]
 
 
-def test_no_names_are_all_of_the_port(arm: Served) -> None:
+def test_model_board_command_without_names_means_all_joints(arm: Served) -> None:
     board = arm.ports["arm"]
     board.setReferenceSpeed([], [2.0, 2.0])
     board.positionMove([], [-0.4, 0.1])
@@ -56,7 +56,7 @@ def test_no_names_are_all_of_the_port(arm: Served) -> None:
     assert abs(arm.ports["ControlBoard"].getState().position[0] - 0.01) < 1e-3
 
 
-def test_joints_of_another_board_are_not_there(arm: Served) -> None:
+def test_model_board_refuses_joints_of_another_board(arm: Served) -> None:
     board = arm.ports["arm"]
     with pytest.raises(arm.types.UnknownJoint, match="`grip` is not on `arm`: elbow, shoulder"):
         board.positionMove(["grip"], [0.02])
@@ -70,7 +70,7 @@ def test_joints_of_another_board_are_not_there(arm: Served) -> None:
     assert arm.ports["ControlBoard"].getVariable("speed_limits").tolist() == [1.0]
 
 
-def test_joints_that_share_motors_change_their_modes_together(tmp_path: Path) -> None:
+def test_model_joints_with_shared_motors_change_mode_together(tmp_path: Path) -> None:
     """And their motors turn as the file says."""
     text = ARM.replace("<custom>", '<custom><numeric name="coupling_arm" data="1 1 1 -1"/>')
     arm = served_model(tmp_path, text)
@@ -89,7 +89,7 @@ def test_joints_that_share_motors_change_their_modes_together(tmp_path: Path) ->
     assert arm.ports["ControlBoard"].getState().modes == [arm.types.ControlMode.Position]
 
 
-def test_parking_one_board_leaves_the_other(arm: Served) -> None:
+def test_model_board_parks_without_moving_another_board(arm: Served) -> None:
     arm.ports["arm"].park([])
     assert arm.ports["arm"].isBusy()
     assert not arm.ports["ControlBoard"].isBusy()
@@ -99,7 +99,7 @@ def test_parking_one_board_leaves_the_other(arm: Served) -> None:
     assert not arm.ports["arm"].isBusy()
 
 
-def test_motors_have_all_joints_in_their_own_units(arm: Served) -> None:
+def test_model_joint_servant_has_all_joints_in_their_units(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncPosition([goal(arm, "shoulder", 0.2, 2.0), goal(arm, "grip", 40.0)])
     arm.until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
@@ -109,7 +109,7 @@ def test_motors_have_all_joints_in_their_own_units(arm: Served) -> None:
     assert set(state) == {"elbow", "shoulder", "grip"}
 
 
-def test_a_follower_follows_and_what_has_no_motor_swings(arm: Served) -> None:
+def test_model_follower_joint_follows_and_free_joint_swings(arm: Served) -> None:
     data = arm.simulation.world.data
     data.joint("hinge").qvel = 1.0
     arm.ports["JointMotor"].setPosition(goal(arm, "grip", 40.0))
@@ -119,7 +119,7 @@ def test_a_follower_follows_and_what_has_no_motor_swings(arm: Served) -> None:
     assert data.joint("hinge").qpos[0] > 1.5
 
 
-def test_a_torque_is_limited_by_the_file(arm: Served) -> None:
+def test_model_board_torque_is_limited_by_file(arm: Served) -> None:
     """And the motor of the file, whatever it was, gives what the board asks for."""
     board = arm.ports["arm"]
     board.setControlMode(["elbow"], arm.types.ControlMode.Torque)
@@ -128,7 +128,7 @@ def test_a_torque_is_limited_by_the_file(arm: Served) -> None:
     assert arm.simulation.world.data.joint("elbow").qfrc_actuator[0] == pytest.approx(12.0)
 
 
-def test_a_robot_in_urdf_moves(tmp_path: Path) -> None:
+def test_model_from_urdf_moves(tmp_path: Path) -> None:
     bot = served_model(tmp_path, BOT, "bot.urdf")
     motors = bot.ports["JointMotor"]
     motors.setSyncPosition([goal(bot, "lift", 300.0), goal(bot, "turn", -1.0)])
@@ -137,7 +137,7 @@ def test_a_robot_in_urdf_moves(tmp_path: Path) -> None:
     assert motors.getMotorParams("lift").maxVelocity == 250.0
 
 
-def test_rcgen_view_shows_the_same_start(tmp_path: Path) -> None:
+def test_model_start_pose_matches_rcgen_view(tmp_path: Path) -> None:
     """And judges there what is in each other: at zero this file would be."""
     path, report = tmp_path / "arm.xml", Report()
     path.write_text(ARM.replace("-1 1 0 0 0", "1 1 0 0 0", 1).replace('pos="1 1 0"', 'pos="0 0 1"'))
@@ -150,7 +150,7 @@ def test_rcgen_view_shows_the_same_start(tmp_path: Path) -> None:
 # -- sensors ------------------------------------------------------------------------------------
 
 
-def test_an_inertial_unit_feels_gravity_in_its_site(arm: Served) -> None:
+def test_model_imu_measures_gravity_in_its_site(arm: Served) -> None:
     arm.simulation.advance(1.0)
     it = arm.ports["wrist"].getDataImu()
     data = arm.simulation.world.data
@@ -159,7 +159,7 @@ def test_an_inertial_unit_feels_gravity_in_its_site(arm: Served) -> None:
     assert received == pytest.approx((up[0], up[2], up[1]), abs=0.05)
 
 
-def test_a_touch_sensor_feels_a_push(arm: Served) -> None:
+def test_model_touch_sensor_measures_push(arm: Served) -> None:
     """A weight on the site of the sensor is felt as its weight."""
     feel = arm.ports["TouchSensor"].getValues
     assert feel()["palm"].value == 0.0
@@ -175,7 +175,7 @@ def test_a_touch_sensor_feels_a_push(arm: Served) -> None:
     assert peak > 0.5
 
 
-def test_cameras_see_what_the_file_has_in_front_of_them(arm: Served) -> None:
+def test_model_camera_shows_scene_of_file(arm: Served) -> None:
     """A door, as far away as a ray says; one of them has a depth, as its `output` says."""
     it = arm.ports["CameraRGBDSimple"].getDepth("eye")
     assert (it.width, it.height, it.focalx) == (64, 48, 58)
@@ -193,7 +193,7 @@ def test_cameras_see_what_the_file_has_in_front_of_them(arm: Served) -> None:
 # -- nodes --------------------------------------------------------------------------------------
 
 
-def test_nodes_are_bodies_joints_and_marks(arm: Served) -> None:
+def test_model_nodes_are_bodies_joints_and_sites(arm: Served) -> None:
     nodes = {item.id: item for item in arm.ports["InnerModelManager"].getAllNodeInformation()}
     kinds = {name: node.nType.name for name, node in nodes.items()}
     assert (kinds["shoulder"], kinds["upper"], kinds["hinge"]) == ("Joint", "Transform", "Joint")
@@ -203,7 +203,7 @@ def test_nodes_are_bodies_joints_and_marks(arm: Served) -> None:
     assert nodes["wrist"].parentId == "lower"
 
 
-def test_poses_are_those_of_the_physics(arm: Served) -> None:
+def test_model_node_poses_match_physics(arm: Served) -> None:
     """Of bodies and of sites; a joint is where its body turns."""
     arm.simulation.advance(0.1)
     nodes, data = arm.ports["InnerModelManager"], arm.simulation.world.data
@@ -221,7 +221,7 @@ def test_poses_are_those_of_the_physics(arm: Served) -> None:
     assert np.abs(matrix - turned).max() < 1e-9
 
 
-def test_free_and_mocap_bodies_are_moved(arm: Served) -> None:
+def test_model_moves_free_and_mocap_bodies(arm: Served) -> None:
     nodes = arm.ports["InnerModelManager"]
     for name in ("ball", "hand"):
         nodes.setPose("root", name, arm.types.Pose3D(500.0, 700.0, -400.0, 0.0, 0.5, 0.0))
@@ -245,7 +245,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("operation", "values", "message"), REFUSED)
-def test_what_cannot_be_done_is_told(
+def test_model_inner_model_servant_reports_impossible_requests(
     arm: Served, operation: str, values: tuple[str, ...], message: str
 ) -> None:
     more: tuple[Any, ...] = ()
@@ -256,7 +256,7 @@ def test_what_cannot_be_done_is_told(
     assert message in raised.value.text
 
 
-def test_nodes_are_added_and_the_rest_goes_on(arm: Served) -> None:
+def test_model_adds_nodes_and_continues(arm: Served) -> None:
     """Also in a body of the model, which carries them; a joint turns in rad whatever the file."""
     nodes, motors = arm.ports["InnerModelManager"], arm.ports["JointMotor"]
     nodes.setPose("root", "hand", arm.types.Pose3D(-1500.0, 900.0, 100.0, 0, 0, 0))
@@ -282,7 +282,7 @@ def test_nodes_are_added_and_the_rest_goes_on(arm: Served) -> None:
     assert "lid" not in motors.getAllMotorState()
 
 
-def test_touching(arm: Served) -> None:
+def test_model_reports_contacts(arm: Served) -> None:
     nodes = arm.ports["InnerModelManager"]
     assert not nodes.collide("ball", "upper")
     matrix = arm.simulation.state.matrix("upper")
@@ -294,7 +294,7 @@ def test_touching(arm: Served) -> None:
 # -- the world ----------------------------------------------------------------------------------
 
 
-def test_reset_snapshot_and_fork(arm: Served) -> None:
+def test_model_resets_restores_snapshot_and_forks(arm: Served) -> None:
     world, motors = arm.ports["Simulation"], arm.ports["JointMotor"]
     fork = world.fork()
     world.move(fork, ["shoulder", "grip"], [1.0, 30.0])
@@ -313,7 +313,7 @@ def test_reset_snapshot_and_fork(arm: Served) -> None:
     assert world.getState().time == 0.0
 
 
-def test_a_file_that_changes_is_read_again(tmp_path: Path) -> None:
+def test_model_file_is_read_again_after_change(tmp_path: Path) -> None:
     """A world that is built again does not read its file again, but for another one."""
     arm = served_model(tmp_path, ARM)
     model = arm.simulation.world.model
@@ -327,7 +327,7 @@ def test_a_file_that_changes_is_read_again(tmp_path: Path) -> None:
     assert arm.simulation.world.model.body("lower").mass[0] == pytest.approx(0.6)
 
 
-def test_the_same_seed_and_commands_give_the_same_bits(tmp_path: Path) -> None:
+def test_model_is_bit_identical_for_same_seed_and_commands(tmp_path: Path) -> None:
     runs = []
     for name in "ab":
         folder = tmp_path / name
@@ -339,7 +339,7 @@ def test_the_same_seed_and_commands_give_the_same_bits(tmp_path: Path) -> None:
     assert runs[0] == runs[1]
 
 
-def test_the_model_of_the_file_is_what_is_simulated(arm: Served) -> None:
+def test_model_of_file_is_simulated_unchanged(arm: Served) -> None:
     """But for motors and the numbers that are served, nothing is changed in it."""
     own, model = mujoco.MjModel.from_xml_string(ARM), arm.simulation.world.model
     for what in ("body_mass", "body_pos", "jnt_range", "geom_size", "dof_damping", "geom_friction"):

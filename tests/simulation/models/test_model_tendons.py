@@ -49,7 +49,7 @@ def described(folder: Path, text: str) -> ModelDescription:
     return describe(folder / "robot.xml", "model.xml")
 
 
-def test_a_motor_that_closes_both_fingers_moves_them(tmp_path: Path) -> None:
+def test_tendon_motor_closes_both_fingers(tmp_path: Path) -> None:
     world = served_model(tmp_path, PANDA)
     motors = world.ports["JointMotor"]
     assert list(motors.getAllMotorState()) == ["right"]
@@ -61,7 +61,7 @@ def test_a_motor_that_closes_both_fingers_moves_them(tmp_path: Path) -> None:
     assert (left, right) == pytest.approx((0.03, 0.03), abs=1e-3)
 
 
-def test_it_is_as_strong_as_the_tendon_makes_it(tmp_path: Path) -> None:
+def test_tendon_motor_force_follows_from_tendon(tmp_path: Path) -> None:
     """30 N at the tendon, which goes as far as the fingers, behind a gear of 2."""
     assert forces(tmp_path, PANDA) == {"right": 60.0}
     slow = PANDA.replace(TIED.format(slope=1), TIED.format(slope=0.5))
@@ -78,7 +78,7 @@ def forces(folder: Path, text: str) -> dict[str, float]:
     }
 
 
-def test_a_tendon_of_one_joint_is_that_joint(tmp_path: Path) -> None:
+def test_tendon_of_one_joint_acts_like_joint(tmp_path: Path) -> None:
     text = gripper(SPLIT.format(other=""), CLOSE.format(on='tendon="t"'))
     assert forces(tmp_path, text) == {"left": 30.0}
     assert not_served(described(tmp_path, text).scene) == [("right", "passivejoint")]
@@ -100,7 +100,7 @@ LEFT_OUT = {
 
 
 @pytest.mark.parametrize("case", LEFT_OUT)
-def test_what_moves_no_joint_alone_is_told(tmp_path: Path, case: str) -> None:
+def test_tendon_motor_that_moves_no_single_joint_is_reported(tmp_path: Path, case: str) -> None:
     result = described(tmp_path, LEFT_OUT[case])
     assert [finding.message for finding in result.findings] == [
         "not on one joint, so on no control board; they keep the commands of the start: `close`"
@@ -108,7 +108,7 @@ def test_what_moves_no_joint_alone_is_told(tmp_path: Path, case: str) -> None:
     assert "pulled" not in result.scene["model"]
 
 
-def test_a_joint_that_has_a_motor_keeps_that_alone(tmp_path: Path) -> None:
+def test_tendon_does_not_replace_motor_of_joint(tmp_path: Path) -> None:
     motor = CLOSE.format(on='tendon="t"').replace(
         "</actuator>", '<motor name="own" joint="right" ctrlrange="-9 9"/></actuator>'
     )
@@ -117,7 +117,7 @@ def test_a_joint_that_has_a_motor_keeps_that_alone(tmp_path: Path) -> None:
     assert ["`close`" in finding.message for finding in result.findings] == [True]
 
 
-def test_the_same_after_a_reset_and_in_a_fork(tmp_path: Path) -> None:
+def test_tendon_motor_is_restored_by_reset_and_fork(tmp_path: Path) -> None:
     world = served_model(tmp_path, PANDA)
     board = world.ports["ControlBoard"]
     for _ in range(2):

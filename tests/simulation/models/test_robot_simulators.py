@@ -75,7 +75,7 @@ ROBOTS = {
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_a_client_moves_an_arm_and_the_finger(name: str, tmp_path: Path) -> None:
+def test_robot_simulator_client_moves_arm_and_finger(name: str, tmp_path: Path) -> None:
     folder = tmp_path / name
     shutil.copytree(COMPONENTS / name, folder, ignore=shutil.ignore_patterns("__pycache__"))
     board, joint, goal = ROBOTS[name]

@@ -68,7 +68,7 @@ NAO_HANDS = [
 
 
 @pytest.mark.parametrize(("side", "angles", "hand"), NAO_HANDS)
-def test_hands_of_the_nao(side, angles, hand):
+def test_nao_hands_match_published_kinematics(side, angles, hand):
     nao = Simulated("nao_h25")
     nao.pose(**nao_angles(side, angles))
     assert nao.site(f"{side.lower()}_hand") == pytest.approx(hand, abs=TENTH_MM)
@@ -76,7 +76,7 @@ def test_hands_of_the_nao(side, angles, hand):
     assert part.chain.pose(np.array(angles))[:3, 3] == pytest.approx(hand, abs=TENTH_MM)
 
 
-def test_other_points_of_the_nao():
+def test_nao_points_match_published_kinematics():
     small = Simulated("nao_h21")
     small.pose(**nao_angles("L", (0, 0, 0, 0)))
     assert small.site("l_hand") == pytest.approx((0.2187, 0.113, 0.1), abs=TENTH_MM)
@@ -104,7 +104,7 @@ def icub_angles(side, torso, arm) -> dict[str, float]:
 
 
 @pytest.mark.parametrize(("side", "torso", "arm", "hand"), ICUB_HANDS)
-def test_hands_of_the_icub(side, torso, arm, hand):
+def test_icub_hands_match_published_kinematics(side, torso, arm, hand):
     icub = Simulated("icub_v2")
     icub.pose(**icub_angles(side, torso, arm))
     assert icub.site(f"{side}_hand") == pytest.approx(hand, abs=TENTH_MM)
@@ -114,7 +114,7 @@ def test_hands_of_the_icub(side, torso, arm, hand):
         assert part.chain.pose(angles)[:3, 3] == pytest.approx(hand, abs=TENTH_MM)
 
 
-def test_other_points_of_the_icub():
+def test_icub_points_match_published_kinematics():
     icub = Simulated("icub_v2")
     icub.pose(**dict.fromkeys(icub.robot.joints, 0.0))
     assert icub.site("r_eye") == pytest.approx((-0.0564, 0.034, 0.34685), abs=TENTH_MM)
@@ -137,19 +137,19 @@ def test_other_points_of_the_icub():
     ("name", "motors", "mass"),
     [("nao_h25", 25, 5.3054), ("nao_h21", 21, None), ("icub_v2", 23, None)],
 )
-def test_motors_and_masses(name, motors, mass):
+def test_robot_motors_and_masses_match_data_sheets(name, motors, mass):
     robot = Simulated(name)
     assert robot.model.nu == len(robot.robot.motors) == motors
     if mass:
         assert robot.model.body_mass.sum() == pytest.approx(mass, abs=1e-4)
 
 
-def test_nothing_touches_at_the_start_pose(simulated):
+def test_robot_start_pose_is_free_of_contacts(simulated):
     simulated.pose()
     assert simulated.data.ncon == 0
 
 
-def test_the_arms_reach_their_limits_and_no_further(simulated):
+def test_robot_arms_reach_their_limits_only(simulated):
     for joint in simulated.robot.motors:
         for sign, limit in ((-1, joint.low), (1, joint.high)):
             simulated.model.opt.gravity[:] = 0
@@ -166,7 +166,7 @@ def test_the_arms_reach_their_limits_and_no_further(simulated):
     simulated.model.opt.gravity[:] = (0, 0, -9.81)
 
 
-def test_a_motor_gives_no_more_than_its_torque(simulated):
+def test_robot_motor_torque_is_limited(simulated):
     simulated.pose()
     simulated.data.ctrl[:] = 1e6
     mujoco.mj_forward(simulated.model, simulated.data)
@@ -189,7 +189,7 @@ def hold(robot: Simulated, seconds: float) -> float:
     return float(np.abs(goal - data.qpos[where]).max())
 
 
-def test_a_held_robot_stays_where_it_is(simulated):
+def test_fixed_robot_stays_in_place(simulated):
     simulated.pose()
     assert hold(simulated, 2.0) < 0.03
     assert np.abs(simulated.data.qvel).max() < 0.01
@@ -197,7 +197,7 @@ def test_a_held_robot_stays_where_it_is(simulated):
 
 
 @pytest.mark.parametrize("name", ["nao_h21", "nao_h25"])
-def test_a_free_nao_stands_on_its_feet(name):
+def test_free_nao_stands_on_its_feet(name):
     nao = Simulated(name, free=True)
     nao.pose()
     hold(nao, 2.0)
@@ -206,7 +206,7 @@ def test_a_free_nao_stands_on_its_feet(name):
     assert torso.xmat.reshape(3, 3)[2, 2] > 0.99
 
 
-def test_both_hip_yaws_share_a_motor():
+def test_nao_hip_yaws_share_a_motor():
     nao = Simulated("nao_h21")
     nao.pose(LHipYawPitch=-0.3)
     assert nao.data.joint("RHipYawPitch").qpos[0] == -0.3
@@ -232,7 +232,7 @@ def generic(simulated: Simulated, part, values) -> None:
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
-def test_generic_angles_mean_the_same_on_every_robot(name, side):
+def test_robot_generic_angles_mean_same_motion(name, side):
     robot, part = Simulated(name), description(name).part(side)
     outward = 1.0 if side == "left_arm" else -1.0
     hand = f"{side[0]}_hand"
@@ -253,7 +253,7 @@ def test_generic_angles_mean_the_same_on_every_robot(name, side):
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
-def test_limb_frames_point_along_the_limb_and_away_from_the_trunk(name, side):
+def test_robot_limb_frames_point_along_limb_and_away_from_trunk(name, side):
     robot, part = Simulated(name), description(name).part(side)
     generic(robot, part, np.zeros(5))
     outward = np.array([0, 1.0 if side == "left_arm" else -1.0, 0])
@@ -265,7 +265,7 @@ def test_limb_frames_point_along_the_limb_and_away_from_the_trunk(name, side):
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
-def test_every_field_moves_the_skin_away_from_the_touch(name, side):
+def test_robot_fields_move_skin_away_from_touch(name, side):
     robot, part = Simulated(name), description(name).part(side)
     for field in part.fields:
         limb = part.limb(field.limb)
@@ -287,7 +287,7 @@ def test_every_field_moves_the_skin_away_from_the_touch(name, side):
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
-def test_under_the_skin_there_is_a_body(name, side):
+def test_robot_skin_lies_on_body(name, side):
     robot, part = Simulated(name), description(name).part(side)
     generic(robot, part, part.start)
     for field in part.fields:
@@ -303,7 +303,7 @@ def test_under_the_skin_there_is_a_body(name, side):
 
 
 @pytest.mark.parametrize(("name", "side"), SIDES)
-def test_generic_chain_and_simulation_agree(name, side):
+def test_robot_generic_chain_matches_simulation(name, side):
     robot, part = Simulated(name), description(name).part(side)
     low, high = part.mapping.limits
     for share in (0.2, 0.5, 0.9):
@@ -313,7 +313,7 @@ def test_generic_chain_and_simulation_agree(name, side):
         assert part.generic_chain.pose(angles)[:3, 3] == pytest.approx(hand, abs=TENTH_MM)
 
 
-def test_the_start_pose_of_the_description_is_that_of_the_robot():
+def test_robot_description_start_pose_matches_robot():
     for name, side in SIDES:
         robot, part = Simulated(name), description(name).part(side)
         for servo in part.servos:
@@ -322,7 +322,7 @@ def test_the_start_pose_of_the_description_is_that_of_the_robot():
                 assert robot.robot.start.get(servo.joint, 0.0) == pytest.approx(device)
 
 
-def test_a_description_of_another_robot_does_not_fit():
+def test_robot_description_of_another_robot_does_not_fit():
     with pytest.raises(DescriptionError, match="the robot has no joint `LShoulderPitch`"):
         compare(description("nao_h21"), facts(ROBOTS["icub_v2"]()))
     with pytest.raises(KeyError):
@@ -330,7 +330,7 @@ def test_a_description_of_another_robot_does_not_fit():
 
 
 @pytest.mark.parametrize("name", sorted(ROBOTS))
-def test_an_arm_that_is_held_away_from_the_body_meets_nothing(name):
+def test_robot_arm_held_away_from_body_has_no_contacts(name):
     """All over the range of its shoulder: shapes that overlap would stop it short of its limits."""
     robot, part = ROBOTS[name](), description(name).part("left_arm")
     spec = new_world()

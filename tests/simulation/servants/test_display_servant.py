@@ -55,11 +55,11 @@ AS_CORNERS = {
 }
 
 
-def test_at_first_it_has_its_colour(world: Served) -> None:
+def test_display_starts_with_its_colour(world: Served) -> None:
     assert set(seen(world).values()) == {(False, True, False)}
 
 
-def test_an_image_is_seen_the_right_way_round(world: Served) -> None:
+def test_display_shows_image_in_right_orientation(world: Served) -> None:
     seen(world)  # the camera has its context already
     world.ports["face"].setImage(image_of(world, CORNERS))
     assert seen(world) == AS_CORNERS
@@ -68,7 +68,7 @@ def test_an_image_is_seen_the_right_way_round(world: Served) -> None:
     assert set(seen(world).values()) == {(True, True, True)}
 
 
-def test_an_image_comes_from_a_file(world: Served, tmp_path: Path) -> None:
+def test_display_shows_image_from_file(world: Served, tmp_path: Path) -> None:
     Image.fromarray(CORNERS).save(tmp_path / "corners.png")
     world.ports["face"].setImageFromFile(str(tmp_path / "corners.png"))
     assert seen(world) == AS_CORNERS
@@ -92,7 +92,7 @@ def test_display_stays_when_the_world_is_built_again_and_goes_with_a_reset(world
         (-1, -1, 3, 3, "no"),
     ],
 )
-def test_what_is_no_image_is_refused(
+def test_display_servant_refuses_invalid_images(
     world: Served, width: int, height: int, depth: int, count: int, message: str
 ) -> None:
     result = world.types.Image(width, height, depth, np.zeros(count, np.uint8))
@@ -104,7 +104,7 @@ def test_what_is_no_image_is_refused(
 @pytest.mark.parametrize(
     ("name", "message"), [("gone.png", "No such file"), ("text.png", "no picture")]
 )
-def test_files_without_an_image_are_refused(
+def test_display_servant_refuses_files_without_image(
     world: Served, tmp_path: Path, name: str, message: str
 ) -> None:
     (tmp_path / "text.png").write_text("text")

@@ -40,7 +40,7 @@ def test_joint_holds_its_place_from_the_start(arm: Served) -> None:
     assert {mode.name for mode in state.modes} == {"Position"}
 
 
-def test_a_position_is_reached_no_faster_than_told(arm: Served) -> None:
+def test_joint_servant_reaches_position_at_commanded_speed(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setPosition(i.MotorGoalPosition("shoulder", 0.8, 0.5))
     fastest = 0.0
@@ -59,7 +59,7 @@ def test_a_position_is_reached_no_faster_than_told(arm: Served) -> None:
     assert hand == pytest.approx([500 * math.cos(0.8), 1000 + 500 * math.sin(0.8), 0], abs=2)
 
 
-def test_slides_count_in_millimetres(arm: Served) -> None:
+def test_joint_servant_of_slide_uses_millimetres(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setSyncPosition([i.MotorGoalPosition("lift", 300, 0)])
     arm.simulation.advance(0.05)
@@ -70,7 +70,7 @@ def test_slides_count_in_millimetres(arm: Served) -> None:
     assert (params.minPos, params.maxPos, params.zeroPos) == pytest.approx((0, 400, 100))
 
 
-def test_home_is_the_zero_position(arm: Served) -> None:
+def test_joint_servant_home_is_zero_position(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncZeroPos()
     arm.simulation.advance(0.05)
@@ -79,7 +79,7 @@ def test_home_is_the_zero_position(arm: Served) -> None:
     assert found == pytest.approx({"shoulder": 0.2, "elbow": 0.0, "lift": 100.0}, abs=0.5)
 
 
-def test_a_velocity_is_kept(arm: Served) -> None:
+def test_joint_servant_holds_velocity(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setVelocity(i.MotorGoalVelocity("elbow", -0.6, 0))
     arm.simulation.advance(1.0)
@@ -110,7 +110,7 @@ def test_joint_servant_refuses_invalid_commands(
     assert np.abs(arm.ports["ControlBoard"].getState().position - [0, 0, 0.05]).max() < 1e-6
 
 
-def test_several_motors_go_or_none(arm: Served) -> None:
+def test_joint_servant_moves_all_motors_or_none(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     goals = [i.MotorGoalPosition("elbow", 1.0, 0), i.MotorGoalPosition("nobody", 1.0, 0)]
     with pytest.raises(i.UnknownMotorException):
@@ -119,7 +119,7 @@ def test_several_motors_go_or_none(arm: Served) -> None:
     assert abs(motors.getMotorState("elbow").pos) < 1e-6
 
 
-def test_the_board_keeps_its_modes_apart(arm: Served) -> None:
+def test_board_servant_separates_control_modes(arm: Served) -> None:
     board, i = arm.ports["ControlBoard"], arm.types
     with pytest.raises(i.WrongMode):
         board.velocityMove(["elbow"], np.array([1.0]), 0.0)
@@ -143,7 +143,7 @@ PENDULUM = """\
 """
 
 
-def test_a_torque_turns_the_joint_by_its_inertia(tmp_path: Path) -> None:
+def test_board_servant_torque_accelerates_joint_by_inertia(tmp_path: Path) -> None:
     arm = served(tmp_path, PENDULUM)
     board, i = arm.ports["ControlBoard"], arm.types
     board.setControlMode(["elbow"], i.ControlMode.Torque)
@@ -154,7 +154,7 @@ def test_a_torque_turns_the_joint_by_its_inertia(tmp_path: Path) -> None:
     assert board.getState().velocity[0] == pytest.approx(0.1 / inertia, rel=0.04)
 
 
-def test_every_operation_of_the_board_answers(arm: Served) -> None:
+def test_board_servant_answers_every_operation(arm: Served) -> None:
     board, i = arm.ports["ControlBoard"], arm.types
     assert [getJoint.name for getJoint in board.getJoints()] == ["shoulder", "elbow", "lift"]
     assert board.getJoints()[2].prismatic
@@ -219,7 +219,7 @@ FAR = ("setEncoder", "setMotorEncoder")
 
 
 @pytest.mark.parametrize("operation", FAR)
-def test_a_number_that_nothing_reaches_is_refused(arm: Served, operation: str) -> None:
+def test_joint_servant_refuses_unreachable_number(arm: Served, operation: str) -> None:
     """From such no controller works out a torque."""
     board = arm.ports["ControlBoard"]
     with pytest.raises(arm.types.RoboCompControlBoard_Refused, match="nothing here reaches"):

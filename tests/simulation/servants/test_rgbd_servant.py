@@ -35,7 +35,7 @@ def world(tmp_path: Path) -> Served:
     return result
 
 
-def test_colours_distances_and_points_go_together(world: Served) -> None:
+def test_rgbd_servant_returns_matching_colours_distances_and_points(world: Served) -> None:
     colours, depths, points, joints, base = world.ports["eye"].getImage()
     assert len(colours) == len(depths) == len(points) == 80 * 60
     wall = np.isfinite(depths)
@@ -54,7 +54,7 @@ def test_colours_distances_and_points_go_together(world: Served) -> None:
     assert base.correctedZ == pytest.approx(100, abs=1)
 
 
-def test_all_forms_hold_the_same(world: Served) -> None:
+def test_rgbd_servant_returns_same_data_in_all_formats(world: Served) -> None:
     port = world.ports["eye"]
     colours, depths, points, *_ = port.getImage()
     data, far, *_ = port.getData()
@@ -68,7 +68,7 @@ def test_all_forms_hold_the_same(world: Served) -> None:
     assert (stream[:, 1] == points.column("y")).all()
 
 
-def test_how_the_camera_is_set_up(world: Served) -> None:
+def test_rgbd_servant_reports_configuration(world: Served) -> None:
     port = world.ports["eye"]
     received = port.getRGBDParams()
     assert (received.color.width, received.color.height, received.color.focal) == (80, 60, 60)
@@ -79,7 +79,7 @@ def test_how_the_camera_is_set_up(world: Served) -> None:
     assert port.getRegistration().name == "ColorInDepth"
 
 
-def test_a_camera_that_stands_alone_has_no_states(tmp_path: Path) -> None:
+def test_rgbd_servant_without_robot_has_no_states(tmp_path: Path) -> None:
     world = served(tmp_path, '<innerModel><rgbd id="eye" width="8" height="6"/></innerModel>')
     depths, joints, base = world.ports["eye"].getDepth()
     assert (len(depths), joints) == (48, {})
@@ -133,7 +133,7 @@ def test_camera_servant_without_rendering_publishes_the_rest(
     assert world.ports["CameraRGBDSimple"].poll() == []  # it is not tried again
 
 
-def test_a_camera_that_was_removed_is_not_published(world: Served) -> None:
+def test_rgbd_servant_does_not_publish_removed_camera(world: Served) -> None:
     port = world.ports["CameraRGBDSimple"]
     world.ports["InnerModelManager"].removeNode("stand")
     assert port.poll() == []

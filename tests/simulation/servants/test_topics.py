@@ -67,7 +67,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "room_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path) -> None:
+def test_topics_simulator_is_clean_and_typed(folder: Path) -> None:
     assert_clean(folder)
 
 

@@ -63,7 +63,7 @@ def numbers(it: Touched) -> list[int]:
     return [frame.sequence for frame in it.frames]
 
 
-def test_patches_of_one_skin_share_the_frame_of_the_first(it: Touched) -> None:
+def test_skin_patches_share_frame_of_first(it: Touched) -> None:
     geometry = it.ports["Skin"].getGeometry()
     assert geometry.id.tolist() == [*range(100, 245), 500]
     assert [patch.gain for patch in geometry.patches] == pytest.approx([0.05, 0.1])
@@ -87,7 +87,7 @@ TILTED = """\
 """
 
 
-def test_taxels_are_where_the_tree_of_the_body_has_them(tmp_path: Path) -> None:
+def test_skin_taxels_match_transform_tree_of_body(tmp_path: Path) -> None:
     it = served(tmp_path, TILTED)
     geometry = it.ports["Skin"].getGeometry()
     (limb,) = geometry.limbs
@@ -140,7 +140,7 @@ def test_skin_frame_numbers_continue_after_reset(it: Touched) -> None:
     assert {frame.geometry for frame in it.frames} == {1}
 
 
-def test_a_snapshot_brings_back_the_skin_and_a_fork_keeps_quiet(it: Touched) -> None:
+def test_skin_snapshot_restores_frames_and_fork_publishes_none(it: Touched) -> None:
     hand = it.ports["Simulation"]
     it.go(0.51)  # half a frame is under way
     saved = hand.snapshot()
@@ -155,7 +155,7 @@ def test_a_snapshot_brings_back_the_skin_and_a_fork_keeps_quiet(it: Touched) -> 
     assert numbers(it) == list(range(1, len(it.frames) + 1))
 
 
-def test_the_version_goes_up_when_taxels_change_and_only_then(it: Touched) -> None:
+def test_skin_geometry_version_increases_only_when_taxels_change(it: Touched) -> None:
     nodes, skin = it.ports["InnerModelManager"], it.ports["Skin"]
     it.go(0.1)
     nodes.addTransform("shelf", "static", "root", it.types.Pose3D())
@@ -181,7 +181,7 @@ def test_the_version_goes_up_when_taxels_change_and_only_then(it: Touched) -> No
     assert numbers(it) == list(range(1, count + 1))
 
 
-def test_an_older_geometry_that_comes_back_is_a_new_version(it: Touched) -> None:
+def test_skin_restored_older_geometry_is_new_version(it: Touched) -> None:
     hand = it.ports["Simulation"]
     it.go(0.1)
     saved = hand.snapshot()
@@ -208,7 +208,7 @@ def test_failing_skin_subscriber_does_not_stop_the_others(
     assert "a subscriber failed on frame 1 of the skin" in caplog.text
 
 
-def test_a_patch_stays_in_its_skin(it: Touched) -> None:
+def test_skin_patch_stays_in_its_skin(it: Touched) -> None:
     with pytest.raises(it.types.InnerModelManagerError, match="stays in its skin"):
         it.ports["InnerModelManager"].moveNode("coarse", "weight")
 
@@ -216,7 +216,7 @@ def test_a_patch_stays_in_its_skin(it: Touched) -> None:
 # -- set up while it runs ---------------------------------------------------------------------
 
 
-def test_frames_come_at_their_rate(it: Touched) -> None:
+def test_skin_frames_come_at_their_rate(it: Touched) -> None:
     it.go(0.1)
     it.set_up(rate=200.0)
     it.frames.clear()
@@ -226,7 +226,7 @@ def test_frames_come_at_their_rate(it: Touched) -> None:
     assert set(apart.round(4).tolist()) == {0.004, 0.006}
 
 
-def test_shear_and_raw_come_when_they_are_asked_for(it: Touched) -> None:
+def test_skin_publishes_shear_and_raw_on_request(it: Touched) -> None:
     frame = it.go(0.5)
     assert (len(frame.shearX), len(frame.raw)) == (146, 0)
     it.set_up(shear=False, raw=True)
@@ -238,7 +238,7 @@ def test_shear_and_raw_come_when_they_are_asked_for(it: Touched) -> None:
     assert counts.max() > 0
 
 
-def test_a_wider_kernel_spreads_the_same_force(it: Touched) -> None:
+def test_skin_wider_kernel_spreads_same_force(it: Touched) -> None:
     narrow = it.go(0.5)
     it.set_up(sigma=0.010)
     wide = it.go(0.5)
@@ -246,7 +246,7 @@ def test_a_wider_kernel_spreads_the_same_force(it: Touched) -> None:
     assert wide.force.sum() == pytest.approx(0.981, rel=0.02)
 
 
-def test_sensors_as_bad_as_they_are_said_to_be(it: Touched) -> None:
+def test_skin_sensor_errors_are_as_configured(it: Touched) -> None:
     full = it.go(0.5).force
     loaded = int(np.argmax(full))
     it.set_up(imperfections=Imperfections(broken=(100 + loaded,)))
@@ -266,7 +266,7 @@ def test_sensors_as_bad_as_they_are_said_to_be(it: Touched) -> None:
     assert quiet[:, loaded].std() < 1e-4
 
 
-def test_compensation_takes_away_the_drift_and_what_lay_there_when_it_began(
+def test_skin_compensation_removes_drift_and_initial_load(
     tmp_path: Path,
 ) -> None:
     it = Touched(served(tmp_path, table(mass=3.0)))
@@ -291,7 +291,7 @@ def test_compensation_takes_away_the_drift_and_what_lay_there_when_it_began(
         it.ports["Skin"].calibrate(float("nan"))
 
 
-def test_touches_are_told_while_there_are_any_and_once_when_they_end(it: Touched) -> None:
+def test_skin_touches_are_published_while_present_and_once_at_end(it: Touched) -> None:
     it.go(1.0)
     lift = it.types.Pose3D(0.0, 100.0, 0.0, 0.0, 0.0, 0.0)
     it.ports["InnerModelManager"].setPoseFromParent("weight", lift)
@@ -306,17 +306,17 @@ def test_touches_are_told_while_there_are_any_and_once_when_they_end(it: Touched
     ("words", "ids"),
     [("", ()), (" ", ()), ("3", (3,)), ("10-12, 3,3", (3, 10, 11, 12)), ("7 - 7", (7,))],
 )
-def test_lists_of_taxels(words: str, ids: tuple[int, ...]) -> None:
+def test_taxel_list_is_parsed(words: str, ids: tuple[int, ...]) -> None:
     assert taxel_ids(words) == ids
 
 
 @pytest.mark.parametrize("words", ["x", "3,", "-3", "5-3", "1-2-3", "0-999999999", "1.5", "3;4"])
-def test_no_lists_of_taxels(words: str) -> None:
+def test_taxel_list_with_errors_is_refused(words: str) -> None:
     with pytest.raises(ParameterRejected, match="is no"):
         taxel_ids(words)
 
 
-def test_taxels_that_are_not_there_cannot_be_dead(it: Touched) -> None:
+def test_skin_refuses_unknown_dead_taxels(it: Touched) -> None:
     geometry = it.simulation.skin.geometry
     require_known_taxels("100-110, 500", geometry)
     with pytest.raises(ParameterRejected, match=r"no taxel 7, 99$"):

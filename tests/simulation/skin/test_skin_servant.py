@@ -34,7 +34,7 @@ def table(x: float = 0.0, z: float = 0.0, mass: float = 0.1, side: int = 12) -> 
     return TABLE.format(taxels="\n".join(rows), x=x, z=z, mass=mass)
 
 
-def test_the_cube_weighs_what_it_weighs(tmp_path: Path) -> None:
+def test_skin_servant_measures_weight_of_cube(tmp_path: Path) -> None:
     it = served(tmp_path, table())
     skin = it.ports["Skin"]
     geometry = skin.getGeometry()
@@ -137,18 +137,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "table_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path) -> None:
+def test_skin_simulator_is_clean_and_typed(folder: Path) -> None:
     assert_clean(folder)
 
 
 @pytest.mark.parametrize("middleware", ["inproc", "zenoh"])
-def test_frames_are_heard(folder: Path, middleware: str) -> None:
+def test_skin_servant_publishes_frames(folder: Path, middleware: str) -> None:
     code = with_simulator(middleware, HEAR)
     domain = f"test-{folder.parent.name}-{middleware}"
     assert run(folder, code, middleware, domain, "table_simulator") == "felt\n"
 
 
-def test_it_is_set_up_while_it_runs(folder: Path) -> None:
+def test_skin_servant_is_configured_while_running(folder: Path) -> None:
     head = """
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, Refusal
 """

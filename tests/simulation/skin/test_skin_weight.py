@@ -149,7 +149,7 @@ def on_bodies(robot: str, name: str) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("robot", FOREARMS)
-def test_a_ball_weighs_what_it_weighs_wherever_it_lies(robot: str, tmp_path: Path) -> None:
+def test_skin_measures_weight_of_ball_everywhere(robot: str, tmp_path: Path) -> None:
     (tmp_path / "arms.xml").write_text(world(robot))
     (tmp_path / "arms.yaml").write_text(touch(robot))
     done = rcgen("simulator", "arms.xml", "--tactile", "arms.yaml", cwd=tmp_path)

@@ -38,7 +38,7 @@ def page() -> Iterator[BrowserPage]:
     result.close()
 
 
-def test_the_page_is_served_on_this_machine_alone(page: BrowserPage) -> None:
+def test_browser_view_listens_on_loopback_only(page: BrowserPage) -> None:
     assert page.url.startswith(f"http://{LOOPBACK}:")
     with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
         assert b"<html" in answer.read(2000).lower()
@@ -50,7 +50,7 @@ def test_the_page_is_served_on_this_machine_alone(page: BrowserPage) -> None:
     assert page._server.request_share_url() is None
 
 
-def test_a_port_that_is_taken_is_told() -> None:
+def test_browser_view_reports_occupied_port() -> None:
     model = load_model(MODELS / "crane.xml").model
     with socket.socket() as other:
         other.bind((LOOPBACK, 0))
@@ -59,7 +59,7 @@ def test_a_port_that_is_taken_is_told() -> None:
             BrowserPage("crane", model, mujoco.MjData(model), port=other.getsockname()[1])
 
 
-def test_nodes_hang_as_in_the_model_and_follow_it(page: BrowserPage) -> None:
+def test_browser_view_nodes_follow_model_hierarchy(page: BrowserPage) -> None:
     assert page.stage.paths == [
         "/world",
         "/world/tower",
@@ -78,7 +78,7 @@ def test_nodes_hang_as_in_the_model_and_follow_it(page: BrowserPage) -> None:
     assert slider.value == pytest.approx(1.0, abs=1e-3)
 
 
-def test_relative_poses_give_the_absolute_ones(page: BrowserPage) -> None:
+def test_browser_view_relative_poses_give_absolute_poses(page: BrowserPage) -> None:
     model, data = page.model, page.data
     poses = relative_poses(model, capture(model, data).poses)
     for body in range(1, model.nbody):
@@ -97,7 +97,7 @@ def moved(page: BrowserPage, handle: object, value: object) -> None:
     handle.value = value  # type: ignore[attr-defined]  # viser calls what listens, from here too
 
 
-def test_sliders_move_joints_and_the_button_brings_them_back(page: BrowserPage) -> None:
+def test_browser_view_sliders_move_joints_and_button_resets_them(page: BrowserPage) -> None:
     labels = [slider.label for slider, _ in page.controls._sliders]
     assert labels == ["turn [rad]", "raise [rad]", "extend [m]"]
     slider, address = page.controls._sliders[2]
@@ -109,7 +109,7 @@ def test_sliders_move_joints_and_the_button_brings_them_back(page: BrowserPage) 
     assert slider.value == pytest.approx(0.0)
 
 
-def test_a_node_is_placed(page: BrowserPage) -> None:
+def test_browser_view_moves_node(page: BrowserPage) -> None:
     for name in ("tower", "crate"):
         body = page.model.body(name).id
         page.controls.place(body, np.array([0.5, 0.25, 1.0]), quaternion((0, 0, 1.5)))
@@ -117,7 +117,7 @@ def test_a_node_is_placed(page: BrowserPage) -> None:
         assert page.stage.frames[body - 1].position == pytest.approx([0.5, 0.25, 1.0])
 
 
-def test_time_runs_when_it_is_told_to(page: BrowserPage) -> None:
+def test_browser_view_time_runs_on_request(page: BrowserPage) -> None:
     crate = page.model.body("crate").id
     height = page.data.xpos[crate, 2]
     end = time.monotonic() + PATIENCE
@@ -131,14 +131,14 @@ def test_time_runs_when_it_is_told_to(page: BrowserPage) -> None:
 
 
 @pytest.mark.parametrize("turn", [(0.1, -0.5, 2.0), (3.0, 1.5, -3.0), (0, 0, 0)])
-def test_roll_pitch_and_yaw_are_found_again(turn: tuple[float, ...]) -> None:
+def test_browser_view_roll_pitch_yaw_round_trip(turn: tuple[float, ...]) -> None:
     quat = quaternion(turn)
     assert quaternion(roll_pitch_yaw(quat)) * np.sign(quat[0]) == pytest.approx(
         quat * np.sign(quat[0]), abs=1e-9
     ) or quaternion(roll_pitch_yaw(quat)) == pytest.approx(-quat, abs=1e-9)
 
 
-def test_the_tree_in_words() -> None:
+def test_browser_view_tree_has_text_form() -> None:
     text = "<mujoco><worldbody><body name='a'><body name='&lt;b&gt;'><joint/><geom size='1'/>"
     model = mujoco.MjModel.from_xml_string(text + "</body></body><body/></worldbody></mujoco>")
     names = [model.body(i).name or f"body{i}" for i in range(model.nbody)]
@@ -158,7 +158,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("kind", list(KINDS))
-def test_shapes_have_their_size_and_their_outside_is_outside(kind: str) -> None:
+def test_browser_view_shapes_have_size_and_outward_normals(kind: str) -> None:
     written, half = KINDS[kind]
     text = f"<mujoco><asset><mesh name='m' file='{MODELS}/meshes/pyramid.obj'/><hfield name='h' "
     text += "nrow='3' ncol='4' size='2 1 .5 .1' elevation='0 1 2 3 4 5 6 7 8 9 10 11'/></asset>"
@@ -189,7 +189,7 @@ def tab() -> Iterator[Tab]:
 
 
 @needs_chromium
-def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
+def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) -> None:
     start = "from robocomp_dsl.cli.rcgen.main import main; main()"
     arguments = ["view", str(MODELS / "arm.urdf"), "--port", "0", "--names"]
     with subprocess.Popen(

@@ -72,7 +72,7 @@ def text(live: LivePage) -> str:
     return message
 
 
-def test_it_is_where_the_world_is(live: LivePage) -> None:
+def test_live_view_shows_poses_of_world(live: LivePage) -> None:
     world = world_of(live)
     world.ports["robot"].setSpeedBase(400.0, 0.5)
     goal = SimpleNamespace(name="neck", position=0.5, maxSpeed=1.0)
@@ -88,7 +88,7 @@ def test_it_is_where_the_world_is(live: LivePage) -> None:
     assert text(live) == "simulated time 1.00 s, 0.00 times real time"
 
 
-def test_its_switches_hold_the_time(live: LivePage) -> None:
+def test_live_view_switches_pause_time(live: LivePage) -> None:
     world, controls = world_of(live), live.page.controls
     assert controls._time.value
     controls._time.value = False  # as in the browser
@@ -104,7 +104,7 @@ def test_its_switches_hold_the_time(live: LivePage) -> None:
     assert world.simulation.time == 0
 
 
-def test_a_step_and_another_speed(live: LivePage) -> None:
+def test_live_view_steps_and_changes_speed(live: LivePage) -> None:
     world, far = world_of(live), live.page.controls._remote
     assert far
     for n in (1, 2):
@@ -119,7 +119,7 @@ def test_a_step_and_another_speed(live: LivePage) -> None:
     assert "the command failed: `speed` is -1, it cannot be negative" in text(live)
 
 
-def test_a_slider_moves_a_joint_of_the_world(live: LivePage) -> None:
+def test_live_view_slider_moves_joint_of_world(live: LivePage) -> None:
     world, controls = world_of(live), live.page.controls
     slider, address = next(item for item in controls._sliders if item[0].label == "neck [rad]")
     slider.value = 0.8  # as in the browser
@@ -135,7 +135,7 @@ def test_a_slider_moves_a_joint_of_the_world(live: LivePage) -> None:
     assert live.page.data.qpos[address] == pytest.approx(0.2, abs=0.02)
 
 
-def test_a_node_is_placed_in_the_world(live: LivePage) -> None:
+def test_live_view_moves_node_of_world(live: LivePage) -> None:
     world, page = world_of(live), live.page
     live.refresh()
     quat = quaternion((0.0, 0.0, 0.5))
@@ -146,7 +146,7 @@ def test_a_node_is_placed_in_the_world(live: LivePage) -> None:
     assert page.stage.relative[page.model.body("robot").id, 3:] == pytest.approx(quat, abs=1e-6)
 
 
-def test_what_cannot_be_is_said(live: LivePage) -> None:
+def test_live_view_reports_impossible_requests(live: LivePage) -> None:
     far = live.page.controls._remote
     assert far
     far.move("nobody", 1.0, turns=True)
@@ -161,7 +161,7 @@ def test_what_cannot_be_is_said(live: LivePage) -> None:
     assert "work out" not in text(live)
 
 
-def test_a_node_that_comes_is_on_the_page(live: LivePage) -> None:
+def test_live_view_shows_added_node(live: LivePage) -> None:
     world = world_of(live)
     before = live.page.stage.paths
     plane = world.types.Plane3D(500.0, 140.0, 900, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0)
@@ -175,7 +175,7 @@ def test_a_node_that_comes_is_on_the_page(live: LivePage) -> None:
     assert live.page.stage.paths == before
 
 
-def test_a_simulation_that_ends_is_told_and_comes_back(live: LivePage, tmp_path: Path) -> None:
+def test_live_view_reports_end_of_simulation_and_reconnects(live: LivePage, tmp_path: Path) -> None:
     hand: Any = live.hand  # type: ignore[attr-defined]
     hand.gone = True
     live.refresh()
@@ -186,7 +186,9 @@ def test_a_simulation_that_ends_is_told_and_comes_back(live: LivePage, tmp_path:
     assert "/world/robot/head" in live.page.stage.paths
 
 
-def test_another_mujoco_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_live_view_reports_different_mujoco_version(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     world = served(tmp_path, WORLD)
     monkeypatch.setattr(visual_state, "VERSION", "1.2.3")
     hand: Any = Hand(world)
@@ -194,7 +196,7 @@ def test_another_mujoco_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
         fetch_live_state(hand)
 
 
-def test_points_move_with_their_body(live: LivePage) -> None:
+def test_live_view_points_move_with_their_body(live: LivePage) -> None:
     points = np.array([[0.0, 0.0, 0.5], [0.1, 0.0, 0.5]])
     colours = np.array([[255, 0, 0], [0, 255, 0]], np.uint8)
     live.page.show_points("skin", "robot", points, colours)
@@ -259,7 +261,7 @@ def middle(picture: np.ndarray) -> float:
 
 
 @needs_chromium
-def test_a_real_browser_sees_a_robot_drive(simulator: Path) -> None:
+def test_live_view_shows_driving_robot_in_browser(simulator: Path) -> None:
     domain = f"live-{os.getpid()}"
     main = [sys.executable, "main.py", "--domain", domain]
     with command(*main, cwd=simulator), opened_tab() as tab:
@@ -291,7 +293,7 @@ middleware.close()
 """
 
 
-def test_the_only_simulation_is_found_and_one_that_is_not_there_is_told(simulator: Path) -> None:
+def test_live_view_finds_only_simulation_and_reports_missing_one(simulator: Path) -> None:
     domain = f"alone-{os.getpid()}"
     picture = simulator.parent / "live.png"
     ask = [*VIEW, "--domain", domain, "--screenshot", str(picture), "--size", "320x240"]

@@ -100,7 +100,7 @@ def positions(simulation: Simulation) -> list[float]:
     return found
 
 
-def test_devices_are_calibrated_used_and_parked(tmp_path: Path) -> None:
+def test_device_host_calibrates_uses_and_parks_devices(tmp_path: Path) -> None:
     result = simulation(tmp_path)
     devices = plugged(result)
     with running(result):
@@ -149,7 +149,7 @@ def led_in_step(folder: Path) -> bytes:
     return b"".join(received)
 
 
-def test_devices_on_deployment_clock_depend_on_simulated_time_alone(
+def test_device_host_on_deployment_clock_depends_on_simulated_time_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Startup, levels and motions come at the same steps, however threads are scheduled."""
@@ -235,7 +235,7 @@ def test_device_host_refuses_invalid_plan(tmp_path: Path) -> None:
         SimulatedDeviceHost(result, {DEVICES_VARIABLE: "{"})
 
 
-def test_board_parts_are_named_after_ports(tmp_path: Path) -> None:
+def test_device_host_names_board_parts_after_ports(tmp_path: Path) -> None:
     assert {n: p.joints for n, p in board_parts(simulation(tmp_path)).items()} == {
         "ControlBoard": ("pan", "tilt", "elbow")
     }
@@ -304,7 +304,7 @@ def deployed(folder: Path, name: str, seen: Callable[[], bool]) -> str:
     return message
 
 
-def test_deployment_hosts_devices_in_simulator_process(tmp_path: Path) -> None:
+def test_device_host_runs_in_simulator_process_of_deployment(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(ARM)
     assert rcgen("simulator", "arm.xml", cwd=tmp_path).returncode == 0
     folder = tmp_path / "arm_simulator"
@@ -343,7 +343,7 @@ class SpecificWorker(Simulator):
 """
 
 
-def test_in_lockstep_a_deployment_with_devices_repeats_byte_for_byte(tmp_path: Path) -> None:
+def test_device_host_in_lockstep_repeats_byte_for_byte(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(ARM)
     assert rcgen("simulator", "arm.xml", cwd=tmp_path).returncode == 0
     folder = tmp_path / "arm_simulator"

@@ -27,7 +27,7 @@ def test_base_is_a_device() -> None:
     assert device.mechanics is IDEAL
 
 
-def test_base_stands_where_it_was_put_and_stays() -> None:
+def test_base_stays_where_it_is_placed() -> None:
     world, robot = placed()
     world.advance(1.0)
     state = robot.state()
@@ -38,7 +38,7 @@ def test_base_stands_where_it_was_put_and_stays() -> None:
     assert not state.moving
 
 
-def test_base_drives_ahead_as_fast_as_told() -> None:
+def test_base_drives_ahead_at_commanded_speed() -> None:
     world, robot = placed()
     robot.set_speed(300, 0)
     world.advance(2.0)
@@ -53,7 +53,7 @@ def test_base_drives_ahead_as_fast_as_told() -> None:
     assert (state.corrected.x, state.corrected.z) == pytest.approx((ahead.x, ahead.z), abs=8)
 
 
-def test_a_positive_turn_is_to_the_right() -> None:
+def test_base_turns_right_with_positive_rotation() -> None:
     world, robot = placed()
     robot.set_speed(0, 1.0)
     world.advance(1.0)
@@ -63,7 +63,7 @@ def test_a_positive_turn_is_to_the_right() -> None:
     assert math.hypot(state.corrected.x - 1000, state.corrected.z - 2000) < 5
 
 
-def test_odometry_of_wheels_and_true_motion_agree_within_a_percent() -> None:
+def test_base_odometry_agrees_with_true_motion_within_one_percent() -> None:
     world, robot = placed()
     robot.set_speed(400, 0.6)
     world.advance(8.0)
@@ -72,7 +72,7 @@ def test_odometry_of_wheels_and_true_motion_agree_within_a_percent() -> None:
     assert math.hypot(guess.x - state.corrected.x, guess.z - state.corrected.z) < 0.01 * 400 * 8
 
 
-def test_drift_bends_the_odometry_but_not_the_truth() -> None:
+def test_base_drift_changes_odometry_only() -> None:
     def drive(drift: float) -> tuple[Pose, Pose]:
         world, robot = placed(drift=drift)
         robot.set_speed(400, 0)
@@ -84,7 +84,7 @@ def test_drift_bends_the_odometry_but_not_the_truth() -> None:
     assert math.hypot(bent.x - straight.x, bent.z - straight.z) > 10
 
 
-def test_encoders_count_whole_steps() -> None:
+def test_base_encoders_count_whole_steps() -> None:
     coarse = replace(IDEAL, encoder_steps=4, gear_ratio=1)
     world, robot = placed(mechanics=coarse)
     robot.set_speed(100, 0)
@@ -97,7 +97,7 @@ def test_encoders_count_whole_steps() -> None:
     assert all(abs(z / step - round(z / step)) < 1e-6 for z in seen)
 
 
-def test_a_wall_stops_it_while_the_wheels_slip() -> None:
+def test_base_is_stopped_by_wall_while_wheels_slip() -> None:
     room = Room(walls=(Wall(-5000, 3000, 5000, 3000, 100, 1000),))
     world, robot = placed(room)
     robot.set_speed(500, 0)
@@ -118,7 +118,7 @@ def test_base_stops() -> None:
     assert not robot.state().moving
 
 
-def test_the_watchdog_stops_a_forgotten_base() -> None:
+def test_base_is_stopped_by_watchdog() -> None:
     world, robot = placed(watchdog=0.3)
     robot.set_speed(300, 0)
     world.advance(0.3)
@@ -139,9 +139,7 @@ def test_the_watchdog_stops_a_forgotten_base() -> None:
         (0, -2.5, "`rot` is -2.5 rad/s, the limit is ±2 rad/s"),
     ],
 )
-def test_a_senseless_command_is_refused_and_changes_nothing(
-    adv: float, rot: float, message: str
-) -> None:
+def test_base_refuses_invalid_command_unchanged(adv: float, rot: float, message: str) -> None:
     world, robot = placed()
     robot.set_speed(200, 0)
     with pytest.raises(CommandRefused) as refusal:
@@ -151,7 +149,7 @@ def test_a_senseless_command_is_refused_and_changes_nothing(
     assert robot.state().adv == pytest.approx(200, rel=1e-2)
 
 
-def test_odometry_goes_on_from_where_it_is_set() -> None:
+def test_base_odometry_continues_from_set_pose() -> None:
     world, robot = placed()
     robot.set_odometry(Pose(10, 20, math.pi / 2))
     robot.set_speed(200, 0)
@@ -162,7 +160,7 @@ def test_odometry_goes_on_from_where_it_is_set() -> None:
         robot.set_odometry(Pose(math.nan, 0, 0))
 
 
-def test_a_correction_moves_the_corrected_pose_alone() -> None:
+def test_base_correction_moves_corrected_pose_only() -> None:
     world, robot = placed()
     robot.correct(Pose(0, 0, 0))
     corrected = robot.state().corrected

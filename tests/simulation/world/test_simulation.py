@@ -138,7 +138,7 @@ def test_simulation_refuses_invalid_arguments(
         getattr(hand, operation)(*values)
 
 
-def test_noise_can_be_switched_off(world: Served) -> None:
+def test_simulation_noise_can_be_switched_off(world: Served) -> None:
     world.ports["Simulation"].setNoise(0.0)
     driven(world)
     state = world.ports["robot"].getBaseState()
@@ -149,7 +149,7 @@ def test_noise_can_be_switched_off(world: Served) -> None:
     )
 
 
-def test_without_physics_nothing_falls(tmp_path: Path) -> None:
+def test_simulation_without_physics_has_no_gravity(tmp_path: Path) -> None:
     text = '<innerModel><transform id="ball" engine="bullet" mass="1" ty="1000"/></innerModel>'
     world = served(tmp_path, text)
     hand = world.ports["Simulation"]
@@ -180,7 +180,7 @@ def test_simulation_handles_divergence_as_configured(tmp_path: Path, choice: Any
     assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(3100, abs=1)
 
 
-def test_a_world_that_always_diverges_stops(tmp_path: Path) -> None:
+def test_simulation_stops_after_repeated_divergence(tmp_path: Path) -> None:
     world = served(tmp_path, NOISY)
     it, hand = world.simulation, world.ports["Simulation"]
     for _ in range(2):
