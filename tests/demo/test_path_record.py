@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.demo.parts import load
+from tests.demo.component_modules import load
 
 PathRecord = load("path_logger/path_record.py").PathRecord
 

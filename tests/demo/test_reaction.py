@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tests.demo.parts import load
+from tests.demo.component_modules import load
 
 reaction = load("wander/reaction.py")
 Turning = reaction.Turning

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.demo.parts import COMPONENTS
+from tests.demo.component_modules import COMPONENTS
 
 RCGEN = Path(sys.executable).with_name("rcgen")
 MYPY = (sys.executable, "-m", "mypy", "--strict", "--config-file", "", "--ignore-missing-imports")

@@ -1,4 +1,4 @@
-"""The touch demo as a real process: simulator, arm and reflex deployed, touched, told and drawn."""
+"""The touch demo as a real process: simulator, arm and reflex deployed, touched, reported and drawn."""
 
 import os
 import re
@@ -6,7 +6,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +14,9 @@ from matplotlib.image import imread
 
 from robocomp_dsl.runtime.client import DomainClient
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.demo.parts import COMPONENTS
-from tests.demo.touched import demo
+from tests.demo.component_modules import COMPONENTS
+from tests.demo.touch_demo_samples import demo
+from tests.support.waiting import wait_until
 
 DEADLINE = 150.0
 COMPONENT_NAMES = ("robot", "arm", "reflex")
@@ -111,16 +111,15 @@ def test_touch_demo_fails_at_once_if_component_exits(copy: Path) -> None:
 def running(domain: str) -> dict[str, int]:
     """The process ids of the components, once all of them run."""
     links = DomainClient(domain)
-    deadline = time.monotonic() + DEADLINE
     try:
-        while time.monotonic() < deadline:
-            try:
-                return {name: links.component(name).getInfo().pid for name in COMPONENT_NAMES}
-            except MiddlewareError:
-                time.sleep(0.05)  # not there yet
+        return wait_until(
+            lambda: {name: links.component(name).getInfo().pid for name in COMPONENT_NAMES},
+            "the components have not started",
+            DEADLINE,
+            ignoring=MiddlewareError,
+        )
     finally:
         links.close()
-    pytest.fail("the components did not start")
 
 
 def is_alive(pid: int) -> bool:

@@ -6,7 +6,7 @@ from matplotlib.image import imread
 
 from robocomp_dsl.hardware.devices.errors import NoRendering
 from robocomp_dsl.simulation.view.offscreen import egl_trouble, osmesa_trouble
-from tests.demo.touched import demo, part, recording, skin, world
+from tests.demo.touch_demo_samples import demo, part, recording, skin, world
 
 WIDE = 1600
 

@@ -1,10 +1,10 @@
-"""What the touch demo says at its end, from recordings."""
+"""The report of the touch demo, from recordings."""
 
 import pytest
 from matplotlib.image import imread
 
 from robocomp_dsl.simulation.view.offscreen import NoRendering
-from tests.demo.touched import demo, recording
+from tests.demo.touch_demo_samples import demo, recording
 
 program = demo().demo
 report = demo().report

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.touch.arm_client import ARM, FIRST_BOARD, RunningArm, arm_on, until
+from tests.support.waiting import wait_until
+from tests.touch.arm_client import ARM, FIRST_BOARD, RunningArm, arm_on
 
 SLACK = 0.04  # rad: what a joint that is stopped at its limit runs over
 CATCHING_UP = 1.8  # of the speed limit: a joint that lags behind its reference, or was pushed
@@ -31,7 +32,7 @@ def command(arm: RunningArm, chance: np.random.Generator) -> str:
     try:
         getattr(arm, name)(*commands)
     except (ARM.interfaces.Unreachable, ARM.interfaces.NotPossible):
-        return f"{name}, refused"
+        return f"{name}, refusal_of"
     return name
 
 
@@ -48,8 +49,8 @@ def test_generic_arm_stays_in_limits_with_random_commands(robot: str, seed: int)
         for _ in range(60):
             done.add(command(arm, chance))
             time = arm.getState().time
-            until(lambda time=time: arm.states[-1].time > time + 0.1)
-        assert {"move", "drive", "glide", "reach, refused"} <= done
+            wait_until(lambda time=time: arm.states[-1].time > time + 0.1)
+        assert {"move", "drive", "glide", "reach, refusal_of"} <= done
         positions = np.array([state.position for state in arm.states])
         speeds = np.abs([state.velocity for state in arm.states])
         assert (positions > limits.low - SLACK).all(), (limits.low - positions.min(axis=0)).max()
@@ -58,4 +59,4 @@ def test_generic_arm_stays_in_limits_with_random_commands(robot: str, seed: int)
         assert (speeds <= CATCHING_UP * limits.speed).all(), (speeds / limits.speed).max(axis=0)
         assert arm.runner.statistics.failures == 0
         arm.stop()
-        arm.rest()
+        arm.wait_for_rest()

@@ -28,7 +28,7 @@ FULL = 0.2
 def robot(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
     system = ShippedSystem(*request.param, hold=0.2)
     try:
-        system.until("Watching", 5.0)
+        system.run_until("Watching", 5.0)
         yield system
     finally:
         system.close()
@@ -40,12 +40,12 @@ def system(robot: ShippedSystem) -> Iterator[ShippedSystem]:
     fields = robot.reflex.getFields()
     robot.reflex.setForces(0.0, FULL)
     yield robot
-    robot.take_away()
+    robot.remove_fingers()
     robot.reflex.setFields(fields)
     robot.reflex.enable(True)
     robot.params(withdraw_speed=0.45)
     robot.run(0.1)
-    robot.until("Watching")
+    robot.run_until("Watching")
     robot.run(1.0)  # the refractory time
 
 
@@ -75,7 +75,7 @@ def answer(system: ShippedSystem) -> Any:
     return events[0] if events else None
 
 
-def touched(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
+def pressed_taxels(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
     """Points (k, 3) and forces (k,) of the taxels of the limb that felt something."""
     geometry = system.world.simulation.skin.geometry
     force = system.world.frames[event.time].astype(np.float32).astype(float)
@@ -91,7 +91,7 @@ def test_reflex_counts_fingers_on_both_sides_as_two_touches(system: ShippedSyste
     system.press(field, 0.002)
     system.press(system.field("lower_arm_inner"), 0.002, finger=OTHER)
     events = answer(system)
-    points, forces = touched(system, events)
+    points, forces = pressed_taxels(system, events)
     mine = points @ np.array([0.0, *field.centre[1:]]) > 0.0
     assert forces[mine].sum() > 0.3
     assert forces[~mine].sum() > 0.3
@@ -113,7 +113,7 @@ def test_reflex_response_is_unchanged_by_touch_elsewhere_on_limb(system: Shipped
     system.press(field, 0.003)
     system.press(moved(system, OUTER, cone.x1 - 0.01, 0.02), 0.003, finger=OTHER)
     events = answer(system)
-    points, forces = touched(system, events)
+    points, forces = pressed_taxels(system, events)
     mine = points[:, 0] < (cone.x0 + cone.x1) / 2
     assert forces[mine].sum() > 0.3
     assert forces[~mine].sum() > 0.3
@@ -134,7 +134,7 @@ def test_reflex_ignores_finger_outside_fields(system: ShippedSystem) -> None:
     felt = []
     for _ in range(25):
         system.run(0.02)
-        felt.append(system.felt())
+        felt.append(system.total_force())
         assert system.state == "Watching"
     assert max(felt) > 0.3
     assert felt[-1] > 0.1  # it still presses
@@ -161,7 +161,7 @@ def test_reflex_adds_second_finger_during_withdrawal(system: ShippedSystem) -> N
     system.reflex.setForces(0.005, 0.02)
     system.params(withdraw_speed=0.05)
     system.press(system.field(OUTER), 0.003)
-    system.until("Withdrawing", 1.0)
+    system.run_until("Withdrawing", 1.0)
     held, count = system.worker(1).withdrawal, system.reflex.getStatistics().withdrawals
     assert FRONT not in held.strongest
     system.press(system.field(FRONT), 0.004, finger=OTHER)

@@ -12,7 +12,7 @@ import numpy as np
 from robocomp_dsl.simulation.robots.build import add_robot, new_world
 from robocomp_dsl.simulation.robots.catalog import ROBOTS, description
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
-from tests.demo.parts import COMPONENTS
+from tests.demo.component_modules import COMPONENTS
 
 NAMES = ("recording", "path_planner", "metrics", "body", "topic_buffer", "skin_map", "colours",
          "photograph", "panel", "curves", "figure", "pressing", "deployed", "failure", "wait_for",

@@ -5,14 +5,14 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.demo.parts import COMPONENTS, load
+from tests.demo.component_modules import COMPONENTS, load
+from tests.support.waiting import wait_until
 
 DEADLINE = 120.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -22,18 +22,15 @@ SECONDS = 6.0
 pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themselves
 
 
-def until(condition: Callable[[], bool], process: subprocess.Popen[str], what: str) -> None:
-    deadline = time.monotonic() + DEADLINE
-    while time.monotonic() < deadline:
+def wait_for(condition: Callable[[], bool], process: subprocess.Popen[str], message: str) -> None:
+    """Wait for the condition while rcdeploy runs; components may be absent meanwhile."""
+
+    def holds() -> bool:
         if process.poll() is not None:
             pytest.fail(f"rcdeploy ended early:\n{process.communicate()[0]}")
-        try:
-            if condition():
-                return
-        except MiddlewareError:
-            pass  # not there yet
-        time.sleep(0.02)
-    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+        return condition()
+
+    wait_until(holds, message, DEADLINE, ignoring=MiddlewareError)
 
 
 def copied(folder: Path, hold_at: float) -> Path:
@@ -64,7 +61,7 @@ def drive(folder: Path, name: str) -> tuple[bytes, str]:
     """What the path logger wrote, and what rcdeploy said of the time meanwhile."""
     process = deployed(copied(folder, SECONDS), name)
     try:
-        until(lambda: ", paused" in status(name), process, f"{SECONDS:g} s of simulated time")
+        wait_for(lambda: ", paused" in status(name), process, f"{SECONDS:g} s of simulated time")
         shown = status(name)
         process.send_signal(signal.SIGINT)
         output, _ = process.communicate(timeout=DEADLINE)
@@ -92,12 +89,12 @@ def test_deployment_continues_and_restarts_killed_component(tmp_path: Path) -> N
         observer = load("wander/observer.py").Observer(name)
         try:
             path, wander = observer.path(), observer.component("wander")
-            until(lambda: path().time > 1.0, process, "the first second")
+            wait_for(lambda: path().time > 1.0, process, "the first second")
             before = wander.getInfo().pid
             os.kill(before, signal.SIGKILL)
             killed = path().time
-            until(lambda: path().time > killed + 1.0, process, "a second without it")
-            until(lambda: wander.getStatistics().cycles > 5, process, "its return")
+            wait_for(lambda: path().time > killed + 1.0, process, "a second without it")
+            wait_for(lambda: wander.getStatistics().cycles > 5, process, "its return")
             assert wander.getInfo().pid != before
         finally:
             observer.close()

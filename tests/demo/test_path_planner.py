@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.simulation.robots.catalog import ROBOTS
-from tests.demo.touched import demo, part, places, recording, skin, world
+from tests.demo.touch_demo_samples import demo, part, places, recording, skin, world
 
 path_planner = demo().path_planner
 

@@ -5,7 +5,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,7 +14,8 @@ import pytest
 
 from robocomp_dsl.runtime.component.component_interface import LifeState
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.demo.parts import COMPONENTS, load
+from tests.demo.component_modules import COMPONENTS, load
+from tests.support.waiting import wait_until
 
 DEADLINE = 90.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -30,16 +30,9 @@ def copy(tmp_path: Path) -> Path:
     return Path(shutil.copytree(COMPONENTS, tmp_path / "components", ignore=leave))
 
 
-def until(condition: Callable[[], bool], what: str) -> None:
-    deadline = time.monotonic() + DEADLINE
-    while time.monotonic() < deadline:
-        try:
-            if condition():
-                return
-        except MiddlewareError:
-            pass  # somebody is away
-        time.sleep(0.02)
-    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+def wait_for(condition: Callable[[], bool], message: str) -> None:
+    """Wait for the condition; components may be absent meanwhile."""
+    wait_until(condition, message, DEADLINE, ignoring=MiddlewareError)
 
 
 @contextmanager
@@ -99,7 +92,7 @@ def test_wander_deployment_restarts_killed_robot(copy: Path) -> None:
     with deployed(copy / "wander" / "wander.ddsl", name) as process:
         observer = load("wander/observer.py").Observer(name)
         try:
-            pids = killed_and_back(observer)
+            pids = kill_and_wait_for_restart(observer)
         finally:
             observer.close()
         process.send_signal(signal.SIGINT)
@@ -109,20 +102,20 @@ def test_wander_deployment_restarts_killed_robot(copy: Path) -> None:
     assert not [pid for pid in pids if is_alive(pid)]
 
 
-def killed_and_back(observer: object) -> list[int]:
+def kill_and_wait_for_restart(observer: object) -> list[int]:
     """Kills mobile_base in mid-run; returns all process ids there were."""
     path = observer.path()  # type: ignore[attr-defined]
     proxies = {
         name: observer.component(name)  # type: ignore[attr-defined]
         for name in ("mobile_base", "wander", "path_logger")
     }
-    until(lambda: path().distance > 300, "the first 300 mm")
+    wait_for(lambda: path().distance > 300, "the first 300 mm")
     before = {name: proxy.getInfo().pid for name, proxy in proxies.items()}
     driven = path().distance
     os.kill(before["mobile_base"], signal.SIGKILL)
 
-    until(lambda: path().runs == 2, "a second run of the robot")
-    until(lambda: path().distance > driven + 300, "another 300 mm")
+    wait_for(lambda: path().runs == 2, "a second run of the robot")
+    wait_for(lambda: path().distance > driven + 300, "another 300 mm")
     after = {name: proxy.getInfo() for name, proxy in proxies.items()}
     assert after["mobile_base"].pid != before["mobile_base"]
     assert after["wander"].pid == before["wander"]

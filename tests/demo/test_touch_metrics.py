@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.demo.touched import ARM, FELT, demo, part, recording, skin, world
+from tests.demo.touch_demo_samples import ARM, FELT, demo, part, recording, skin, world
 
 outcome = demo().metrics
 
