@@ -1,4 +1,4 @@
-"""The touch demo as a real process: simulator, arm and reflex deployed, touched, reported and drawn."""
+"""The touch demo as a real process: simulator, arm and reflex deployed and touched."""
 
 import os
 import re

@@ -14,7 +14,8 @@ from robocomp_dsl.simulation.simulation_interface import SIMULATION
 from robocomp_dsl.simulation.world.simulation import Simulation, read_data
 from tests.demo.component_modules import COMPONENTS
 from tests.demo.touch_demo_samples import ARM, demo, part, recording
-from tests.support.chromium_tab import needs_chromium, opened_tab, wait_for
+from tests.support.chromium_tab import needs_chromium, opened_tab
+from tests.support.waiting import wait_until
 
 
 class SimulationPort:
@@ -98,9 +99,9 @@ def test_live_page_shows_touch_in_browser() -> None:
     ):
         tab("Page.enable")
         tab("Page.navigate", url=live.url)
-        wait_for(lambda: tab.shows("Frames"))
+        wait_until(lambda: tab.shows("Frames"))
         before = warm(tab.picture())
         buffer.frame(frame(0.02, it.force[np.argmax(it.force.any(axis=1))]))
-        wait_for(lambda: warm(tab.picture()) > before + 10)
+        wait_until(lambda: warm(tab.picture()) > before + 10)
         buffer.frame(frame(1.0, it.force[0]))
-        wait_for(lambda: warm(tab.picture()) <= before + 2)
+        wait_until(lambda: warm(tab.picture()) <= before + 2)

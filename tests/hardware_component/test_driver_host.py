@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
@@ -19,6 +19,7 @@ from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.pid import Gains
 from robocomp_dsl.hardware.devices.errors import DriverMethodMissing, HardwareError
 from robocomp_dsl.hardware.drivers.driver_host import DriverHost
+from tests.support.waiting import wait_until
 
 JOINT = JointSpec("pan", -1.0, 1.0, 3.0, 5.0)
 DEADLINE_S = 60.0
@@ -71,13 +72,6 @@ def hardware(motor: Motor) -> Iterator[DriverHost]:
     assert "motors" not in {item.name for item in threading.enumerate()}
 
 
-def until(what: Callable[[], object]) -> None:
-    end = time.monotonic() + DEADLINE_S
-    while not what():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.002)
-
-
 def test_driver_host_refuses_calls_before_device_is_opened(hardware: DriverHost) -> None:
     with pytest.raises(HardwareError, match="`pan` is not there: it has not been opened yet"):
         hardware.devices["pan"]
@@ -94,7 +88,7 @@ def test_driver_host_motors_start_idle_and_follow_board(hardware: DriverHost, mo
         hardware.devices["pan"].settings.set_reference_speed(None, 2.0)
         clipped = commands.position_move(None, 5.0)
     assert clipped.tolist() == [True]
-    until(lambda: abs(motor.position - 1.0) < 0.02)
+    wait_until(lambda: abs(motor.position - 1.0) < 0.02)
 
 
 def test_driver_host_releases_motors_after_failure_and_reopens_them(
@@ -103,7 +97,7 @@ def test_driver_host_releases_motors_after_failure_and_reopens_them(
     with hardware.working():
         device = hardware.devices["pan"]
     motor.failing = "the cable is out"
-    until(lambda: device.failure)
+    wait_until(lambda: device.failure)
     assert device.board.table.modes == [Mode.HW_FAULT]
     with pytest.raises(HardwareError, match="the cable is out"), hardware.working():
         pass
@@ -135,18 +129,18 @@ def test_driver_host_motor_holds_position_after_push_ends(
     with hardware.lock:
         device.commands.set_mode(None, Mode.TORQUE)
         device.commands.set_torque(None, 0.05)
-    until(lambda: motor.velocity > 0.1)
+    wait_until(lambda: motor.velocity > 0.1)
     assert device.board.table.modes == [Mode.TORQUE]
     hardware.set_reference_timeout(0.001)
-    until(lambda: device.board.table.modes == [Mode.POSITION])
+    wait_until(lambda: device.board.table.modes == [Mode.POSITION])
     with hardware.lock:
         state = device.board.state()
     assert state.interactions == (Interaction.COMPLIANT,)
     assert state.faults.tolist() == [FaultCode.REFERENCE_TIMEOUT]
-    until(lambda: abs(motor.velocity) < 0.01)
+    wait_until(lambda: abs(motor.velocity) < 0.01)
 
 
-class Feeling(Motor):
+class TorqueSensingMotor(Motor):
     """Its gear keeps a fifth of the torque for itself, which a sensor tells."""
 
     broken = False
@@ -156,7 +150,7 @@ class Feeling(Motor):
 
 
 def test_driver_host_motor_with_sensor_gives_requested_torque() -> None:
-    motor = Feeling()
+    motor = TorqueSensingMotor()
     hardware = DriverHost(motor, ("pan",), motors=True)
     try:
         with hardware.working():
@@ -166,12 +160,12 @@ def test_driver_host_motor_with_sensor_gives_requested_torque() -> None:
             gains = Gains(ki=20.0, max_output=5.0, max_integral=5.0, feedforward=1.0)
             device.settings.set_pid("pan", gains, Loop.TORQUE)
             device.commands.set_torque(None, 0.02)
-        until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
+        wait_until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
         assert device.settings.pid_error(None, Loop.TORQUE) == pytest.approx([0.0], abs=1e-3)
         motor.broken = True
-        until(lambda: device.board.table.modes == [Mode.HW_FAULT])
+        wait_until(lambda: device.board.table.modes == [Mode.HW_FAULT])
         assert device.settings.last_fault("pan").message == "the torque sensor reads NaN"
-        until(lambda: motor.torque == 0.0)
+        wait_until(lambda: motor.torque == 0.0)
     finally:
         hardware.close()
 
@@ -196,7 +190,7 @@ def test_conformance_skips_moving_rules_without_free_space(
     assert motor.opened == 0
 
 
-class Unwritten:
+class UnimplementedMotor:
     """As `rcgen hardware` writes it."""
 
     def open(self) -> None:
@@ -208,11 +202,11 @@ class Unwritten:
 
 def test_conformance_skips_unimplemented_driver_by_name() -> None:
     message: list[str] = []
-    on_hardware(RULES["laser"][0], Unwritten(), ("laser",), skip=message.append)
+    on_hardware(RULES["laser"][0], UnimplementedMotor(), ("laser",), skip=message.append)
     assert message == ["`open` of driver.py is not implemented yet"]
 
 
-class Deaf(Unwritten):
+class FailingMotor(UnimplementedMotor):
     """There, and wrong."""
 
     def open(self) -> None:
@@ -224,18 +218,18 @@ class Deaf(Unwritten):
 
 def test_conformance_reports_broken_rule_and_closes_device() -> None:
     with pytest.raises(Violation, match="the value is -1"):
-        on_hardware(RULES["touchsensor"][0], Deaf(), ("bump",), skip=pytest.fail)
+        on_hardware(RULES["touchsensor"][0], FailingMotor(), ("bump",), skip=pytest.fail)
 
 
 def test_conformance_reports_broken_rule_despite_failing_close() -> None:
-    class Torn(Deaf):
+    class FailingCloseDevice(FailingMotor):
         def open(self) -> None:
             raise OSError("no such port")
 
         def close(self) -> None:
             raise OSError("never opened")
 
-    hardware = DriverHost(Torn(), ("bump",))
+    hardware = DriverHost(FailingCloseDevice(), ("bump",))
     with pytest.raises(HardwareError, match="no such port"):
         hardware.open()
     with suppress(OSError):
@@ -243,7 +237,7 @@ def test_conformance_reports_broken_rule_despite_failing_close() -> None:
 
 
 def test_driver_host_closes_device_after_failed_call_and_reopens_it() -> None:
-    class Loose(Deaf):
+    class FreeMotor(FailingMotor):
         opened = 0
 
         def open(self) -> None:
@@ -254,7 +248,7 @@ def test_driver_host_closes_device_after_failed_call_and_reopens_it() -> None:
                 raise OSError("the plug is loose")
             return 0.0
 
-    driver = Loose()
+    driver = FreeMotor()
     hardware = DriverHost(driver, ("bump",))
     with hardware.working():
         device = hardware.devices["bump"]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support import waiting
 from tests.support.generated_package import package_in, with_package
 
 RCGEN = Path(sys.executable).with_name("rcgen")
@@ -89,7 +90,7 @@ def test_hardware_component_is_clean_typed_and_tested(home: Path, ids: str) -> N
     assert "`open` of driver.py is not implemented yet" in done.stdout
 
 
-PLAYED = '''
+SIMULATED_DRIVER = '''
     def open(self) -> None:
         """Another process' worth of physics stands for the device."""
         if Path(self.params.address).exists():
@@ -115,8 +116,16 @@ PLAYED = '''
         with self.world.lock:
             return self.world.devices["laser"].scan()
 '''
-CLIENT = """
-import sys, time
+WAITING = f"""
+import sys
+from functools import partial
+sys.path.append({str(Path(waiting.__file__).parent)!r})
+from waiting import wait_until
+"""
+CLIENT = (
+    WAITING
+    + """
+wait_until = partial(wait_until, ignoring=Exception)
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, LifeState
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.middleware.registry import open_middleware
@@ -134,43 +143,34 @@ def bound(interface, port, operation):
     assert link.wait(100), port
     return link.bind(next(o for o in interface.operations if o.name == operation))
 
-def until(what):
-    end = time.monotonic() + 100
-    while True:
-        try:
-            if what():
-                return
-        except Exception:
-            if time.monotonic() > end:
-                raise
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
-
 def work():
     scan = bound(LASER, "laser", "getLaserData")
-    until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
+    wait_until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
     assert bound(LASER, "laser", "getLaserConfData")().maxMeasures == 101
     if cable:
         info = bound(COMPONENT, "Component", "getInfo")
         Path(cable).touch()
-        until(lambda: info().state == LifeState.Emergency)
+        wait_until(lambda: info().state == LifeState.Emergency)
         try:
             scan()
             raise SystemExit("a scan without a cable")
         except Exception as error:
             assert "the cable is out" in str(getattr(error, "what", error)), error
         Path(cable).unlink()
-        until(lambda: info().state == LifeState.Compute)
-        until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
+        wait_until(lambda: info().state == LifeState.Compute)
+        wait_until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
 
 try:
     work()
 finally:
     middleware.close()
 """
+)
 
 
-BUS = """
+BUS = (
+    WAITING
+    + """
 import time
 import numpy as np
 from driver import Driver
@@ -181,7 +181,7 @@ from robocomp_dsl.hardware.drivers.driver_host import DriverHost
 from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.runtime import ServedPort
 
-class Free(Driver):
+class FreeArm(Driver):
     "Joints without load."
     torque = np.zeros(6)
     at, speed, last = np.array([1.2, 0.2, 0, -0.5, 0, 0.5]), np.zeros(6), time.perf_counter()
@@ -200,7 +200,7 @@ class Free(Driver):
     def write(self, torque):
         self.torque = torque
 
-hardware = DriverHost(Free(ArmParams()), IDS, motors=True)
+hardware = DriverHost(FreeArm(ArmParams()), IDS, motors=True)
 served = [ServedPort("LArm", i.CONTROLBOARD), ServedPort("JointMotor", i.JOINTMOTOR)]
 ports = hardware.serve(served, PORTS)
 try:
@@ -213,16 +213,17 @@ assert [joint.name for joint in ports["LArm"].getJoints()] == IDS
 ports["LArm"].setControlMode([], i.ControlMode.Position)
 ports["LArm"].setReferenceSpeed(["LShoulderPitch"], np.array([1.0]))
 ports["LArm"].positionMove(["LShoulderPitch"], np.array([0.9]))
-end = time.monotonic() + 60
-while abs(ports["LArm"].getState().position[0] - 0.9) > 0.02:
-    assert time.monotonic() < end, ports["LArm"].getState().position
-    time.sleep(0.01)
+wait_until(
+    lambda: abs(ports["LArm"].getState().position[0] - 0.9) < 0.02,
+    lambda: str(ports["LArm"].getState().position),
+)
 assert abs(ports["JointMotor"].getMotorState("LShoulderPitch").pos - 0.9) < 0.05
 hardware.close()
 """
+)
 
 
-def talk(folder: Path, name: str, domain: str, cable: str) -> None:
+def run_client(folder: Path, name: str, domain: str, cable: str) -> None:
     """The client against the component in `folder`, which ends in order."""
     options = ("--name", name, "--domain", domain, "--middleware", "zenoh")
     extra = ("--set", f"address={cable}") if cable else ()
@@ -241,7 +242,7 @@ def test_hardware_component_runs_user_code_of_simulated_laser(home: Path, tmp_pa
     """The same client; and when the cable is out the component is in Emergency until it is back."""
     assert run(RCGEN, "simulator", "world.xml", cwd=home).returncode == 0
     domain = f"twin-{os.getpid()}"
-    talk(home / "world_simulator", "laser_here", domain, "")
+    run_client(home / "world_simulator", "laser_here", domain, "")
     folder = twin(home, "laser", "front")
     driver = folder / "driver.py"
     head, _, _ = driver.read_text().partition("    def open(self)")
@@ -250,8 +251,8 @@ def test_hardware_component_runs_user_code_of_simulated_laser(home: Path, tmp_pa
         "from robocomp_dsl.simulation.world.simulation import Simulation\n"
     )
     head = head.replace("from robocomp", f"{needed}from robocomp", 1)
-    driver.write_text(head + with_package(folder, PLAYED))
-    talk(folder, "laser_there", domain, str(tmp_path / "cable"))
+    driver.write_text(head + with_package(folder, SIMULATED_DRIVER))
+    run_client(folder, "laser_there", domain, str(tmp_path / "cable"))
 
 
 def test_rcgen_hardware_keeps_user_files(home: Path) -> None:

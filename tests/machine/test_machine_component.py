@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import threading
-import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -21,6 +20,7 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.machine.test_machine import GAME
+from tests.support.waiting import wait_until
 
 DEADLINE = 60.0
 
@@ -66,14 +66,6 @@ class Waiter(Component):
     SPEC = ComponentSpec(name="waiter", period=0, middleware="inproc", machine=MACHINE)
 
 
-def wait_for(condition: Callable[[], object]) -> None:
-    until = time.monotonic() + DEADLINE
-    turn = threading.Event()
-    while not condition():
-        assert time.monotonic() < until, "it did not come true in time"
-        turn.wait(0.002)
-
-
 @pytest.fixture
 def runner() -> Iterator[Runner]:
     component = Runner(Player, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
@@ -86,7 +78,7 @@ def runner() -> Iterator[Runner]:
 def test_machine_runs_with_its_component(runner: Runner) -> None:
     player = runner.worker
     assert isinstance(player, Player)
-    wait_for(lambda: runner.worker.machine.is_in("playing"))
+    wait_until(lambda: runner.worker.machine.is_in("playing"))
     assert player.happened[:3] == ["initialize", "enter waiting", "compute"]
     host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
     middleware = open_middleware("inproc", host)
@@ -95,7 +87,7 @@ def test_machine_runs_with_its_component(runner: Runner) -> None:
     )
     assert about.getInfo().states == ["playing", "music", "loud", "moves"]
     player.stop_playing.set()
-    wait_for(lambda: about.getInfo().states == ["paused"])
+    wait_until(lambda: about.getInfo().states == ["paused"])
     middleware.close()
 
 
@@ -169,7 +161,7 @@ def test_machine_failures_without_period_are_emergencies() -> None:
     runner.start()
     worker = runner.worker
     assert isinstance(worker, Reacting)
-    wait_for(lambda: worker.restored and worker.machine.is_in("b"))
+    wait_until(lambda: worker.restored and worker.machine.is_in("b"))
     assert worker.failed == ["on_enter_b"]
     worker.machine.send("on")
     assert runner.wait()

@@ -1,9 +1,7 @@
-"""Components of a test: made of a few lines, all ended when the test ends."""
+"""Components of a test, defined in a few lines; all end with the test."""
 
 from __future__ import annotations
 
-import threading
-import time
 import uuid
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -16,15 +14,6 @@ from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
-
-
-def wait_for(condition: Callable[[], Any]) -> None:
-    """Until `condition`, at most `DEADLINE` s; looks at it again and again."""
-    until = time.monotonic() + DEADLINE
-    turn = threading.Event()
-    while not condition():
-        assert time.monotonic() < until, "it did not come true in time"
-        turn.wait(0.002)
 
 
 class Node:

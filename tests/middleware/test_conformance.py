@@ -17,8 +17,9 @@ from robocomp_dsl.runtime.errors import (
     Timeout,
 )
 from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
-from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import NEWS, OTHER_PROBE, Broken
+from tests.support.waiting import wait_until
 
 
 def divide(a: int, b: int) -> tuple[int, int]:
@@ -113,7 +114,7 @@ def test_several_servers_are_ambiguous_until_one_is_named(network: Network) -> N
     assert client.probe("right").add(0, 0) == 2
     assert client.probe("left.Probe").add(0, 0) == 1
     probe = client.probe()
-    wait_for(lambda: network.kind == "inproc" or probe.wait_for_server(1))
+    wait_until(lambda: network.kind == "inproc" or probe.wait_for_server(1))
     with pytest.raises(AmbiguousServer, match=r"left\.Probe, right\.Probe.*--connect Probe=left"):
         probe.add(0, 0)
 
@@ -125,7 +126,7 @@ def test_commands_arrive_once_and_in_order(network: Network) -> None:
     probe = network.node("client").probe()
     for i in range(300):
         probe.note(str(i))
-    wait_for(lambda: len(heard) == 300)
+    wait_until(lambda: len(heard) == 300)
     assert heard == [str(i) for i in range(300)]
 
 
@@ -144,7 +145,7 @@ def test_query_times_out_without_reply(network: Network) -> None:
     first, second = network.node("first").probe(), network.node("second").probe()
     with ThreadPoolExecutor(1) as pool:
         blocking = pool.submit(first.block)
-        wait_for(lambda: server.execution.busy)
+        wait_until(lambda: server.execution.busy)
         second.set_timeout(0.2)
         with pytest.raises(Timeout):
             second.add(1, 1)
@@ -169,11 +170,11 @@ def test_publications_reach_all_in_order_of_each_publisher(network: Network) -> 
     for proxy in proxies:
         assert proxy.wait_for_server(DEADLINE)
     if network.kind == "zenoh":
-        wait_for(lambda: all(len(_subscribers(p)) == 2 for p in publishers))
+        wait_until(lambda: all(len(_subscribers(p)) == 2 for p in publishers))
     for n in range(100):
         for p, proxy in enumerate(proxies):
             proxy.spoke(f"p{p}", n)
-    wait_for(lambda: all(len(into) == 200 for into in heard.values()))
+    wait_until(lambda: all(len(into) == 200 for into in heard.values()))
     for into in heard.values():
         for name in ("p0", "p1"):
             assert [n for who, n in into if who == name] == list(range(100))
@@ -194,7 +195,7 @@ def test_subscriber_connects_to_one_publisher(network: Network) -> None:
     assert right.wait_for_server(DEADLINE)
     wrong.spoke("wrong", 0)
     right.spoke("right", 0)
-    wait_for(lambda: heard)
+    wait_until(lambda: heard)
     assert heard == ["right"]
 
 
@@ -212,7 +213,7 @@ def test_failing_subscriber_receives_next_publication(network: Network) -> None:
     assert news.wait_for_server(DEADLINE)
     news.spoke("p", 0)
     news.spoke("p", 1)
-    wait_for(lambda: heard == [1])
+    wait_until(lambda: heard == [1])
     assert node.count("spoke", "News").failures == 1
 
 
@@ -222,9 +223,9 @@ def test_topic_knows_whether_it_has_subscribers(network: Network) -> None:
     network.node("deaf").serve(HANDLERS)
     hearer = network.node("s")
     hearer.hear(lambda *_: None)
-    wait_for(news.has_subscribers)
+    wait_until(news.has_subscribers)
     hearer.middleware.close()
-    wait_for(lambda: not news.has_subscribers())
+    wait_until(lambda: not news.has_subscribers())
 
 
 def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> None:
@@ -240,7 +241,7 @@ def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> 
     news = network.node("p").news()
     assert news.wait_for_server(DEADLINE)
     news.spoke("p", 0)
-    wait_for(lambda: node.execution.busy)
+    wait_until(lambda: node.execution.busy)
     for n in range(1, 50):
         news.spoke("p", n)
     if network.kind == "zenoh":
@@ -253,11 +254,11 @@ def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> 
             CallbackGroup(),
         )
         news.spoke("p", 50)
-        wait_for(lambda: probe and probe[-1] == 50)
+        wait_until(lambda: probe and probe[-1] == 50)
     else:
         news.spoke("p", 50)
     free.set()
-    wait_for(lambda: heard and heard[-1] == 50)
+    wait_until(lambda: heard and heard[-1] == 50)
     # One may have been on its way between the queue and the handler.
     assert heard[0] == 0
     assert heard[-2:] == [49, 50]
@@ -265,7 +266,7 @@ def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> 
     # What was lost is known at the latest when the publisher tells its number again.
     for n in range(51, 71):
         news.spoke("p", n)
-        wait_for(lambda n=n: heard[-1] == n)
+        wait_until(lambda n=n: heard[-1] == n)
     assert 45 <= node.count("spoke", "News").drops <= 50
 
 
@@ -278,7 +279,7 @@ def test_publications_after_their_deadline_are_counted(network: Network) -> None
     assert news.wait_for_server(DEADLINE)
     for n in range(3):
         news.spoke("p", n)
-        wait_for(lambda n=n: heard and heard[-1] == n)
+        wait_until(lambda n=n: heard and heard[-1] == n)
     assert strict.missed == 2
 
 
@@ -296,7 +297,7 @@ def test_proxy_follows_restarted_server(network: Network) -> None:
             return True
         return False
 
-    wait_for(gone)
+    wait_until(gone)
     network.node("server").serve({"add": lambda *_: 2})
     assert probe.wait_for_server(DEADLINE)
     assert probe.add(0, 0) == 2
@@ -309,7 +310,7 @@ def test_proxy_reports_departed_server_at_once(network: Network, how: str) -> No
     probe = network.node("client").probe()
     assert probe.add(0, 0) == 0 if how == "called" else probe.wait_for_server(DEADLINE)
     server.middleware.close()
-    wait_for(lambda: not probe.wait_for_server(0.0))
+    wait_until(lambda: not probe.wait_for_server(0.0))
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(probe.add, 0, 0)
         with pytest.raises(NoServer):
@@ -336,7 +337,7 @@ def test_interrupt_ends_waiting_call(network: Network) -> None:
     client = network.node("client")
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(client.probe().block)
-        wait_for(lambda: server.execution.busy)
+        wait_until(lambda: server.execution.busy)
         client.middleware.interrupt()
         with pytest.raises(NoServer, match="stopping"):
             asked.result(DEADLINE)

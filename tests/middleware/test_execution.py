@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import ProbeProxy
+from tests.support.waiting import wait_until
 
 
 def blocked(free: threading.Event) -> None:
@@ -66,7 +67,7 @@ def test_handlers_of_others_run_while_one_waits(network: Network) -> None:
     first, second = network.node("first"), network.node("second")
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(first.probe("middle").block)
-        wait_for(lambda: slow.execution.busy)
+        wait_until(lambda: slow.execution.busy)
         assert second.probe("middle").add(1, 2) == 3
         free.set()
         waiting.result(DEADLINE)

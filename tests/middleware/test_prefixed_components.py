@@ -16,8 +16,9 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
-from tests.middleware.network import DEADLINE, wait_for
+from tests.middleware.network import DEADLINE
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+from tests.support.waiting import wait_until
 
 
 class Base(Component):
@@ -98,7 +99,7 @@ def test_prefixed_copies_of_components_are_independent(start: Start) -> None:
         assert isinstance(arm, Arm)
         assert arm.name == f"{prefix}/arm"
         assert arm.probe.add(1, 2) == offset + 3
-        wait_for(lambda arm=arm: arm.publishers)
+        wait_until(lambda arm=arm: arm.publishers)
         assert arm.publishers == {f"{prefix}/base"}
 
 
@@ -110,7 +111,7 @@ def test_prefix_applies_to_connection(start: Start) -> None:
     arm = start(Arm, prefix="left", connections={"Probe": ("second",), "News": ("/left/first",)})
     assert isinstance(arm, Arm)
     assert arm.probe.add(0, 0) == 2
-    wait_for(lambda: arm.publishers)
+    wait_until(lambda: arm.publishers)
     assert arm.publishers == {"left/first"}
 
 
@@ -122,7 +123,7 @@ def test_prefixed_ports_may_have_other_names(start: Start) -> None:
     arm = start(Arm, remaps={"Probe": "front", "News": "front-news"})
     assert isinstance(arm, Arm)
     assert arm.probe.add(0, 0) == ord("b")
-    wait_for(lambda: arm.publishers)
+    wait_until(lambda: arm.publishers)
     assert arm.publishers == {"b"}
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
-from tests.middleware.network import DEADLINE, Network, Node, wait_for
+from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+from tests.support.waiting import wait_until
 
 
 def serve(network: Network, *names: str) -> None:
@@ -24,7 +25,7 @@ def asked(network: Network, client: str, *peers: str) -> int:
 
 def asked_when_all_are_known(network: Network, client: str, count: int) -> int:
     probe = network.node(client).probe()
-    wait_for(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
+    wait_until(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
     return probe.add(0, 0)
 
 
@@ -89,7 +90,7 @@ def test_prefix_waits_for_server_beside_that_starts_later(network: Network) -> N
 def test_prefix_with_two_servers_beside_is_ambiguous_until_connected(network: Network) -> None:
     serve(network, "left/a", "left/b", "c")
     probe = network.node("left/arm").probe()
-    wait_for(lambda: len(_known(probe, network)) == 3)
+    wait_until(lambda: len(_known(probe, network)) == 3)
     with pytest.raises(AmbiguousServer, match=r"left/a\.Probe, left/b\.Probe all .*=/left/a$"):
         probe.add(0, 0)
 
@@ -124,7 +125,7 @@ def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
             proxy.spoke(name, 0)
         return until()  # type: ignore[operator,no-any-return]
 
-    wait_for(again)
+    wait_until(again)
     for _ in range(3):
         again()
 

@@ -21,8 +21,9 @@ from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
 from robocomp_dsl.runtime.middleware.zenoh.liveliness_monitor import LivelinessMonitor
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
-from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import OTHER_NEWS, PROBE
+from tests.support.waiting import wait_until
 
 ROOT = Path(__file__).parents[2]
 SERVER = """
@@ -73,7 +74,7 @@ def test_zenoh_refuses_and_counts_malformed_requests(network: Network, payload: 
     raw = open_session(network.domain)
     try:
         querier = raw.session.declare_querier(key, timeout=DEADLINE)
-        wait_for(lambda: querier.matching_status.matching)
+        wait_until(lambda: querier.matching_status.matching)
         reply = querier.get(payload=payload).recv()
         assert reply.err is not None
         assert reply.err.payload.to_bytes().startswith(b"RCM")
@@ -94,13 +95,13 @@ def test_zenoh_counts_malformed_commands(network: Network) -> None:
     raw = open_session(network.domain)
     try:
         publisher = raw.session.declare_publisher(key)
-        wait_for(lambda: publisher.matching_status.matching)
+        wait_until(lambda: publisher.matching_status.matching)
         publisher.put(b"\0\1\0\0\xff\xff\xff\xff")
-        wait_for(lambda: server.count("note").malformed)
+        wait_until(lambda: server.count("note").malformed)
     finally:
         raw.close()
     network.node("client").probe().note("still here")
-    wait_for(lambda: heard == ["still here"])
+    wait_until(lambda: heard == ["still here"])
 
 
 def test_zenoh_reports_malformed_reply_to_caller(network: Network) -> None:
@@ -163,10 +164,10 @@ def test_zenoh_watch_reports_states_and_exit(
     watch = LivelinessMonitor(network.domain)
     try:
         watch.start(lambda *what: seen.append(what))
-        wait_for(lambda: seen)
+        wait_until(lambda: seen)
         assert seen == [("server", server.pid, "compute")]
         server.send_signal(signal.SIGKILL)
-        wait_for(lambda: len(seen) == 2)
+        wait_until(lambda: len(seen) == 2)
         assert seen[1] == ("server", server.pid, "")
     finally:
         watch.close()
@@ -215,7 +216,7 @@ def test_zenoh_connects_processes_that_start_together(network: Network) -> None:
     for thread in threads:
         thread.join(DEADLINE)
     try:
-        wait_for(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
+        wait_until(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
     finally:
         for opened_session in opened:
             opened_session.close()
@@ -227,8 +228,8 @@ def test_zenoh_reports_interface_mismatch_on_both_sides_of_topic(
     subscriber, publisher = network.node("listener"), network.node("speaker")
     subscriber.hear(lambda *_: None)
     publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
-    wait_for(lambda: "listener and speaker cannot communicate" in caplog.text)
-    wait_for(lambda: "speaker and listener cannot communicate" in caplog.text)
+    wait_until(lambda: "listener and speaker cannot communicate" in caplog.text)
+    wait_until(lambda: "speaker and listener cannot communicate" in caplog.text)
     assert "different versions of Test::News" in caplog.text
 
 

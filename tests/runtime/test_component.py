@@ -9,12 +9,10 @@ import re
 import signal
 import subprocess
 import sys
-import threading
 import time
 import uuid
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -39,6 +37,7 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Qo
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameter, ParameterRejected, Parameters
 from tests.support.background_job import IGNORING_INTERRUPT
+from tests.support.waiting import wait_until
 
 DEADLINE = 60.0
 
@@ -90,14 +89,6 @@ class Arm(Component):
         self.happened.append(f"rate was {old:g}")
 
 
-def wait_for(condition: Callable[[], Any]) -> None:
-    until = time.monotonic() + DEADLINE
-    turn = threading.Event()
-    while not condition():
-        assert time.monotonic() < until, "it did not come true in time"
-        turn.wait(0.002)
-
-
 @pytest.fixture
 def runner() -> Iterator[Runner]:
     domain = f"test-{uuid.uuid4().hex[:8]}"
@@ -123,7 +114,7 @@ def arm_of(runner: Runner) -> Arm:
 
 def test_a_life_in_order(runner: Runner) -> None:
     arm = arm_of(runner)
-    wait_for(lambda: arm.happened.count("compute") >= 3)
+    wait_until(lambda: arm.happened.count("compute") >= 3)
     arm.quit()
     assert runner.wait()
     assert arm.happened[0] == "initialize"
@@ -136,9 +127,9 @@ def test_a_failing_compute_is_an_emergency_that_ends_by_itself(
     runner: Runner, about: ComponentProxy, caplog: pytest.LogCaptureFixture
 ) -> None:
     arm = arm_of(runner)
-    wait_for(lambda: "compute" in arm.happened)
+    wait_until(lambda: "compute" in arm.happened)
     arm.failing = True
-    wait_for(lambda: arm.happened.count("restore") >= 2)
+    wait_until(lambda: arm.happened.count("restore") >= 2)
     info = about.getInfo()
     assert info.state in (LifeState.Emergency, LifeState.Restore)
     assert re.search(
@@ -147,7 +138,7 @@ def test_a_failing_compute_is_an_emergency_that_ends_by_itself(
     reports = [r for r in caplog.records if "the arm does not move" in r.getMessage()]
     assert len([r for r in reports if r.levelno == logging.ERROR]) == 1
     arm.failing = False
-    wait_for(lambda: runner.state is LifecycleState.COMPUTE)
+    wait_until(lambda: runner.state is LifecycleState.COMPUTE)
     assert about.getInfo().reason == ""
     assert about.getStatistics().failures >= 2
 
@@ -156,15 +147,15 @@ def test_a_declared_emergency_lasts_until_it_is_ended(
     runner: Runner, caplog: pytest.LogCaptureFixture
 ) -> None:
     arm = arm_of(runner)
-    wait_for(lambda: "compute" in arm.happened)
+    wait_until(lambda: "compute" in arm.happened)
     for _ in range(3):
         arm.declare_emergency("the button")
     assert [r.getMessage() for r in caplog.records].count("emergency: the button") == 1
-    wait_for(lambda: arm.happened.count("emergency") >= 3)
+    wait_until(lambda: arm.happened.count("emergency") >= 3)
     assert "restore" not in arm.happened
     assert runner.lifecycle.reason == "the button"
     arm.end_emergency()
-    wait_for(lambda: runner.state is LifecycleState.COMPUTE)
+    wait_until(lambda: runner.state is LifecycleState.COMPUTE)
     assert "restore" in arm.happened
 
 
@@ -177,14 +168,14 @@ def test_an_emergency_that_initialize_declares_is_one_from_the_beginning() -> No
     careful = Runner(Careful, ArmParams.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     careful.start()
     arm = arm_of(careful)
-    wait_for(lambda: arm.happened.count("emergency") >= 3)
+    wait_until(lambda: arm.happened.count("emergency") >= 3)
     assert (careful.state, careful.lifecycle.reason) == (
         LifecycleState.EMERGENCY,
         "the brakes are on",
     )
     assert "compute" not in arm.happened
     arm.end_emergency()
-    wait_for(lambda: careful.state is LifecycleState.COMPUTE)
+    wait_until(lambda: careful.state is LifecycleState.COMPUTE)
     careful.stop()
     assert careful.wait()
 
@@ -211,13 +202,13 @@ def test_a_period_that_is_too_short_is_counted() -> None:
 
     slow = Runner(Slow, ArmParams.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     slow.start()
-    wait_for(lambda: slow.statistics.overruns >= 3)
+    wait_until(lambda: slow.statistics.overruns >= 3)
     slow.stop()
     assert slow.wait()
 
 
 def test_introspection(runner: Runner, about: ComponentProxy) -> None:
-    wait_for(lambda: runner.statistics.computes.count > 3)
+    wait_until(lambda: runner.statistics.computes.count > 3)
     info = about.getInfo()
     assert (info.name, info.component, info.pid) == ("arm", "arm", os.getpid())
     assert info.state is LifeState.Compute
@@ -240,7 +231,7 @@ def test_parameters_change_live_or_not_at_all(runner: Runner, about: ComponentPr
     arm = arm_of(runner)
     about.setParameters({"rate": "20"})
     assert arm.params.rate == 20
-    wait_for(lambda: "rate was 50" in arm.happened)
+    wait_until(lambda: "rate was 50" in arm.happened)
     for changes, message in (
         ({"rate": "500"}, "100"),
         ({"rate": "fast"}, "number"),
@@ -260,12 +251,12 @@ def test_parameters_change_live_or_not_at_all(runner: Runner, about: ComponentPr
 def test_the_period_changes_live(runner: Runner, about: ComponentProxy) -> None:
     arm = arm_of(runner)
     about.setPeriod(0)
-    wait_for(lambda: runner.lifecycle.period_ms == 0)
+    wait_until(lambda: runner.lifecycle.period_ms == 0)
     with pytest.raises(Refusal):
         about.setPeriod(-1)
     count = arm.happened.count("compute")
     about.setPeriod(1)
-    wait_for(lambda: arm.happened.count("compute") > count + 2)
+    wait_until(lambda: arm.happened.count("compute") > count + 2)
 
 
 def test_log_levels(about: ComponentProxy) -> None:

@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +14,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.served_worlds import CLIENT, ROOM, rcgen, run
+from tests.support.waiting import wait_until
 
 DEADLINE = 120.0
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
@@ -179,15 +179,15 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return result
 
 
-def until(condition: Callable[[], bool], process: subprocess.Popen[str], what: str) -> None:
-    deadline = time.monotonic() + DEADLINE
-    while time.monotonic() < deadline:
+def wait_for(condition: Callable[[], bool], process: subprocess.Popen[str], message: str) -> None:
+    """Wait for the condition while rcdeploy runs."""
+
+    def holds() -> bool:
         if process.poll() is not None:
             pytest.fail(f"rcdeploy ended early:\n{process.communicate()[0]}")
-        if condition():
-            return
-        time.sleep(0.05)
-    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+        return condition()
+
+    wait_until(holds, message, DEADLINE)
 
 
 @contextmanager
@@ -233,7 +233,7 @@ def recorded(home: Path, name: str, seed: int, last: float = SECONDS, more: str 
     settings = f"set speed = 0; set seed = {seed};"
     clock = "clock sim lockstep;"
     with deployed(home, name, clock, settings, last, more) as (process, written):
-        until(lambda: (times(written) or [0])[-1] >= last, process, f"{last:g} s")
+        wait_for(lambda: (times(written) or [0])[-1] >= last, process, f"{last:g} s")
     return written.read_bytes()
 
 
@@ -278,7 +278,7 @@ def stretches(moments: np.ndarray) -> list[tuple[int, int]]:
 
 HAND = """
 hand = proxy(i.SIMULATION, "Simulation")
-until(lambda: hand.getState().time > 1)
+wait_until(lambda: hand.getState().time > 1)
 hand.pause()
 now = hand.getState().time
 assert abs(hand.step(50) - now - 0.1) < 1e-9
@@ -287,12 +287,12 @@ assert state.paused and state.realTimeFactor == 0
 kept = hand.snapshot()
 hand.setSpeed(2.0)
 hand.resume()
-until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
+wait_until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
 hand.pause()
 hand.restore(kept)
 assert abs(hand.getState().time - state.time) < 1e-9
 hand.resume()
-until(lambda: hand.getState().time > state.time + 0.5)
+wait_until(lambda: hand.getState().time > state.time + 0.5)
 hand.pause()
 hand.reset()
 assert hand.getState().time == 0
@@ -306,13 +306,13 @@ print("held")
 def test_simulator_leads_clock_with_simulated_time(home: Path, clock: str) -> None:
     name = f"sim-{len(clock)}-{os.getpid()}"
     with deployed(home, name, clock, last=1000) as (process, written):
-        until(lambda: bool(times(written)), process, "the first line")
-        until(lambda: "times real time" in status(name), process, "the factor")
-        until(lambda: " 0.00 times" not in status(name), process, "a factor")
+        wait_for(lambda: bool(times(written)), process, "the first line")
+        wait_for(lambda: "times real time" in status(name), process, "the factor")
+        wait_for(lambda: " 0.00 times" not in status(name), process, "a factor")
         message = run(home / "room_simulator", CLIENT + HAND, "zenoh", name, "room_simulator")
         assert message == "held\n"
         backwards = lambda: sum(np.diff(times(written)) < 0) >= 2  # noqa: E731
-        until(backwards, process, "time that begins anew twice")
+        wait_for(backwards, process, "time that begins anew twice")
     moments = np.array(times(written))
     assert moments * 200 == pytest.approx(np.round(moments * 200)), "moments of the source"
     first, second = moments[1:][np.diff(moments) < 0][:2]
@@ -323,9 +323,9 @@ def test_simulator_leads_clock_with_simulated_time(home: Path, clock: str) -> No
 def test_simulator_is_driven_on_wall_clock(home: Path) -> None:
     name = f"wall-{os.getpid()}"
     with deployed(home, name, "") as (process, written):
-        until(lambda: len(times(written)) > 1, process, "the first lines")
+        wait_for(lambda: len(times(written)) > 1, process, "the first lines")
         done = lambda: times(written)[-1] - times(written)[0] >= SECONDS  # noqa: E731
-        until(done, process, f"{SECONDS:g} s")
+        wait_for(done, process, f"{SECONDS:g} s")
         assert "simulated time" not in status(name)
     near = [float(line.split(";")[1]) for line in written.read_text().splitlines()]
     assert min(near) < 1400 < max(near), "it drives towards the wall"

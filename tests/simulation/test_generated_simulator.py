@@ -49,7 +49,7 @@ until(lambda: not robot.getBaseState().isMoving)
 state = robot.getBaseState()
 until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
 failed = i.RoboCompGenericBase_HardwareFailedException
-error = refused(failed, robot.setSpeedBase, float("nan"), 0.0)
+error = refusal_of(failed, robot.setSpeedBase, float("nan"), 0.0)
 assert "finite" in error.what, error.what
 sideways = proxy(i.OMNIROBOT, "platform")
 sideways.setSpeedBase(300.0, 0.0, 0.0)
@@ -61,13 +61,13 @@ heard = []
 topic = Endpoint(i.JointMotorPubProxy.INTERFACE, "client", "JointMotorPub")
 middleware.subscribe(topic, {"motorStates": heard.append}, CallbackGroup())
 until(lambda: heard and abs(heard[-1]["neck"].pos - 0.5) < 0.01)
-refused(i.UnknownMotorException, motors.getMotorState, "nobody")
+refusal_of(i.UnknownMotorException, motors.getMotorState, "nobody")
 nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
 near = laser.getLaserData().dist[50] / 2
 where = state.correctedZ + 200 + near
 nodes.addPlane("crate", "floor", i.Plane3D(500.0, 140.0, where, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0))
 until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
-missing = refused(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
+missing = refusal_of(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
 assert missing.err is i.ErrorType.NonExistingNode
 hand = proxy(i.SIMULATION, "Simulation")
 hand.pause()
@@ -76,7 +76,7 @@ assert abs(hand.step(10) - now - 0.02) < 1e-9
 fork = hand.fork()
 assert abs(hand.advance(fork, 1.0) - now - 1.02) < 1e-9
 assert abs(hand.getState().time - now - 0.02) < 1e-9
-refused(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
+refusal_of(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
 hand.resume()
 until(lambda: hand.getState().time > now + 0.1)
 print("driven")
@@ -102,7 +102,7 @@ settings = RunSettings(middleware="inproc", clock=parse_clock("sim,from=another"
 runner = Runner(SpecificWorker, SpecificWorker.SPEC.parameters.load("etc/config.yaml"), settings)
 runner.start()
 until(lambda: hasattr(runner.worker, "devices"))
-print(refused(ParameterRejected, runner.params.set, {"speed": 2.0}))
+print(refusal_of(ParameterRejected, runner.params.set, {"speed": 2.0}))
 runner.stop()
 assert runner.wait()
 middleware.close()

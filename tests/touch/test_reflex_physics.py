@@ -196,8 +196,8 @@ def test_reflex_ignores_dead_patch_in_physics(start_physical_reflex, robot) -> N
     harness = start_physical_reflex(robot, "left_arm")
     it = harness.robot
     dead = it.geometry.patch == it.geometry.patches.index("left_lower_arm")
-    alive = it.felt
-    it.felt = lambda: np.where(dead, 0.0, alive())
+    alive = it.taxel_forces
+    it.taxel_forces = lambda: np.where(dead, 0.0, alive())
     it.press(harness.field("lower_arm_under"), 0.002, 0.3)
     harness.run(0.5)
     assert it.peak > 0.3

@@ -97,7 +97,7 @@ def test_robot_devices_calibrate_use_and_park_arm():
             goal = hand.pose()
             goal[:3, 3] += (5.0, -5.0, 5.0)
             hand.go_to(goal[:3, 3], 0.5)
-        until(robot, lambda: hand.state is CartesianState.REACHED)
+        advance_until(robot, lambda: hand.state is CartesianState.REACHED)
         assert conductor.shutdown()
         with robot.turn:
             assert set(robot.arm.board.table.modes) == {Mode.IDLE}
@@ -113,7 +113,7 @@ def test_robot_devices_interrupt_ends_calibration_without_motor_power():
     with robot.alive():
         starter = threading.Thread(target=lambda: result.append(conductor.start()))
         starter.start()
-        until(robot, lambda: Mode.CALIBRATING in robot.arm.board.table.modes)
+        advance_until(robot, lambda: Mode.CALIBRATING in robot.arm.board.table.modes)
         conductor.interrupt()
         starter.join(LONG)
         assert result == [False]
@@ -126,7 +126,7 @@ def test_robot_devices_interrupt_ends_calibration_without_motor_power():
             assert not robot.arm.board.torque.any()
 
 
-def until(robot: Robot, done) -> None:
+def advance_until(robot: Robot, done) -> None:
     """Wait, in turns with the world, until `done()`; a minute of the world's time at most."""
     with robot.turn:
         last = robot.arm.world.time + LONG

@@ -50,7 +50,7 @@ def test_model_board_command_without_names_means_all_joints(arm: Served) -> None
     board.positionMove([], [-0.4, 0.1])
     assert not board.motionDone([]).any()
     assert arm.ports["ControlBoard"].motionDone([]).tolist() == [True]
-    arm.until(lambda: board.motionDone([]).all())
+    arm.advance_until(lambda: board.motionDone([]).all())
     arm.simulation.advance(0.3)
     assert np.abs(board.getState().position - (-0.4, 0.1)).max() < 0.01
     assert abs(arm.ports["ControlBoard"].getState().position[0] - 0.01) < 1e-3
@@ -79,7 +79,7 @@ def test_model_joints_with_shared_motors_change_mode_together(tmp_path: Path) ->
     before = board.getState().motorCounts
     board.setReferenceSpeed([], [2.0, 2.0])
     board.positionMove(["shoulder"], [0.9])
-    arm.until(lambda: board.motionDone([]).all())
+    arm.advance_until(lambda: board.motionDone([]).all())
     arm.simulation.advance(0.3)
     item, other = board.getState().motorCounts - before
     assert item == pytest.approx(-other, rel=0.01)
@@ -102,7 +102,7 @@ def test_model_board_parks_without_moving_another_board(arm: Served) -> None:
 def test_model_joint_servant_has_all_joints_in_their_units(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncPosition([goal(arm, "shoulder", 0.2, 2.0), goal(arm, "grip", 40.0)])
-    arm.until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
+    arm.advance_until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
     state = motors.getAllMotorState()
     assert state["shoulder"].pos == pytest.approx(0.2, abs=0.01)
     assert state["grip"].pos == pytest.approx(40.0, abs=0.5)
@@ -132,8 +132,8 @@ def test_model_from_urdf_moves(tmp_path: Path) -> None:
     bot = served_model(tmp_path, BOT, "bot.urdf")
     motors = bot.ports["JointMotor"]
     motors.setSyncPosition([goal(bot, "lift", 300.0), goal(bot, "turn", -1.0)])
-    bot.until(lambda: abs(motors.getMotorState("lift").pos - 300) < 1)
-    bot.until(lambda: abs(motors.getMotorState("turn").pos + 1) < 0.01)
+    bot.advance_until(lambda: abs(motors.getMotorState("lift").pos - 300) < 1)
+    bot.advance_until(lambda: abs(motors.getMotorState("turn").pos + 1) < 0.01)
     assert motors.getMotorParams("lift").maxVelocity == 250.0
 
 
@@ -272,7 +272,7 @@ def test_model_adds_nodes_and_continues(arm: Served) -> None:
     assert arm.simulation.world.time == before
     assert nodes.getPose("root", "hand")[1].x == pytest.approx(-1500)
     motors.setPosition(goal(arm, "lid", 0.8, 3.0))
-    arm.until(lambda: abs(motors.getMotorState("lid").pos - 0.8) < 0.02)
+    arm.advance_until(lambda: abs(motors.getMotorState("lid").pos - 0.8) < 0.02)
     assert arm.simulation.state.joint("lid") == pytest.approx(0.8, abs=0.02)
     _, cup = nodes.getPose("lower", "cup")
     assert (cup.x, cup.y, cup.z) == pytest.approx((100, 0, 0), abs=1e-3)

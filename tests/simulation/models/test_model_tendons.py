@@ -55,7 +55,7 @@ def test_tendon_motor_closes_both_fingers(tmp_path: Path) -> None:
     assert list(motors.getAllMotorState()) == ["right"]
     motors.setPosition(world.types.MotorGoalPosition("right", 30.0, 0.0))
     world.simulation.advance(0.05)
-    world.until(lambda: not motors.getMotorState("right").isMoving)
+    world.advance_until(lambda: not motors.getMotorState("right").isMoving)
     world.simulation.advance(0.3)
     left, right = (world.simulation.world.data.joint(name).qpos[0] for name in ("left", "right"))
     assert (left, right) == pytest.approx((0.03, 0.03), abs=1e-3)

@@ -72,7 +72,7 @@ def test_cartesian_servant_reaches_solved_pose(robot: str, tmp_path: Path) -> No
     assert received.joints == pytest.approx(hand.getDesired().joints)
     began = result.simulation.time
     assert not hand.checkMotionDone()
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     assert result.simulation.time - began == pytest.approx(0.8, abs=0.15)
     result.simulation.advance(0.5)
     assert hand.getState().motion.name == "Reached"
@@ -136,7 +136,7 @@ def test_cartesian_servant_keeps_fixed_joints(tmp_path: Path) -> None:
     solved = hand.goToPosition(i.HandPlace(at.x, at.y + 0.02, at.z + 0.02), 0.0)
     with pytest.raises(i.CartesianRefused, match="on its way"):
         hand.setDOF([True] * 7)
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     result.simulation.advance(0.3)
     after = board.getState().position
     assert np.abs(after - before)[4:].max() < 1e-3
@@ -200,11 +200,11 @@ def test_cartesian_servant_tracks_hand_while_other_joints_move(
     hand.setTrackingMode(tracking)
     assert hand.getTrackingMode() is tracking
     hand.goToPosition(i.HandPlace(0.35, 0.1, 0.1), 0.5)
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     rest.setReferenceSpeed(["turn"], np.array([0.3]))
     rest.positionMove(["turn"], np.array([0.4]))
     result.simulation.advance(0.1)
-    result.until(lambda: rest.motionDone(["turn"]).all())
+    result.advance_until(lambda: rest.motionDone(["turn"]).all())
     result.simulation.advance(1.0)
     place = hand.getPose().place
     away = np.hypot(place.x - 0.35, place.y - 0.1)

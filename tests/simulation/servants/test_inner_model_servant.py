@@ -155,7 +155,7 @@ def test_inner_model_servant_adds_joint_that_moves(world: Served) -> None:
     result = i.jointType(pose=pose(world, 0, 300, 0, 0, 0, 0), min=-1.0, max=1.0, axis="x")
     nodes.addJoint("nod", "neck", result)
     motors.setPosition(i.MotorGoalPosition("nod", 0.5, 0))
-    world.until(lambda: motors.getMotorState("nod").pos > 0.49)
+    world.advance_until(lambda: motors.getMotorState("nod").pos > 0.49)
     nodes.removeNode("neck")
     with pytest.raises(Exception, match="no joints"):
         motors.getMotorState("nod")

@@ -52,7 +52,7 @@ def test_joint_servant_reaches_position_at_commanded_speed(arm: Served) -> None:
         return not state.isMoving
 
     arm.simulation.advance(0.1)
-    arm.until(done)
+    arm.advance_until(done)
     assert 0.45 < fastest < 0.52
     assert motors.getMotorState("shoulder").pos == pytest.approx(0.8, abs=2e-3)
     hand = where(arm, "hand")  # x to the right, y up: the arm of 300 and 200 mm has turned by 0.8
@@ -63,7 +63,7 @@ def test_joint_servant_of_slide_uses_millimetres(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setSyncPosition([i.MotorGoalPosition("lift", 300, 0)])
     arm.simulation.advance(0.05)
-    arm.until(lambda: not motors.getMotorState("lift").isMoving)
+    arm.advance_until(lambda: not motors.getMotorState("lift").isMoving)
     assert where(arm, "lift") == pytest.approx([0, 1300, 0], abs=1)
     assert motors.getMotorState("lift").pos == pytest.approx(300, abs=1)
     params = motors.getMotorParams("lift")
@@ -74,7 +74,7 @@ def test_joint_servant_home_is_zero_position(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncZeroPos()
     arm.simulation.advance(0.05)
-    arm.until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
+    arm.advance_until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
     found = {name: item.pos for name, item in motors.getAllMotorState().items()}
     assert found == pytest.approx({"shoulder": 0.2, "elbow": 0.0, "lift": 100.0}, abs=0.5)
 
@@ -185,7 +185,7 @@ def test_board_servant_answers_every_operation(arm: Served) -> None:
     assert not board.isBusy()
     board.park(["shoulder"])
     assert board.isBusy()
-    arm.until(lambda: board.getState().modes[0].name == "Idle")
+    arm.advance_until(lambda: board.getState().modes[0].name == "Idle")
     assert board.getState().position[0] == pytest.approx(0.2, abs=0.05)
 
 

@@ -51,7 +51,7 @@ def test_legacy_motor_reaches_position(world: Served, name: str) -> None:
     motors.setPosition(name, simple(world, "MotorGoalPosition")(0.5, 2.0))
     world.simulation.advance(0.05)
     assert motors.getMotorState(name).isMoving
-    world.until(lambda: not motors.getMotorState(name).isMoving)
+    world.advance_until(lambda: not motors.getMotorState(name).isMoving)
     assert motors.getMotorState(name).pos == pytest.approx(0.5, abs=2e-3)
     assert isinstance(motors.getMotorState(name), simple(world, "MotorState"))
 
@@ -63,7 +63,7 @@ def test_legacy_motor_turns_at_speed_and_goes_home(world: Served) -> None:
     assert motors.getMotorState("neck").vel == pytest.approx(0.4, abs=0.01)
     motors.setZeroPos("neck")
     world.simulation.advance(0.05)
-    world.until(lambda: not motors.getMotorState("neck").isMoving)
+    world.advance_until(lambda: not motors.getMotorState("neck").isMoving)
     assert motors.getMotorState("neck").pos == pytest.approx(0.25, abs=2e-3)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from robocomp_dsl.simulation.devices.camera import Camera
 from robocomp_dsl.simulation.view.offscreen import NoRendering
 from robocomp_dsl.simulation.world.simulation import Simulation
 from tests.simulation.served_worlds import Served, served
+from tests.support.waiting import wait_until
 
 WORLD = """\
 <innerModel>
@@ -112,11 +112,8 @@ def test_exposure_does_not_wait_in_real_time(
     monkeypatch.setattr(Camera, "picture", held)
     assert port.poll() == []  # it is being taken
     shutter.set()
-    end, result = time.monotonic() + 60, list[Any]()
-    while not result:
-        assert time.monotonic() < end
-        result = port.poll()
-    assert result[0][0].alivetime == round(world.simulation.world.time * 1000)
+    ((image, _),) = wait_until(port.poll, "the picture has not been taken")
+    assert image.alivetime == round(world.simulation.world.time * 1000)
 
 
 def test_camera_servant_without_rendering_publishes_the_rest(

@@ -85,7 +85,7 @@ apart = [b.time - a.time for a, b in zip(frames, frames[1:])]
 assert all(abs(one - 0.02) < 1e-9 for one in apart), apart
 assert abs(sum(one.force for one in touches[-1].contacts) - 0.981) < 0.02
 assert skin.getFrame().sequence >= numbers[-1]
-refused(i.HardwareFailedException, skin.calibrate, 1.0)
+refusal_of(i.HardwareFailedException, skin.calibrate, 1.0)
 print("felt")
 """
 
@@ -103,8 +103,8 @@ change(raw="true", shear="false", dead="100-171")
 until(lambda: frames and len(frames[-1].raw) and not len(frames[-1].shearX))
 assert abs(float(frames[-1].force.sum()) - 0.981 / 2) < 0.02  # half of the table is dead
 assert frames[-1].raw[:72].tolist() == [240] * 72
-assert "no taxel 7" in str(refused(Refusal, lambda: change(dead="7")))
-assert "is no taxel" in str(refused(Refusal, lambda: change(dead="x")))
+assert "no taxel 7" in str(refusal_of(Refusal, lambda: change(dead="7")))
+assert "is no taxel" in str(refusal_of(Refusal, lambda: change(dead="x")))
 change(dead="", rate="200")
 until(lambda: len(frames) > 10)
 assert frames[-1].time - frames[-11].time < 0.06

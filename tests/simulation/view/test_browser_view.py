@@ -23,7 +23,8 @@ from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
-from tests.support.chromium_tab import PATIENCE, Tab, needs_chromium, opened_tab, red, wait_for
+from tests.support.chromium_tab import Tab, needs_chromium, opened_tab, red
+from tests.support.waiting import TIMEOUT_S, wait_until
 
 MODELS = Path(__file__).parents[1] / "models" / "files"
 
@@ -40,7 +41,7 @@ def page() -> Iterator[BrowserPage]:
 
 def test_browser_view_listens_on_loopback_only(page: BrowserPage) -> None:
     assert page.url.startswith(f"http://{LOOPBACK}:")
-    with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
+    with urllib.request.urlopen(page.url, timeout=TIMEOUT_S) as answer:
         assert b"<html" in answer.read(2000).lower()
     port = int(page.url.rpartition(":")[2])
     listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
@@ -103,7 +104,7 @@ def test_browser_view_sliders_move_joints_and_button_resets_them(page: BrowserPa
     slider, address = page.controls._sliders[2]
     assert (slider.min, slider.max) == (0.0, 0.5)
     moved(page, slider, 0.25)
-    wait_for(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
+    wait_until(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
     page.controls.reset()
     assert page.data.qpos[address] == 0.0
     assert slider.value == pytest.approx(0.0)
@@ -120,7 +121,7 @@ def test_browser_view_moves_node(page: BrowserPage) -> None:
 def test_browser_view_time_runs_on_request(page: BrowserPage) -> None:
     crate = page.model.body("crate").id
     height = page.data.xpos[crate, 2]
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIMEOUT_S
     page.controls.running = True
     page.run(lambda: page.data.time < 0.5 and time.monotonic() < end)
     assert page.data.xpos[crate, 2] < height - 0.05
@@ -202,14 +203,14 @@ def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) 
             tab("Network.enable")
             tab("Page.enable")
             tab("Page.navigate", url=received[1])
-            wait_for(lambda: tab.shows("Frames", "Let time run"))
-            wait_for(lambda: red(tab.picture()) > 0.001)  # the shoulder of the arm
+            wait_until(lambda: tab.shows("Frames", "Let time run"))
+            wait_until(lambda: red(tab.picture()) > 0.001)  # the shoulder of the arm
             for name, words in (
                 ("Joints", ("lift [rad]", "reach [m]")),
                 ("Nodes", ("place [m]", "left_finger (slide)")),
             ):
                 tab.open_panel(name)
-                wait_for(partial(tab.shows, *words))
+                wait_until(partial(tab.shows, *words))
             elsewhere = [
                 url
                 for url in tab.asked
@@ -219,4 +220,4 @@ def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) 
             assert any(url.startswith(received[1]) for url in tab.asked)
         finally:
             served.send_signal(signal.SIGINT)
-        assert served.wait(PATIENCE) == 130
+        assert served.wait(TIMEOUT_S) == 130

@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,7 +24,8 @@ from robocomp_dsl.simulation.view.nodes import quaternion
 from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.world import visual_state
 from tests.simulation.served_worlds import CLIENT, Served, rcgen, run, served
-from tests.support.chromium_tab import PATIENCE, needs_chromium, opened_tab, red, wait_for
+from tests.support.chromium_tab import needs_chromium, opened_tab, red
+from tests.support.waiting import TIMEOUT_S, wait_until
 
 WORLD = """\
 <innerModel>
@@ -126,9 +126,11 @@ def test_live_view_slider_moves_joint_of_world(live: LivePage) -> None:
     world.simulation.advance(0.02)
     live.refresh()
     assert slider.value == 0.8, "it stays under the hand"
-    world.until(lambda: abs(world.ports["Simulation"].getJoints(0, ["neck"])[0] - 0.8) < 0.01)
+    world.advance_until(
+        lambda: abs(world.ports["Simulation"].getJoints(0, ["neck"])[0] - 0.8) < 0.01
+    )
     slider.value = 0.2
-    world.until(lambda: world.ports["Simulation"].getJoints(0, ["neck"])[0] < 0.21)
+    world.advance_until(lambda: world.ports["Simulation"].getJoints(0, ["neck"])[0] < 0.21)
     controls._touched.clear()  # its second is over
     live.refresh()
     assert slider.value == pytest.approx(0.2, abs=0.02)
@@ -231,7 +233,7 @@ def command(*arguments: str, cwd: Path) -> Iterator[subprocess.Popen[str]]:
     finally:
         process.send_signal(signal.SIGINT)
         try:
-            process.wait(PATIENCE)
+            process.wait(TIMEOUT_S)
         finally:
             process.kill()
 
@@ -274,17 +276,17 @@ def test_live_view_shows_driving_robot_in_browser(simulator: Path) -> None:
             screen = {"width": 600, "height": 400, "deviceScaleFactor": 1, "mobile": False}
             tab("Emulation.setDeviceMetricsOverride", **screen)
             tab("Page.navigate", url=received[1])
-            wait_for(lambda: tab.shows("Let time run", "simulated time"))
-            wait_for(lambda: red(tab.picture()) > 0.003)
+            wait_until(lambda: tab.shows("Let time run", "simulated time"))
+            wait_until(lambda: red(tab.picture()) > 0.003)
             before = middle(tab.picture())
             run(simulator, CLIENT + DRIVE, "zenoh", domain, "room_simulator")
-            wait_for(lambda: abs(middle(tab.picture()) - before) > 30)
+            wait_until(lambda: abs(middle(tab.picture()) - before) > 30)
             told_time = lambda: re.search(  # noqa: E731
                 r"simulated time ([\d.]+) s", str(tab.value("document.body.innerText"))
             )
             first = told_time()
             assert first
-            wait_for(lambda: (now := told_time()) and float(now[1]) > float(first[1]) + 1)
+            wait_until(lambda: (now := told_time()) and float(now[1]) > float(first[1]) + 1)
 
 
 DRIVE = """
@@ -314,9 +316,10 @@ def test_live_view_finds_only_simulation_and_reports_missing_one(simulator: Path
 
 
 def asked(ask: list[str], code: int) -> subprocess.CompletedProcess[str]:
-    """The command, again until it ends so, as simulators need a while to start."""
-    deadline = time.monotonic() + PATIENCE
-    while True:
+    """Run the command again until its exit code is `code`: simulators take a while to start."""
+
+    def attempt() -> subprocess.CompletedProcess[str] | None:
         done = subprocess.run(ask, capture_output=True, text=True, check=False)
-        if done.returncode == code or time.monotonic() > deadline:
-            return done
+        return done if done.returncode == code else None
+
+    return wait_until(attempt, f"the command has not ended with {code}")

@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -27,6 +26,7 @@ from robocomp_dsl.hardware.kinematics.cartesian_controller import CartesianState
 from robocomp_dsl.simulation.world.device_host import SimulatedDeviceHost, board_parts
 from robocomp_dsl.simulation.world.simulation import Simulation, SimulationOptions
 from tests.simulation.served_worlds import rcgen, scene_of
+from tests.support.waiting import wait_until
 
 ARM = """\
 <innerModel>
@@ -77,22 +77,19 @@ def plugged(simulation: Simulation, **change: Any) -> SimulatedDeviceHost:
     return SimulatedDeviceHost(simulation, {DEVICES_VARIABLE: json.dumps(DEVICES | change)})
 
 
-def until(simulation: Simulation, what: Callable[[], object]) -> None:
-    end = time.monotonic() + DEADLINE_S
-    while True:
+def wait_until_locked(simulation: Simulation, condition: Callable[[], object]) -> None:
+    """Wait for a condition that is evaluated with the lock of the simulation."""
+
+    def holds() -> object:
         with simulation.lock:
-            if what():
-                return
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.002)
+            return condition()
+
+    wait_until(holds)
 
 
-def judged(devices: SimulatedDeviceHost) -> None:
-    """Look after the devices until they fail, as a component does in every period."""
-    end = time.monotonic() + DEADLINE_S
-    while time.monotonic() < end:
-        devices.raise_if_failed()
-        time.sleep(0.002)
+def poll_until_failure(devices: SimulatedDeviceHost) -> None:
+    """Supervise the devices until they fail, as a component does in every period."""
+    wait_until(devices.raise_if_failed, "the devices have not failed")
 
 
 def positions(simulation: Simulation) -> list[float]:
@@ -105,14 +102,14 @@ def test_device_host_calibrates_uses_and_parks_devices(tmp_path: Path) -> None:
     devices = plugged(result)
     with running(result):
         devices.raise_if_failed()
-        until(result, lambda: devices.ready)
+        wait_until_locked(result, lambda: devices.ready)
         with result.lock:
             assert positions(result) == pytest.approx([0, 0, 0.5], abs=0.05)
             controller = devices["reach"].controller
             goal = controller.pose()[:3, 3] + (20.0, 10.0, -20.0)
             controller.go_to(goal, 0.3)
-        until(result, lambda: controller.state is CartesianState.REACHED)
-        until(result, lambda: np.abs(controller.pose()[:3, 3] - goal).max() < 2.0)
+        wait_until_locked(result, lambda: controller.state is CartesianState.REACHED)
+        wait_until_locked(result, lambda: np.abs(controller.pose()[:3, 3] - goal).max() < 2.0)
         devices.stop()
         with result.lock:
             assert set(result.devices["pan"].board.table.modes) == {Mode.IDLE}
@@ -178,13 +175,13 @@ def test_device_host_restarts_devices_after_reset(
     devices = plugged(result)
     with running(result):
         devices.raise_if_failed()
-        until(result, lambda: devices.ready)
+        wait_until_locked(result, lambda: devices.ready)
         with result.lock:
             before = devices["arm"].board
             result.reset()
         devices.raise_if_failed()
         assert "all devices start again" in caplog.text
-        until(result, lambda: devices.ready)
+        wait_until_locked(result, lambda: devices.ready)
         with result.lock:
             assert devices["arm"].board is not before
             assert positions(result) == pytest.approx([0, 0, 0.5], abs=0.05)
@@ -222,7 +219,7 @@ def test_device_host_reports_failed_startup(
     devices = plugged(result, **change)
     with running(result):
         with pytest.raises(HardwareError, match=message):
-            judged(devices)
+            poll_until_failure(devices)
         devices.stop()
     assert "Traceback" not in caplog.text
 
@@ -290,11 +287,12 @@ def deployed(folder: Path, name: str, seen: Callable[[], bool]) -> str:
             [RCDEPLOY, "lab.ddsl", "up", *options], cwd=folder, stdout=log, stderr=log
         )
         try:
-            end = time.monotonic() + DEADLINE_S
-            while not seen():
+
+            def holds() -> bool:
                 assert process.poll() is None, Path(log.name).read_text()
-                assert time.monotonic() < end, Path(log.name).read_text()
-                time.sleep(0.02)
+                return seen()
+
+            wait_until(holds, Path(log.name).read_text)
         finally:
             process.send_signal(signal.SIGINT)
             code = process.wait(timeout=60)

@@ -240,7 +240,7 @@ def test_visual_state_contains_contacts(tmp_path: Path) -> None:
       <plane id="side" ny="1" size="100,100,100" collide="1"/></transform></innerModel>"""
     world = served(tmp_path, text)
     assert len(world.ports["Simulation"].getSight().contacts) == 0
-    world.until(lambda: len(world.ports["Simulation"].getSight().contacts))
+    world.advance_until(lambda: len(world.ports["Simulation"].getSight().contacts))
     contacts = world.ports["Simulation"].getSight().contacts.reshape(-1, 6)
     assert contacts[:, 2] == pytest.approx(0, abs=0.01)
     assert np.abs(contacts[:, 3:]) == pytest.approx(np.tile([0, 0, 1], (len(contacts), 1)), abs=0.1)

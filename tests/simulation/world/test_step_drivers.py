@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +16,7 @@ from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 from robocomp_dsl.simulation.stepping.clock_leader import ClockLeader
 from robocomp_dsl.simulation.world.simulation import SimulationOptions
 from tests.simulation.served_worlds import ROOM, Served, served
+from tests.support.waiting import wait_until
 
 DEADLINE = 120.0
 
@@ -74,16 +73,9 @@ def source(tmp_path: Path, request: pytest.FixtureRequest) -> Any:
         result.life.stop()
 
 
-def until(condition: Callable[[], Any]) -> None:
-    end = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < end, "it did not come to pass"
-        time.sleep(0.002)
-
-
 def test_clock_leader_advances_world_before_tick(source: Source) -> None:
     source.live()
-    until(lambda: source.clock.now() > 1.0)
+    wait_until(lambda: source.clock.now() > 1.0)
     source.hand.pause()
     state = source.hand.getState()
     assert state.paused
@@ -94,11 +86,11 @@ def test_clock_leader_advances_world_before_tick(source: Source) -> None:
 def test_clock_leader_steps_world_with_clock(source: Source) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     assert source.hand.step(3) == pytest.approx(0.006)
     assert source.ticks[-1].time == 6_000_000
     assert source.hand.step(100) == pytest.approx(0.206)
-    until(lambda: len(source.life.computed) == 21)  # type: ignore[union-attr]
+    wait_until(lambda: len(source.life.computed) == 21)  # type: ignore[union-attr]
     assert source.life.computed == [n / 100 for n in range(21)]  # type: ignore[union-attr]
     assert source.clock.paused
 
@@ -117,7 +109,7 @@ def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyP
 def test_clock_leader_resets_clock_with_world(source: Source) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.hand.step(20)
     saved = source.hand.snapshot()
     source.hand.step(30)
@@ -136,12 +128,12 @@ def test_clock_leader_resets_clock_with_world(source: Source) -> None:
 def test_clock_leader_resets_world_with_clock(source: Source) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.world.ports["robot"].setSpeedBase(300.0, 0.0)
     source.hand.step(250)
     assert source.world.ports["robot"].getBaseState().z > 100
     source.clock.reset()
-    until(lambda: source.ticks[-1].epoch == 1)
+    wait_until(lambda: source.ticks[-1].epoch == 1)
     assert source.hand.step(1) == pytest.approx(0.002)
     assert source.world.ports["robot"].getBaseState().z == 0
 
@@ -149,7 +141,7 @@ def test_clock_leader_resets_world_with_clock(source: Source) -> None:
 def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
     source.hand.setSpeed(4.0)
     source.live()
-    until(lambda: source.hand.getState().realTimeFactor > 0)
+    wait_until(lambda: source.hand.getState().realTimeFactor > 0)
     state = source.hand.getState()
     assert state.speed == source.clock.speed == 4.0
     assert state.realTimeFactor == pytest.approx(source.clock.current_tick.realTimeFactor, abs=2)
@@ -165,16 +157,16 @@ def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
 def test_clock_leader_resets_or_pauses_after_divergence(source: Source) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.hand.step(50)
     source.world.simulation.world.data.qvel[0] = math.inf
     source.clock.resume()
     if source.world.simulation.options.diverged == "stop":
-        until(lambda: source.hand.getState().failure)
-        until(lambda: source.ticks[-1].paused)
+        wait_until(lambda: source.hand.getState().failure)
+        wait_until(lambda: source.ticks[-1].paused)
         assert source.clock.reset_count == 0
         source.hand.reset()
-    until(lambda: source.ticks[-1].epoch == 1 and source.ticks[-1].time > 0)
+    wait_until(lambda: source.ticks[-1].epoch == 1 and source.ticks[-1].time > 0)
     state = source.hand.getState()
     assert (state.failure, state.paused) == ("", False)
 
@@ -211,7 +203,7 @@ def test_wall_clock_selects_real_time_driver(tmp_path: Path) -> None:
     world = served(tmp_path, ROOM, SimulationOptions(speed=0))
     world.simulation.start(WallClock())
     try:
-        until(lambda: world.ports["Simulation"].getState().time > 1.0)
+        wait_until(lambda: world.ports["Simulation"].getState().time > 1.0)
         world.ports["Simulation"].reset()
         assert world.ports["Simulation"].getState().failure == ""
     finally:
