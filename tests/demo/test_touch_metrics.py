@@ -96,5 +96,5 @@ def test_recording_file_round_trips(tmp_path: Path) -> None:
         assert np.array_equal(getattr(back.skin, name), getattr(it.skin, name)), name
     for name in ("robot", "part", "presses", "answers", "rest"):
         assert getattr(back, name) == getattr(it, name), name
-    item, other = back.place("lower_arm_under"), it.place("lower_arm_under")
-    assert (item.limb, item.radius, *item.centre) == (other.limb, other.radius, *other.centre)
+    place, other = back.place("lower_arm_under"), it.place("lower_arm_under")
+    assert (place.limb, place.radius, *place.centre) == (other.limb, other.radius, *other.centre)

@@ -7,7 +7,7 @@ from robocomp_dsl.hardware.kinematics.planar import Pose, arc, wrap_angle
 QUARTER = math.pi / 2
 
 
-def near(pose: Pose) -> object:
+def approximately(pose: Pose) -> object:
     return pytest.approx((pose.x, pose.z, pose.alpha), abs=1e-9)
 
 
@@ -26,13 +26,13 @@ def numbers(pose: Pose) -> tuple[float, float, float]:
     ],
 )
 def test_planar_step_is_in_frame_of_pose(start: Pose, step: Pose, end: Pose) -> None:
-    assert numbers(start.then(step)) == near(end)
+    assert numbers(start.then(step)) == approximately(end)
 
 
 def test_planar_inverse_cancels_pose() -> None:
     pose = Pose(120, -45, 2.2)
-    assert numbers(pose.then(pose.inverse())) == near(Pose())
-    assert numbers(pose.inverse().then(pose)) == near(Pose())
+    assert numbers(pose.then(pose.inverse())) == approximately(Pose())
+    assert numbers(pose.inverse().then(pose)) == approximately(Pose())
 
 
 @pytest.mark.parametrize(
@@ -46,7 +46,7 @@ def test_planar_inverse_cancels_pose() -> None:
     ],
 )
 def test_planar_arc_follows_from_wheel_distances(left: float, right: float, step: Pose) -> None:
-    assert numbers(arc(left, right, 200)) == near(step)
+    assert numbers(arc(left, right, 200)) == approximately(step)
 
 
 def test_planar_angles_are_wrapped_to_one_turn() -> None:

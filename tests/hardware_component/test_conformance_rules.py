@@ -271,7 +271,7 @@ SPOILT = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "at", "spoil"), SPOILT, ids=lambda item: str(item)[:20])
+@pytest.mark.parametrize(("kind", "at", "spoil"), SPOILT, ids=lambda value: str(value)[:20])
 def test_conformance_rule_finds_device_that_breaks_it(
     kind: str, at: int, spoil: Callable[[Device], None]
 ) -> None:

@@ -69,7 +69,7 @@ def hardware(motor: Motor) -> Iterator[DriverHost]:
     result = DriverHost(motor, ("pan",), motors=True)
     yield result
     result.close()
-    assert "motors" not in {item.name for item in threading.enumerate()}
+    assert "motors" not in {thread.name for thread in threading.enumerate()}
 
 
 def test_driver_host_refuses_calls_before_device_is_opened(hardware: DriverHost) -> None:

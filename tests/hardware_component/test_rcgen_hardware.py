@@ -1,4 +1,4 @@
-"""`rcgen hardware`: the twin of each device is clean, typed and tested; code runs on both alike."""
+"""`rcgen hardware`: the component of a device, from a world or a model file."""
 
 from __future__ import annotations
 
@@ -11,11 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.support import waiting
+from tests.hardware_component.driver_programs import BUS, CLIENT, SIMULATED_DRIVER
 from tests.support.generated_package import package_in, with_package
 
 RCGEN = Path(sys.executable).with_name("rcgen")
+
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+
 WORLD = """\
 <innerModel>
   <transform id="floor">
@@ -39,15 +41,17 @@ WORLD = """\
   </transform>
 </innerModel>
 """
+
 DEVICES = ("laser", "eye", "depth", "sonar", "robot", "inertia", "sat", "cell", "bump",
            "nod,neck", "platform")  # fmt: skip
+
 TYPED = ("laser", "nod,neck", "robot")
 """Those whose types are checked; it takes seconds each."""
 
 
 def run(*command: str | Path, cwd: Path, **env: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [str(item) for item in command],
+        [str(argument) for argument in command],
         cwd=cwd,
         capture_output=True,
         text=True,
@@ -90,139 +94,6 @@ def test_hardware_component_is_clean_typed_and_tested(home: Path, ids: str) -> N
     assert "`open` of driver.py is not implemented yet" in done.stdout
 
 
-SIMULATED_DRIVER = '''
-    def open(self) -> None:
-        """Another process' worth of physics stands for the device."""
-        if Path(self.params.address).exists():
-            raise OSError("the cable is out")
-        self.world = Simulation.read(Path(__file__).parent / "PACKAGE" / "scene.json")
-        self.world.start()
-
-    def close(self) -> None:
-        """Let go of it."""
-        if hasattr(self, "world"):
-            self.world.stop()
-            del self.world
-
-    @property
-    def settings(self) -> LaserSettings:
-        """How the laser scans."""
-        return LaserSettings(101, 57.2958, 100.0, 30000.0)
-
-    def scan(self) -> Scan:
-        """The latest scan."""
-        if Path(self.params.address).exists():
-            raise OSError("the cable is out")
-        with self.world.lock:
-            return self.world.devices["laser"].scan()
-'''
-WAITING = f"""
-import sys
-from functools import partial
-sys.path.append({str(Path(waiting.__file__).parent)!r})
-from waiting import wait_until
-"""
-CLIENT = (
-    WAITING
-    + """
-wait_until = partial(wait_until, ignoring=Exception)
-from robocomp_dsl.runtime.component.component_interface import COMPONENT, LifeState
-from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.registry import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
-from robocomp_dsl.runtime.component.statistics import Statistics
-from PACKAGE.interfaces import LASER
-from pathlib import Path
-
-name, domain, cable = sys.argv[1:]
-context = MiddlewareContext("client", domain, CallbackGroup(), Statistics())
-middleware = open_middleware("zenoh", context)
-
-def bound(interface, port, operation):
-    link = middleware.proxy(Endpoint(interface, "client", "x", (f"{name}.{port}",)))
-    assert link.wait(100), port
-    return link.bind(next(o for o in interface.operations if o.name == operation))
-
-def work():
-    scan = bound(LASER, "laser", "getLaserData")
-    wait_until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
-    assert bound(LASER, "laser", "getLaserConfData")().maxMeasures == 101
-    if cable:
-        info = bound(COMPONENT, "Component", "getInfo")
-        Path(cable).touch()
-        wait_until(lambda: info().state == LifeState.Emergency)
-        try:
-            scan()
-            raise SystemExit("a scan without a cable")
-        except Exception as error:
-            assert "the cable is out" in str(getattr(error, "what", error)), error
-        Path(cable).unlink()
-        wait_until(lambda: info().state == LifeState.Compute)
-        wait_until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
-
-try:
-    work()
-finally:
-    middleware.close()
-"""
-)
-
-
-BUS = (
-    WAITING
-    + """
-import time
-import numpy as np
-from driver import Driver
-from PACKAGE import interfaces as i
-from PACKAGE.hardware import IDS, PORTS
-from PACKAGE.params import ArmParams
-from robocomp_dsl.hardware.drivers.driver_host import DriverHost
-from robocomp_dsl.hardware.devices.errors import HardwareError
-from robocomp_dsl.runtime import ServedPort
-
-class FreeArm(Driver):
-    "Joints without load."
-    torque = np.zeros(6)
-    at, speed, last = np.array([1.2, 0.2, 0, -0.5, 0, 0.5]), np.zeros(6), time.perf_counter()
-
-    def open(self):
-        self.last = time.perf_counter()
-
-    def read(self):
-        now = time.perf_counter()
-        for _ in range(min(round((now - self.last) / 5e-4), 100)):
-            self.speed = self.speed + (self.torque - 0.02 * self.speed) / 5e-3 * 5e-4
-            self.at = self.at + self.speed * 5e-4
-        self.last = now
-        return self.at.copy(), self.speed.copy()
-
-    def write(self, torque):
-        self.torque = torque
-
-hardware = DriverHost(FreeArm(ArmParams()), IDS, motors=True)
-served = [ServedPort("LArm", i.CONTROLBOARD), ServedPort("JointMotor", i.JOINTMOTOR)]
-ports = hardware.serve(served, PORTS)
-try:
-    ports["LArm"].getState()
-    raise SystemExit("a state of motors that are not there")
-except HardwareError as error:
-    assert "has not been opened yet" in str(error), error
-hardware.open()
-assert [joint.name for joint in ports["LArm"].getJoints()] == IDS
-ports["LArm"].setControlMode([], i.ControlMode.Position)
-ports["LArm"].setReferenceSpeed(["LShoulderPitch"], np.array([1.0]))
-ports["LArm"].positionMove(["LShoulderPitch"], np.array([0.9]))
-wait_until(
-    lambda: abs(ports["LArm"].getState().position[0] - 0.9) < 0.02,
-    lambda: str(ports["LArm"].getState().position),
-)
-assert abs(ports["JointMotor"].getMotorState("LShoulderPitch").pos - 0.9) < 0.05
-hardware.close()
-"""
-)
-
-
 def run_client(folder: Path, name: str, domain: str, cable: str) -> None:
     """The client against the component in `folder`, which ends in order."""
     options = ("--name", name, "--domain", domain, "--middleware", "zenoh")
@@ -257,13 +128,15 @@ def test_hardware_component_runs_user_code_of_simulated_laser(home: Path, tmp_pa
 
 def test_rcgen_hardware_keeps_user_files(home: Path) -> None:
     folder = twin(home, "bump", "bumper")
-    mine = [folder / item for item in ("driver.py", "test_bumper.py", "bumper.pdsl", "bumper.cdsl")]
-    for item in mine:
-        item.write_text(f"{item.read_text()}\n")
-    before = [item.read_bytes() for item in mine]
+    user_files = [
+        folder / name for name in ("driver.py", "test_bumper.py", "bumper.pdsl", "bumper.cdsl")
+    ]
+    for path in user_files:
+        path.write_text(f"{path.read_text()}\n")
+    before = [path.read_bytes() for path in user_files]
     done = run(RCGEN, "hardware", "bumper", "--like", "world.xml#bump", cwd=home)
     assert "0 of" in done.stdout
-    assert [item.read_bytes() for item in mine] == before
+    assert [path.read_bytes() for path in user_files] == before
 
 
 def test_hardware_component_motors_keep_configured_order(home: Path) -> None:

@@ -41,11 +41,11 @@ class Node:
     def news(self) -> NewsProxy:
         return NewsProxy(self.middleware.advertise(Endpoint(NEWS, self.name, "News")))
 
-    def hear(
+    def subscribe(
         self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
     ) -> None:
         at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
-        self.middleware.subscribe(at, {"spoke": handler}, self.execution)
+        self.middleware.subscribe(at, {"announced": handler}, self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:
         return self.statistics.of(port, operation)

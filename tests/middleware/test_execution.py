@@ -14,7 +14,7 @@ def blocked(free: threading.Event) -> None:
     free.wait(DEADLINE)
 
 
-def met(both: threading.Barrier) -> None:
+def wait_for_both(both: threading.Barrier) -> None:
     both.wait()
 
 
@@ -76,8 +76,8 @@ def test_handlers_of_others_run_while_one_waits(network: Network) -> None:
 def test_handlers_overlap_with_several_threads(network: Network) -> None:
     both = threading.Barrier(2, timeout=DEADLINE)
     server = network.node("server", threads=2)
-    server.serve({"block": lambda: met(both)})
-    server.serve({"block": lambda: met(both)}, port="Second")
+    server.serve({"block": lambda: wait_for_both(both)})
+    server.serve({"block": lambda: wait_for_both(both)}, port="Second")
     clients = [network.node(f"c{i}") for i in range(2)]
     probes = [clients[0].probe("server.Probe"), clients[1].probe("server.Second")]
     with ThreadPoolExecutor(2) as pool:

@@ -38,7 +38,7 @@ class Base(Component):
         return v
 
     def compute(self) -> None:
-        self.news.spoke(self.name, 0)
+        self.news.announced(self.name, 0)
 
 
 class Arm(Component):
@@ -46,14 +46,14 @@ class Arm(Component):
         name="arm",
         period=0,
         requires=(CalledPort("Probe", ProbeProxy, "probe"),),
-        subscribes=(ServedPort("News", NEWS, {"spoke": "heard"}),),
+        subscribes=(ServedPort("News", NEWS, {"announced": "received"}),),
     )
     probe: ProbeProxy
 
     def __init__(self) -> None:
         self.publishers: set[str] = set()
 
-    def heard(self, who: str, _n: int) -> None:
+    def received(self, who: str, _n: int) -> None:
         self.publishers.add(who)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -56,7 +57,7 @@ def test_prefix_selects_server_beside(network: Network, client: str, server: str
         ("arm", ("left/base",), "left/base"),
     ],
 )
-@pytest.mark.usefixtures("hasty")
+@pytest.mark.usefixtures("short_discovery_timeout")
 def test_prefix_selects_outer_server_then_inner_server(
     network: Network, client: str, there: tuple[str, ...], server: str
 ) -> None:
@@ -64,7 +65,7 @@ def test_prefix_selects_outer_server_then_inner_server(
     assert there[asked_when_all_are_known(network, client, len(there))] == server
 
 
-@pytest.mark.usefixtures("hasty")
+@pytest.mark.usefixtures("short_discovery_timeout")
 def test_prefix_excludes_server_on_another_branch(network: Network) -> None:
     serve(network, "right/base", "leftish/base")
     with pytest.raises(NoServer, match=r"no component serves Test::Probe, which left/arm requires"):
@@ -107,23 +108,23 @@ def _known(probe: ProbeProxy, network: Network) -> list[object]:
 
 def test_prefix_keeps_topics_on_their_branch(network: Network) -> None:
     names = ("base", "left/base", "right/base", "left/hand/base")
-    heard: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
-    for name, into in heard.items():
-        network.node(name).hear(lambda who, _n, into=into: into.add(who))
+    received: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
+    for name, into in received.items():
+        network.node(name).subscribe(lambda who, _n, into=into: into.add(who))
     proxies = {name: network.node(name).news() for name in names}
-    _publish(proxies, lambda: sum(map(len, heard.values())) == 4 + 3 + 2)
-    assert heard["arm"] == set(names)
-    assert heard["left/arm"] == {"base", "left/base", "left/hand/base"}
-    assert heard["right/arm"] == {"base", "right/base"}
+    _publish(proxies, lambda: sum(map(len, received.values())) == 4 + 3 + 2)
+    assert received["arm"] == set(names)
+    assert received["left/arm"] == {"base", "left/base", "left/hand/base"}
+    assert received["right/arm"] == {"base", "right/base"}
 
 
-def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
-    """Everybody again and again, so that whoever was heard by mistake has been heard often."""
+def _publish(proxies: dict[str, NewsProxy], condition: Callable[[], object]) -> None:
+    """Publish on all proxies repeatedly, so that a message on a wrong branch is received, too."""
 
     def again() -> bool:
         for name, proxy in proxies.items():
-            proxy.spoke(name, 0)
-        return until()  # type: ignore[operator,no-any-return]
+            proxy.announced(name, 0)
+        return bool(condition())
 
     wait_until(again)
     for _ in range(3):
@@ -131,10 +132,10 @@ def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
 
 
 def test_prefix_publisher_does_not_wait_for_another_branch(network: Network) -> None:
-    network.node("right/arm").hear(lambda *_: None)
+    network.node("right/arm").subscribe(lambda *_: None)
     publisher = network.node("left/base").news()
     assert not publisher.wait_for_server(0.2)
-    network.node("left/arm").hear(lambda *_: None)
+    network.node("left/arm").subscribe(lambda *_: None)
     assert publisher.wait_for_server(DEADLINE)
 
 
@@ -149,15 +150,15 @@ def test_prefix_selects_named_port_beside(network: Network) -> None:
 
 
 def test_prefix_routes_publications_of_named_port(network: Network) -> None:
-    heard: set[str] = set()
-    network.node("left/arm").hear(lambda who, _n: heard.add(who), "*.scan")
+    received: set[str] = set()
+    network.node("left/arm").subscribe(lambda who, _n: received.add(who), "*.scan")
     proxies = {}
     for name in ("left/base", "right/base"):
         node = network.node(name)
         for port in ("scan", "other"):
             proxies[f"{name}.{port}"] = _news(node, port)
-    _publish(proxies, lambda: heard)
-    assert heard == {"left/base.scan"}
+    _publish(proxies, lambda: received)
+    assert received == {"left/base.scan"}
 
 
 def _news(node: Node, port: str) -> NewsProxy:

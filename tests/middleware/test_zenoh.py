@@ -88,9 +88,9 @@ def test_zenoh_refuses_and_counts_malformed_requests(network: Network, payload: 
 
 
 def test_zenoh_counts_malformed_commands(network: Network) -> None:
-    heard: list[str] = []
+    received: list[str] = []
     server = network.node("server")
-    server.serve({"note": heard.append})
+    server.serve({"note": received.append})
     key = f"{keys.port_key(network.domain, 'c', Endpoint(PROBE, 'server', 'Probe'))}/note"
     raw = open_session(network.domain)
     try:
@@ -101,7 +101,7 @@ def test_zenoh_counts_malformed_commands(network: Network) -> None:
     finally:
         raw.close()
     network.node("client").probe().note("still here")
-    wait_until(lambda: heard == ["still here"])
+    wait_until(lambda: received == ["still here"])
 
 
 def test_zenoh_reports_malformed_reply_to_caller(network: Network) -> None:
@@ -226,7 +226,7 @@ def test_zenoh_reports_interface_mismatch_on_both_sides_of_topic(
     network: Network, caplog: pytest.LogCaptureFixture
 ) -> None:
     subscriber, publisher = network.node("listener"), network.node("speaker")
-    subscriber.hear(lambda *_: None)
+    subscriber.subscribe(lambda *_: None)
     publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
     wait_until(lambda: "listener and speaker cannot communicate" in caplog.text)
     wait_until(lambda: "speaker and listener cannot communicate" in caplog.text)

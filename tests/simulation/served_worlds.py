@@ -65,7 +65,7 @@ def scene_of(path: Path, text: str) -> Scene:
     path.write_text(text)
     report = Report()
     body = check_innermodel(path, Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert body is not None
     return Scene.of_data(lower_body(body))
 
@@ -205,7 +205,7 @@ def served(
     report = Report()
     body = check_innermodel(path, Workspace(environ={}), report)
     assert body is not None
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     return _served(folder, serving_also(simulator(body), also), options)
 
 
@@ -214,10 +214,10 @@ def served_model(folder: Path, text: str, name: str = "robot.xml") -> Served:
     path = folder / name
     path.write_text(text)
     report = Report()
-    result = model_world(path, (), report, lambda result: result)
-    assert [item.message for item in report] == []
-    assert result is not None
-    return _served(folder, result, SimulationOptions(step=result.step / 1000))
+    simulator = model_world(path, (), report, lambda simulator: simulator)
+    assert [finding.message for finding in report] == []
+    assert simulator is not None
+    return _served(folder, simulator, SimulationOptions(step=simulator.step / 1000))
 
 
 def _served(folder: Path, simulator: Simulator, options: SimulationOptions | None) -> Served:
@@ -226,7 +226,7 @@ def _served(folder: Path, simulator: Simulator, options: SimulationOptions | Non
     for description in descriptions(simulator):
         workspace.sources.set_overlay(folder / description.path, description.text)
     component = check_cdsl(folder / f"{simulator.name}.cdsl", workspace, report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert component is not None
     written = {file.path: file.text for file in files(simulator, component)}
     package = folder / package_of(component.name)

@@ -43,30 +43,30 @@ scan = laser.getLaserData()
 middle = float(scan.dist[len(scan) // 2])
 assert abs(middle - 3100) < 1, middle  # 3000 to the wall, from -300 + 200
 robot.setSpeedBase(400.0, 0.0)
-until(lambda: robot.getBaseState().correctedZ > 200)
+wait_until(lambda: robot.getBaseState().correctedZ > 200)
 robot.stopBase()
-until(lambda: not robot.getBaseState().isMoving)
+wait_until(lambda: not robot.getBaseState().isMoving)
 state = robot.getBaseState()
-until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
+wait_until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
 failed = i.RoboCompGenericBase_HardwareFailedException
 error = refusal_of(failed, robot.setSpeedBase, float("nan"), 0.0)
 assert "finite" in error.what, error.what
 sideways = proxy(i.OMNIROBOT, "platform")
 sideways.setSpeedBase(300.0, 0.0, 0.0)
-until(lambda: sideways.getBaseState().correctedX > -1900)
+wait_until(lambda: sideways.getBaseState().correctedX > -1900)
 motors = proxy(i.JOINTMOTOR, "JointMotor")
 motors.setPosition(i.MotorGoalPosition("neck", 0.5, 0.0))
-until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
-heard = []
+wait_until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
+states = []
 topic = Endpoint(i.JointMotorPubProxy.INTERFACE, "client", "JointMotorPub")
-middleware.subscribe(topic, {"motorStates": heard.append}, CallbackGroup())
-until(lambda: heard and abs(heard[-1]["neck"].pos - 0.5) < 0.01)
+middleware.subscribe(topic, {"motorStates": states.append}, CallbackGroup())
+wait_until(lambda: states and abs(states[-1]["neck"].pos - 0.5) < 0.01)
 refusal_of(i.UnknownMotorException, motors.getMotorState, "nobody")
 nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
 near = laser.getLaserData().dist[50] / 2
 where = state.correctedZ + 200 + near
 nodes.addPlane("crate", "floor", i.Plane3D(500.0, 140.0, where, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0))
-until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
+wait_until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
 missing = refusal_of(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
 assert missing.err is i.ErrorType.NonExistingNode
 hand = proxy(i.SIMULATION, "Simulation")
@@ -78,7 +78,7 @@ assert abs(hand.advance(fork, 1.0) - now - 1.02) < 1e-9
 assert abs(hand.getState().time - now - 0.02) < 1e-9
 refusal_of(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
 hand.resume()
-until(lambda: hand.getState().time > now + 0.1)
+wait_until(lambda: hand.getState().time > now + 0.1)
 print("driven")
 """
 
@@ -101,7 +101,7 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 settings = RunSettings(middleware="inproc", clock=parse_clock("sim,from=another"))
 runner = Runner(SpecificWorker, SpecificWorker.SPEC.parameters.load("etc/config.yaml"), settings)
 runner.start()
-until(lambda: hasattr(runner.worker, "devices"))
+wait_until(lambda: hasattr(runner.worker, "devices"))
 print(refusal_of(ParameterRejected, runner.params.set, {"speed": 2.0}))
 runner.stop()
 assert runner.wait()

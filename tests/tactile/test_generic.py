@@ -30,7 +30,7 @@ def test_generic_modules_name_no_robot(package):
 def test_touch_interfaces_have_no_findings(name):
     report = Report()
     check_file(INTERFACES / f"{name}.idsl", Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
 
 
 def values(file: str, enum: str) -> list[str]:
@@ -46,4 +46,4 @@ def test_touch_interface_enumerations_match_code():
     renamed = {"HARDWARE_FAULT": "HW_FAULT", "CALIBRATION_DONE": "CALIB_DONE"}
     modes = [renamed.get(value, value) for value in values("ControlBoard.idsl", "ControlMode")]
     assert modes == [mode.name for mode in Mode]
-    assert values("ControlBoard.idsl", "InteractionMode") == [item.name for item in Interaction]
+    assert values("ControlBoard.idsl", "InteractionMode") == [mode.name for mode in Interaction]

@@ -25,7 +25,7 @@ KERNEL = ForceKernel(SKIN.points, ONE_LIMB, 1)
 spots = st.tuples(st.floats(0.0, 0.13), st.floats(-3.2, 3.2), st.floats(0.01, 0.06))
 
 
-def slow(points, forces, sigma=0.005):
+def distribute_directly(points, forces, sigma=0.005):
     """The rule as it is written down, contact by contact."""
     felt, missed = np.zeros(len(SKIN.points)), 0.0
     for point, force in zip(points, forces, strict=True):
@@ -45,7 +45,7 @@ def test_kernel_grid_matches_direct_sum(places, seed):
     points = np.stack((x, rho * np.sin(theta), rho * np.cos(theta)), axis=1)
     forces = np.random.default_rng(seed).uniform(0, 10, len(points))
     share = KERNEL.distribute(points, np.zeros(len(points), np.int64), forces)
-    felt, missed = slow(points, forces)
+    felt, missed = distribute_directly(points, forces)
     assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
     assert share.off_skin == pytest.approx(missed)
     assert share.taxel_forces.sum() + share.off_skin == pytest.approx(forces.sum())
@@ -58,7 +58,7 @@ def test_kernel_of_any_width_matches_direct_sum(sigma):
     forces = rng.uniform(0, 10, len(points))
     kernel = ForceKernel(SKIN.points, ONE_LIMB, 1, sigma)
     share = kernel.distribute(points, np.zeros(len(points), np.int64), forces)
-    felt, missed = slow(points, forces, sigma)
+    felt, missed = distribute_directly(points, forces, sigma)
     assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
     assert share.off_skin == pytest.approx(missed)
 

@@ -35,10 +35,10 @@ def start_physical_reflex() -> Iterator[Callable[..., ReflexHarness]]:
     for system in systems:
         system.close()
     for system in systems:
-        keeps_to_its_limits(system.robot)
+        assert_within_limits(system.robot)
 
 
-def keeps_to_its_limits(robot: PhysicalRobot) -> None:
+def assert_within_limits(robot: PhysicalRobot) -> None:
     """The angles and speeds that the joints really had, whatever was commanded."""
     poses, speeds = np.array(robot.poses), np.abs(robot.speeds)
     assert (poses >= robot.arm.low).all()
@@ -90,7 +90,7 @@ def strength(harness: ReflexHarness, name: str) -> float:
     return max((event.gain for event in events(harness) if event.field == name), default=0.0)
 
 
-def only(harness: ReflexHarness, *names: str) -> None:
+def set_fields(harness: ReflexHarness, *names: str) -> None:
     harness.reflex.setFields([field for field in harness.reflex.getFields() if field.name in names])
 
 
@@ -102,7 +102,7 @@ def test_reflex_responses_to_physics_match_equations(start_physical_reflex, robo
     """Rows 2, 3 and 7 of the acceptance table, with the forces that physics makes of a press."""
     harness = start_physical_reflex(robot, "left_arm", full=5.0)
     it, place = harness.robot, "lower_arm_outer"
-    only(harness, place)
+    set_fields(harness, place)
     it.press(harness.field(place), 0.003, 0.3, along=0.006)
     harness.run(0.4)
     responses = events(harness)
@@ -123,7 +123,7 @@ def test_reflex_responses_to_physics_match_equations(start_physical_reflex, robo
 def test_reflex_saturates_at_hard_press_on_centre(start_physical_reflex, robot, place) -> None:
     """Rows 1 and 6: as far as the base motion says, and no further."""
     harness = start_physical_reflex(robot, "right_arm", threshold=0.01, full=0.05)
-    only(harness, place)
+    set_fields(harness, place)
     start, field = harness.robot.poses[-1], harness.field(place)
     harness.robot.press(field, 0.004, 0.3)
     harness.run(0.3)

@@ -52,7 +52,7 @@ def test_shipped_reflex_withdraws_from_finger_and_returns(system: ShippedSystem)
         system.run_until("Watching")
         system.run(0.5)
         assert system.arm.getState().position == pytest.approx(start, abs=0.03), place
-    keeps_to_its_limits(system)
+    assert_within_limits(system)
 
 
 def test_shipped_reflex_ignores_touch_below_threshold_and_outside_fields(
@@ -124,10 +124,10 @@ def test_shipped_reflex_stops_arm_when_skin_ends_and_recovers(system: ShippedSys
     system.world.params.set({"skin.rate": 50.0})
     system.run_until("Watching")
     assert system.runners[1].state is LifecycleState.COMPUTE
-    keeps_to_its_limits(system)
+    assert_within_limits(system)
 
 
-def keeps_to_its_limits(system: ShippedSystem) -> None:
+def assert_within_limits(system: ShippedSystem) -> None:
     """What the joints in the physics really did, from the first moment on."""
     angles, speeds = system.joints()
     assert angles.min() >= 0.0

@@ -49,13 +49,13 @@ def system(robot: ShippedSystem) -> Iterator[ShippedSystem]:
     robot.run(1.0)  # the refractory time
 
 
-def only(system: ShippedSystem, field: Field) -> None:
+def set_field(system: ShippedSystem, field: Field) -> None:
     limb = f"{system.side}/{field.limb}"
     message = interfaces.Field(field.name, limb, *field.centre.tolist(), field.radius, field.motion)
     system.reflex.setFields([message])
 
 
-def moved(system: ShippedSystem, name: str, x: float, radius: float) -> Field:
+def field_at(system: ShippedSystem, name: str, x: float, radius: float) -> Field:
     """A field as wide as this at another place along the limb of `name`, on its cone."""
     field = system.field(name)
     cone = system.part.limb(field.limb).cone
@@ -87,7 +87,7 @@ def test_reflex_counts_fingers_on_both_sides_as_two_touches(system: ShippedSyste
     """Row 8: one mean of both lies inside the limb, where no field would answer."""
     system.reflex.enable(False)
     count, field = system.reflex.getStatistics().withdrawals, system.field(OUTER)
-    only(system, field)
+    set_field(system, field)
     system.press(field, 0.002)
     system.press(system.field("lower_arm_inner"), 0.002, finger=OTHER)
     events = answer(system)
@@ -108,10 +108,10 @@ def test_reflex_response_is_unchanged_by_touch_elsewhere_on_limb(system: Shipped
     """Row 9: the second finger presses the same limb beyond the field, at the same time."""
     system.reflex.enable(False)
     count, cone = system.reflex.getStatistics().withdrawals, system.part.limb("lower_arm").cone
-    field = moved(system, OUTER, cone.x0 + 0.01, 0.02)
-    only(system, field)
+    field = field_at(system, OUTER, cone.x0 + 0.01, 0.02)
+    set_field(system, field)
     system.press(field, 0.003)
-    system.press(moved(system, OUTER, cone.x1 - 0.01, 0.02), 0.003, finger=OTHER)
+    system.press(field_at(system, OUTER, cone.x1 - 0.01, 0.02), 0.003, finger=OTHER)
     events = answer(system)
     points, forces = pressed_taxels(system, events)
     mine = points[:, 0] < (cone.x0 + cone.x1) / 2

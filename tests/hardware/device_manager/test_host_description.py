@@ -46,7 +46,7 @@ def test_deployment_plan_passes_device_descriptions_to_processes(tmp_path: Path)
     path.write_text(DDSL)
     report = Report()
     deployment = check_ddsl(path, Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert deployment is not None
     result = plan(deployment, name="demo", domain="d", interpreter="python3")
     body, plain = result.processes

@@ -44,7 +44,7 @@ def test_control_modes_change_and_faults_end_by_force_idle(arm):
     )
     arm.world.advance(0.01)
     assert modes(arm) == {(Mode.HW_FAULT, Interaction.STIFF)}
-    assert {item.code for item in arm.board.faults.last} == {FaultCode.OVERCURRENT}
+    assert {fault.code for fault in arm.board.faults.last} == {FaultCode.OVERCURRENT}
     arm.board.motors.set_max_current(
         np.arange(len(arm.spec.joints)), np.full(len(arm.spec.joints), 10.0)
     )

@@ -32,8 +32,8 @@ def test_movement_references_are_read_back_as_written(arm, name):
     everyone = share(arm, name, value)
     assert not getattr(arm.command, command)(None, everyone).any()
     assert getattr(targets(arm.board), name) == pytest.approx(everyone)
-    item = arm.spec.names[3]  # a single one, by name: the others stay
-    getattr(arm.command, command)([item], everyone[3] * 0.9)
+    joint = arm.spec.names[3]  # a single one, by name: the others stay
+    getattr(arm.command, command)([joint], everyone[3] * 0.9)
     everyone[3] *= 0.9
     assert getattr(targets(arm.board), name) == pytest.approx(everyone)
     group = [4, 0]  # a group, in any order

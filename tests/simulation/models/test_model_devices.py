@@ -21,14 +21,14 @@ def described(folder: Path, text: str, name: str = "robot.xml") -> ModelDescript
 
 
 def settings(folder: Path, text: str, name: str = "robot.xml") -> dict[str, dict[str, Any]]:
-    result = described(folder, text, name)
-    return {device["id"]: device["settings"] for device in result.scene["devices"]}
+    description = described(folder, text, name)
+    return {device["id"]: device["settings"] for device in description.scene["devices"]}
 
 
 def test_model_devices_have_ports(tmp_path: Path) -> None:
-    result = described(tmp_path, ARM)
-    assert result.findings == []
-    ports = [(item.port, item.interface, item.ids) for item in served(result.scene)]
+    description = described(tmp_path, ARM)
+    assert description.findings == []
+    ports = [(port.port, port.interface, port.ids) for port in served(description.scene)]
     assert ports == [
         ("JointMotor", "JointMotor", ["elbow", "shoulder", "grip"]),
         ("arm", "ControlBoard", ["elbow", "shoulder"]),
@@ -41,7 +41,10 @@ def test_model_devices_have_ports(tmp_path: Path) -> None:
         ("InnerModelManager", "InnerModelManager", [""]),
         ("Simulation", "Simulation", [""]),
     ]
-    assert not_served(result.scene) == [("follower", "followingjoint"), ("hinge", "passivejoint")]
+    assert not_served(description.scene) == [
+        ("follower", "followingjoint"),
+        ("hinge", "passivejoint"),
+    ]
 
 
 def test_model_limits_come_from_joints_actuators_and_numbers(tmp_path: Path) -> None:
@@ -93,8 +96,8 @@ def test_model_force_limits_are_read(tmp_path: Path, text: str, force: float) ->
 
 def test_model_devices_without_name_get_one(tmp_path: Path) -> None:
     text = model('<joint/><joint axis="1 0 0"/>').replace("<body>", "<camera/><body>")
-    result = described(tmp_path, text)
-    assert [device["id"] for device in result.scene["devices"]] == [
+    description = described(tmp_path, text)
+    assert [device["id"] for device in description.scene["devices"]] == [
         "body1.joint0",
         "body1.joint1",
         "camera0",
@@ -105,18 +108,18 @@ def test_model_joint_in_two_tuples_stays_in_first(tmp_path: Path) -> None:
     tuples = "".join(
         f'<tuple name="{name}"><element objtype="joint" objname="j"/></tuple>' for name in "ab"
     )
-    result = described(tmp_path, model(HINGE, f"<custom>{tuples}</custom>"))
-    assert result.scene["devices"][0]["settings"]["board"] == "a"
-    assert [finding.message for finding in result.findings] == [
+    description = described(tmp_path, model(HINGE, f"<custom>{tuples}</custom>"))
+    assert description.scene["devices"][0]["settings"]["board"] == "a"
+    assert [finding.message for finding in description.findings] == [
         "`j` is in `b` and stays on the board `a`"
     ]
 
 
 def test_model_reports_invalid_speed(tmp_path: Path) -> None:
     text = model(HINGE, '<custom><numeric name="speed_j" data="-1"/></custom>')
-    result = described(tmp_path, text)
-    assert result.scene["devices"][0]["settings"]["speed"] == pytest.approx(6.2832, abs=1e-4)
-    assert "speed_j" in result.findings[0].message
+    description = described(tmp_path, text)
+    assert description.scene["devices"][0]["settings"]["speed"] == pytest.approx(6.2832, abs=1e-4)
+    assert "speed_j" in description.findings[0].message
 
 
 @pytest.mark.parametrize(("values", "received"), [("", []), ('armature="0.1"', ["too light"])])
@@ -124,9 +127,9 @@ def test_model_adds_inertia_to_joint_of_strong_motor(
     tmp_path: Path, values: str, received: list[str]
 ) -> None:
     """Else no controller could hold it at that step; told where the file says otherwise."""
-    result = described(tmp_path, model(f'<joint name="j" {values}/>', MOTOR.format(900)))
-    assert result.scene["devices"][0]["settings"]["armature"] == pytest.approx(1.8, abs=0.01)
-    assert [finding.message[:9] for finding in result.findings] == received
+    description = described(tmp_path, model(f'<joint name="j" {values}/>', MOTOR.format(900)))
+    assert description.scene["devices"][0]["settings"]["armature"] == pytest.approx(1.8, abs=0.01)
+    assert [finding.message[:9] for finding in description.findings] == received
 
 
 def test_model_devices_with_shared_names_are_renamed(tmp_path: Path) -> None:
@@ -134,10 +137,10 @@ def test_model_devices_with_shared_names_are_renamed(tmp_path: Path) -> None:
     text = model('<joint name="a" armature="1"/><site name="a"/><camera name="a"/>').replace(
         "<body>", '<body name="a">'
     )
-    result = described(tmp_path, text)
-    frames = [item["id"] for item in result.scene["frames"]]
+    description = described(tmp_path, text)
+    frames = [frame["id"] for frame in description.scene["frames"]]
     assert frames == ["root", "a#2.at", "a#2", "a", "a#3"]
-    assert [(item["id"], item["frame"]) for item in result.scene["devices"]] == [
+    assert [(device["id"], device["frame"]) for device in description.scene["devices"]] == [
         ("a", "a#2"),
         ("a#4", "a"),
     ]
@@ -178,9 +181,9 @@ def test_model_joints_share_motors(
     tmp_path: Path, numbers: str, couplings: dict[str, list[float]], received: list[str]
 ) -> None:
     text = ARM.replace("<custom>", f'<custom><numeric name="coupling_arm" data="{numbers}"/>')
-    result = described(tmp_path, text)
-    assert result.scene["model"].get("couplings", {}) == couplings
-    assert [finding.message[18:33] for finding in result.findings] == received
+    description = described(tmp_path, text)
+    assert description.scene["model"].get("couplings", {}) == couplings
+    assert [finding.message[18:33] for finding in description.findings] == received
 
 
 def test_model_tendon_motors_keep_their_command(tmp_path: Path) -> None:
@@ -190,13 +193,15 @@ def test_model_tendon_motors_keep_their_command(tmp_path: Path) -> None:
         "</actuator>", '<motor name="pull" tendon="t"/></actuator>'
     )
     text = text.replace('name="home"', 'name="home" ctrl="0.5 0.5 0.5 0.5 0.7"')
-    result = described(tmp_path, text)
-    assert [finding.message for finding in result.findings] == [
+    description = described(tmp_path, text)
+    assert [finding.message for finding in description.findings] == [
         "not on one joint, so on no control board; they keep the commands of the start: `pull`"
     ]
-    assert result.scene["model"]["held"] == {"pull": 0.7}
-    file = {"model": result.scene["model"] | {"file": "robot.xml"}}
-    it = Simulation(Scene.of_data(result.scene | file, tmp_path), SimulationOptions(step=0.001))
+    assert description.scene["model"]["held"] == {"pull": 0.7}
+    file = {"model": description.scene["model"] | {"file": "robot.xml"}}
+    it = Simulation(
+        Scene.of_data(description.scene | file, tmp_path), SimulationOptions(step=0.001)
+    )
     it.advance(0.01)
     assert it.world.data.actuator("pull").ctrl[0] == 0.7
 
@@ -219,15 +224,17 @@ def test_model_boards_may_command_joints_outside_model(
         f'<numeric name="transmission_arm" data="{matrix}"/>'
         '<numeric name="range_bend" data="-0.5 0.25"/>'
     )
-    result = described(tmp_path, ARM.replace("</custom>", f"{custom}</custom>"))
-    received = [finding.message for finding in result.findings if "joints_arm" in finding.message]
-    devices = {device["id"]: device["settings"] for device in result.scene["devices"]}
+    description = described(tmp_path, ARM.replace("</custom>", f"{custom}</custom>"))
+    received = [
+        finding.message for finding in description.findings if "joints_arm" in finding.message
+    ]
+    devices = {device["id"]: device["settings"] for device in description.scene["devices"]}
     if message:
         assert message in received[0]
         assert "elbow" in devices
         return
     assert received == []
-    assert result.scene["model"]["transmissions"] == {"arm": [1.0, 1.0, 1.0, -1.0]}
+    assert description.scene["model"]["transmissions"] == {"arm": [1.0, 1.0, 1.0, -1.0]}
     assert devices["bend"]["joint"] == "elbow"
     assert (devices["bend"]["low"], devices["bend"]["high"]) == (-0.5, 0.25)
     assert "low" not in devices["swing"]

@@ -9,7 +9,7 @@ import pytest
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.simulation.models.model_file import LoadedModel, load_model
 from robocomp_dsl.simulation.models.model_to_transforms import model_transforms
-from tests.simulation.models.test_model_to_transforms import agree, random_position
+from tests.simulation.models.test_model_to_transforms import assert_trees_agree, random_position
 
 MODELS = Path(__file__).parent / "files"
 GEOM = mujoco.mjtGeom
@@ -19,7 +19,9 @@ GEOM = mujoco.mjtGeom
 def test_model_file_tree_matches_mujoco_bodies(name: str) -> None:
     loaded = load_model(MODELS / name)
     assert [str(finding) for finding in loaded.findings] == []
-    agree(loaded.model, model_transforms(loaded.model), np.random.default_rng(0), moves=6)
+    assert_trees_agree(
+        loaded.model, model_transforms(loaded.model), np.random.default_rng(0), moves=6
+    )
 
 
 def test_model_file_links_and_joints_match_mujoco_importer() -> None:
@@ -183,7 +185,8 @@ def test_model_file_reports_assumptions(
     text = inside.replace("@", JOINT.format("revolute", "a", "b", ""))
     found = load(tmp_path, f"<robot name='r'>{text}</robot>").findings
     assert any(
-        (item.kind, item.line) == (kind, line) and message in item.message for item in found
+        (finding.kind, finding.line) == (kind, line) and message in finding.message
+        for finding in found
     ), found
 
 
@@ -291,4 +294,4 @@ def test_model_file_reports_overlapping_bodies(tmp_path: Path) -> None:
     ball = "<body name='{0}' pos='{1} 0 0'><freejoint/><geom size='.1'/></body>"
     inside = ball.format("a", 0) + ball.format("b", 0.15) + ball.format("c", 0.4)
     found = load(tmp_path, f"<mujoco><worldbody>{inside}</worldbody></mujoco>").findings
-    assert [str(item) for item in found] == ["`a` and `b` overlap by 50 mm"]
+    assert [str(finding) for finding in found] == ["`a` and `b` overlap by 50 mm"]

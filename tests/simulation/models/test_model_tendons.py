@@ -69,11 +69,11 @@ def test_tendon_motor_force_follows_from_tendon(tmp_path: Path) -> None:
 
 
 def forces(folder: Path, text: str) -> dict[str, float]:
-    result = described(folder, text)
-    assert result.findings == []
+    description = described(folder, text)
+    assert description.findings == []
     return {
         device["id"]: device["settings"]["force"]
-        for device in result.scene["devices"]
+        for device in description.scene["devices"]
         if device["kind"] == "prismaticjoint"
     }
 
@@ -101,11 +101,11 @@ LEFT_OUT = {
 
 @pytest.mark.parametrize("case", LEFT_OUT)
 def test_tendon_motor_that_moves_no_single_joint_is_reported(tmp_path: Path, case: str) -> None:
-    result = described(tmp_path, LEFT_OUT[case])
-    assert [finding.message for finding in result.findings] == [
+    description = described(tmp_path, LEFT_OUT[case])
+    assert [finding.message for finding in description.findings] == [
         "not on one joint, so on no control board; they keep the commands of the start: `close`"
     ]
-    assert "pulled" not in result.scene["model"]
+    assert "pulled" not in description.scene["model"]
 
 
 def test_tendon_does_not_replace_motor_of_joint(tmp_path: Path) -> None:
@@ -113,8 +113,8 @@ def test_tendon_does_not_replace_motor_of_joint(tmp_path: Path) -> None:
         "</actuator>", '<motor name="own" joint="right" ctrlrange="-9 9"/></actuator>'
     )
     text = gripper(TIED.format(slope=1), SPLIT.format(other=OTHER), motor)
-    result = described(tmp_path, text)
-    assert ["`close`" in finding.message for finding in result.findings] == [True]
+    description = described(tmp_path, text)
+    assert ["`close`" in finding.message for finding in description.findings] == [True]
 
 
 def test_tendon_motor_is_restored_by_reset_and_fork(tmp_path: Path) -> None:

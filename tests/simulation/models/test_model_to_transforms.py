@@ -29,7 +29,7 @@ def random_position(model, random) -> np.ndarray:  # type: ignore[no-untyped-def
     return result
 
 
-def agree(model, found: ModelTransforms, random, moves: int = 3) -> None:  # type: ignore[no-untyped-def]
+def assert_trees_agree(model, found: ModelTransforms, random, moves: int = 3) -> None:  # type: ignore[no-untyped-def]
     data = mujoco.MjData(model)
     for move in range(moves):
         data.qpos[:] = random_position(model, random) if move else model.qpos0
@@ -49,7 +49,7 @@ def test_transforms_of_shipped_robots_match_mujoco(name: str, free: bool) -> Non
     add_robot(spec, ROBOTS[name](), free=free)
     model = spec.compile()
     found = model_transforms(model)
-    agree(model, found, np.random.default_rng(3))
+    assert_trees_agree(model, found, np.random.default_rng(3))
     assert set(ROBOTS[name]().joints) <= {joint.name for joint in found.joints}
 
 
@@ -91,7 +91,7 @@ def random_model(seed: int, count: int):  # type: ignore[no-untyped-def]
 def test_transforms_of_random_trees_match_mujoco(seed: int, count: int) -> None:
     model = random_model(seed, count)
     assert model.nbody == count + 1
-    agree(
+    assert_trees_agree(
         model, model_transforms(model), np.random.default_rng(seed), moves=3 if count < 1000 else 2
     )
 

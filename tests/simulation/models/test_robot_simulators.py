@@ -35,16 +35,16 @@ try:
     wait_until(lambda: abs(finger.getState().position - start - (0.05, 0.1, -0.15)).max() < 2e-3)
     nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
     def agree():  # it may still be coming to rest between the two questions
-        place, told = nodes.getPose("root", "finger")[1], finger.getState().position
-        return abs(place.x - 1000 * told[0]) < 1 and abs(place.y - 1000 * told[2]) < 1
+        place, slides = nodes.getPose("root", "finger")[1], finger.getState().position
+        return abs(place.x - 1000 * slides[0]) < 1 and abs(place.y - 1000 * slides[2]) < 1
     wait_until(agree)
     motors = proxy(i.JOINTMOTOR, "JointMotor")
     wait_until(lambda: abs(motors.getMotorState(joint).pos - goal) < 0.02)
-    heard = []
+    states = []
     source = (sys.argv[3] + "." + sys.argv[4] + "_pub",)
     topic = Endpoint(i.ControlBoardStateProxy.INTERFACE, "client", "x", source)
-    middleware.subscribe(topic, {"boardState": heard.append}, CallbackGroup())
-    wait_until(lambda: heard and abs(heard[-1].position[at] - goal) < 0.02)
+    middleware.subscribe(topic, {"boardState": states.append}, CallbackGroup())
+    wait_until(lambda: states and abs(states[-1].position[at] - goal) < 0.02)
     hand = proxy(i.CARTESIANCONTROLLER, "cartesian_" + sys.argv[4])
     place = hand.getPose().place
     solved = hand.askForPosition(i.HandPlace(place.x, place.y, place.z + 0.03))

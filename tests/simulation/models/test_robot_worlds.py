@@ -46,20 +46,20 @@ def test_robot_world_file_matches_exporter(world: RobotWorld) -> None:
 @worlds
 def test_robot_simulator_is_freshly_generated(world: RobotWorld, tmp_path: Path) -> None:
     file = COMPONENTS / world.file
-    for item in (file, file.with_name("tactile.yaml")):
-        (tmp_path / item.name).write_bytes(item.read_bytes())
+    for path in (file, file.with_name("tactile.yaml")):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
     values = ("simulator", file.name, "--tactile", "tactile.yaml", "-o", "made")
     done = rcgen(*values, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     saved = {"README.md", "specificworker.py", "etc/config.yaml"}
-    result = {
+    joint_poses = {
         str(path.relative_to(tmp_path / "made")): path.read_text("utf-8")
         for path in (tmp_path / "made").rglob("*")
         if path.is_file()
     }
-    assert len(result) > 10
-    for name in result.keys() - saved:
-        assert (file.parent / name).read_text("utf-8") == result[name], (
+    assert len(joint_poses) > 10
+    for name in joint_poses.keys() - saved:
+        assert (file.parent / name).read_text("utf-8") == joint_poses[name], (
             f"{file.parent.name}/{name}: {RCGEN.format(file.name)}"
         )
 
@@ -80,9 +80,9 @@ def test_robot_world_forward_kinematics_match_robot(world: RobotWorld) -> None:
         mujoco.mj_forward(own, here)
         mujoco.mj_forward(file, there)
         for link in robot.links:
-            item, other = here.body(link.name), there.body(link.name)
-            assert np.abs(item.xpos - other.xpos).max() < 1e-5
-            assert np.abs(item.xmat - other.xmat).max() < 1e-5
+            body, other = here.body(link.name), there.body(link.name)
+            assert np.abs(body.xpos - other.xpos).max() < 1e-5
+            assert np.abs(body.xmat - other.xmat).max() < 1e-5
             for point in link.points:
                 apart = here.site(point).xpos - there.site(point).xpos
                 assert np.abs(apart).max() < 1e-5

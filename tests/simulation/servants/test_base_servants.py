@@ -28,9 +28,9 @@ WORLD = """\
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD)
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD)
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
 @pytest.mark.parametrize("name", ["robot", "platform"])
@@ -41,7 +41,7 @@ def test_generic_base_servant_matches_base_state(world: Served, name: str) -> No
     assert generic.getBasePose() == own.getBasePose()
     received, state = generic.getBaseState(), own.getBaseState()
     assert received.isMoving
-    assert all(getattr(received, item) == getattr(state, item) for item, _ in type(state)._fields_)
+    assert all(getattr(received, name) == getattr(state, name) for name, _ in type(state)._fields_)
 
 
 def test_base_servant_full_pose_and_speeds_are_true(world: Served) -> None:

@@ -39,7 +39,7 @@ def test_camera_depth_and_points_match_walls(tmp_path: Path) -> None:
     assert (seen.image.width, seen.image.height, seen.image.depth) == (80, 60, 3)
     points = seen.points.points
     z = points.column("z")
-    assert sorted({round(float(item), -1) for item in z}) == [2000, 3000]
+    assert sorted({round(float(depth), -1) for depth in z}) == [2000, 3000]
     blue = z > 2500
     assert points.column("x")[blue].min() > -60
     assert points.column("y")[blue].min() > -60  # above the eye, which looks ahead at 500 mm

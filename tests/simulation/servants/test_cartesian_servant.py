@@ -34,9 +34,9 @@ def true_pose(served: Served, robot: str) -> np.ndarray:
     """The hand in its base as MuJoCo tells it, (4, 4) in m."""
     _, tip, base, _ = ROBOTS[robot]
     data, found = served.simulation.world.data, []
-    for item in (data.body(base), data.site(tip)):
+    for frame in (data.body(base), data.site(tip)):
         pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = item.xmat.reshape(3, 3), item.xpos
+        pose[:3, :3], pose[:3, 3] = frame.xmat.reshape(3, 3), frame.xpos
         found.append(pose)
     return np.linalg.inv(found[0]) @ found[1]
 

@@ -52,11 +52,11 @@ def test_imu_noise_is_as_declared(tmp_path: Path) -> None:
 
 
 def test_imu_noise_is_independent_of_readers(tmp_path: Path) -> None:
-    item, other = served(tmp_path, NOISY), served(tmp_path, NOISY)
-    for world, asked in ((item, 50), (other, 1)):
+    reference, other = served(tmp_path, NOISY), served(tmp_path, NOISY)
+    for world, asked in ((reference, 50), (other, 1)):
         for _ in range(asked):
             world.ports["rough"].getDataImu()
-    assert (readings(item, "rough") == readings(other, "rough")).all()
+    assert (readings(reference, "rough") == readings(other, "rough")).all()
 
 
 @pytest.fixture

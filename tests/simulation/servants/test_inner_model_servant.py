@@ -62,19 +62,19 @@ def test_inner_model_servant_lists_nodes_depth_first(world: Served) -> None:
 def test_inner_model_servant_poses_match_transform_tree(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     tree = TransformTree(world.simulation.state.scene.frames)
-    for base, item in (("robot", "laser_pose"), ("laser_pose", "platform"), ("root", "neck")):
-        done, found = nodes.getPose(base, item)
+    for base, frame in (("robot", "laser_pose"), ("laser_pose", "platform"), ("root", "neck")):
+        done, found = nodes.getPose(base, frame)
         assert done
         assert [found.x, found.y, found.z, found.rx, found.ry, found.rz] == pytest.approx(
-            list(tree.pose(item, base)), abs=1e-6
+            list(tree.pose(frame, base)), abs=1e-6
         )
         point = world.types.coord3D(10.0, 20.0, 30.0)
-        _, seen = nodes.transform(base, item, point)
-        expected = tree.transform((10, 20, 30), item, base)
+        _, seen = nodes.transform(base, frame, point)
+        expected = tree.transform((10, 20, 30), frame, base)
         assert [seen.x, seen.y, seen.z] == pytest.approx(expected, abs=1e-6)
-        matrix = nodes.getTransformationMatrix(base, item)
+        matrix = nodes.getTransformationMatrix(base, frame)
         assert (matrix.rows, matrix.cols) == (4, 4)
-        assert matrix.data.reshape(4, 4) == pytest.approx(tree.matrix(item, base), abs=1e-3)
+        assert matrix.data.reshape(4, 4) == pytest.approx(tree.matrix(frame, base), abs=1e-3)
 
 
 def test_inner_model_servant_poses_follow_physics(world: Served) -> None:
@@ -152,8 +152,8 @@ def test_inner_model_servant_adds_ball_that_falls(world: Served) -> None:
 
 def test_inner_model_servant_adds_joint_that_moves(world: Served) -> None:
     nodes, motors, i = world.ports["InnerModelManager"], world.ports["JointMotor"], world.types
-    result = i.jointType(pose=pose(world, 0, 300, 0, 0, 0, 0), min=-1.0, max=1.0, axis="x")
-    nodes.addJoint("nod", "neck", result)
+    joint = i.jointType(pose=pose(world, 0, 300, 0, 0, 0, 0), min=-1.0, max=1.0, axis="x")
+    nodes.addJoint("nod", "neck", joint)
     motors.setPosition(i.MotorGoalPosition("nod", 0.5, 0))
     world.advance_until(lambda: motors.getMotorState("nod").pos > 0.49)
     nodes.removeNode("neck")
@@ -194,7 +194,7 @@ def test_inner_model_servant_adds_and_removes_attributes(world: Served) -> None:
     )
     nodes.setAttribute("robot", "colour", "string", "blue")
     assert nodes.getAttribute("robot", "colour") == (True, "string", "blue")
-    received = {item.id: item.attributes for item in nodes.getAllNodeInformation()}
+    received = {node.id: node.attributes for node in nodes.getAllNodeInformation()}
     assert received["robot"]["colour"].value == "blue"
     nodes.removeAttribute("robot", "colour")
     assert mistake(world, "getAttribute", "robot", "colour") == "NonExistingAttribute"

@@ -74,8 +74,10 @@ def test_joint_servant_home_is_zero_position(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncZeroPos()
     arm.simulation.advance(0.05)
-    arm.advance_until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
-    found = {name: item.pos for name, item in motors.getAllMotorState().items()}
+    arm.advance_until(
+        lambda: not any(motor.isMoving for motor in motors.getAllMotorState().values())
+    )
+    found = {name: motor.pos for name, motor in motors.getAllMotorState().items()}
     assert found == pytest.approx({"shoulder": 0.2, "elbow": 0.0, "lift": 100.0}, abs=0.5)
 
 
@@ -166,7 +168,7 @@ def test_board_servant_answers_every_operation(arm: Served) -> None:
         board.enablePid(loop, [], True)
         for asked in (board.getPidReferences, board.getPidErrors, board.getPidOutputs):
             assert asked(loop, ["elbow", "lift"]).shape == (2,)
-    assert [board.getPid(item, "elbow").kp for item in i.Loop] == [200.0, 201.0, 202.0, 203.0]
+    assert [board.getPid(loop, "elbow").kp for loop in i.Loop] == [200.0, 201.0, 202.0, 203.0]
     assert board.getPid(i.Loop.TorqueLoop, "elbow").feedforward == 0.5
     board.setImpedance("elbow", i.Impedance(10.0, 1.0, 0.5))
     assert board.getImpedance("elbow").offset == 0.5
@@ -226,4 +228,4 @@ def test_joint_servant_refuses_unreachable_number(arm: Served, operation: str) -
         getattr(board, operation)("elbow", 1e308)
     arm.simulation.advance(0.1)
     assert np.abs(board.getState().position - [0, 0, 0.05]).max() < 1e-6
-    assert not any(item.number for item in arm.simulation.world.data.warning)
+    assert not any(warning.number for warning in arm.simulation.world.data.warning)

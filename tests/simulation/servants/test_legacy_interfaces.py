@@ -31,9 +31,9 @@ SIZE = 9 * 6
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD, also=("JointMotorSimple", "Camera"))
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD, also=("JointMotorSimple", "Camera"))
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
 # -- motors ---------------------------------------------------------------------------------------

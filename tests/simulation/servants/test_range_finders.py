@@ -38,9 +38,9 @@ FARTHEST = 1_000_000
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served_model(tmp_path, ROBOT)
-    result.simulation.advance(0.01)
-    return result
+    world_served = served_model(tmp_path, ROBOT)
+    world_served.simulation.advance(0.01)
+    return world_served
 
 
 def test_range_finder_measures_distances(world: Served) -> None:
@@ -75,7 +75,7 @@ def test_range_finder_noise_is_that_of_sensor(tmp_path: Path) -> None:
     for _ in range(200):
         world.simulation.advance(0.05)
         seen.append(sonars.getSensorDistance("front"))
-    spread = math.sqrt(sum((item - 1950) ** 2 for item in seen) / len(seen))
+    spread = math.sqrt(sum((distance - 1950) ** 2 for distance in seen) / len(seen))
     assert spread == pytest.approx(20, rel=0.25)
     assert sonars.getSensorDistance("sky") == 3000  # nothing has no error
 

@@ -30,9 +30,9 @@ WORLD = """\
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD)
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD)
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
 def test_rgbd_servant_returns_matching_colours_distances_and_points(world: Served) -> None:

@@ -68,11 +68,11 @@ def test_sonar_servant_measures_distance_ahead(tmp_path: Path) -> None:
 
 def test_sonar_noise_is_as_declared(tmp_path: Path) -> None:
     world = served(tmp_path, WORLD.replace('max="3000"', 'max="3000" noise="10"'))
-    heard = []
+    distances = []
     for _ in range(200):
         world.simulation.advance(0.05)
-        heard.append(world.ports["Ultrasound"].getSensorDistance("front"))
-    assert np.std(heard) == pytest.approx(10, rel=0.2)
+        distances.append(world.ports["Ultrasound"].getSensorDistance("front"))
+    assert np.std(distances) == pytest.approx(10, rel=0.2)
 
 
 def test_battery_discharges_faster_while_driving(tmp_path: Path) -> None:

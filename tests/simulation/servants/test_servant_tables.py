@@ -48,18 +48,20 @@ def test_servant_tables_list_every_servant() -> None:
 
 
 @pytest.mark.parametrize(
-    "topic", [item for item in TOPICS if not item.on_change], ids=lambda item: item.published
+    "topic", [topic for topic in TOPICS if not topic.on_change], ids=lambda topic: topic.published
 )
 def test_topic_table_type_matches_port_operation(topic: Topic) -> None:
     asked = next(o for o in declared(topic.interface).operations if o.name == topic.query)
     to = declared(topic.published, topic.file)
     received = next(o for o in to.operations if o.name == topic.operation)
     results = [asked.result] if asked.result else [output.type for output in asked.outputs]
-    assert [named(item.type) for item in received.inputs] == [named(result) for result in results]
+    assert [named(argument.type) for argument in received.inputs] == [
+        named(result) for result in results
+    ]
 
 
 @pytest.mark.parametrize(
-    "topic", [item for item in TOPICS if item.on_change], ids=lambda item: item.published
+    "topic", [topic for topic in TOPICS if topic.on_change], ids=lambda topic: topic.published
 )
 def test_topic_table_of_change_topics_has_servants(topic: Topic) -> None:
     to = declared(topic.published, topic.file)

@@ -32,7 +32,7 @@ def lower_arm(robot: str) -> tuple[Limb, Link, SkinGeometry]:
     limb = part.limb("lower_arm")
     patches = tuple(patch for patch in part.patches if patch.limb == "lower_arm")
     only = RobotDescription(robot, (GenericPart("left_arm", (), limbs=(limb,), patches=patches),))
-    link = next(item for item in ROBOTS[robot]().links if item.name == FOREARMS[robot])
+    link = next(link for link in ROBOTS[robot]().links if link.name == FOREARMS[robot])
     return limb, link, SkinGeometry.of(only)
 
 

@@ -16,7 +16,7 @@ from tests.simulation.served_worlds import rcgen
 from tests.support.generated_package import package_in
 
 COMPONENTS = Path(__file__).parents[3] / "components"
-ROBOTS = pytest.mark.parametrize("world", WORLDS, ids=lambda item: item.robot)
+ROBOTS = pytest.mark.parametrize("world", WORLDS, ids=lambda world: world.robot)
 
 
 @ROBOTS

@@ -47,7 +47,9 @@ def test_browser_view_listens_on_loopback_only(page: BrowserPage) -> None:
     listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
     mine = [line.split()[1] for line in listening.splitlines() if f":{port:04X} " in line]
     assert mine
-    assert all(item.startswith("0100007F") for item in mine if item.endswith(f"{port:04X}"))
+    assert all(
+        address.startswith("0100007F") for address in mine if address.endswith(f"{port:04X}")
+    )
     assert page._server.request_share_url() is None
 
 
@@ -93,7 +95,7 @@ def test_browser_view_relative_poses_give_absolute_poses(page: BrowserPage) -> N
         assert turn == pytest.approx(data.xmat[body], abs=1e-12)
 
 
-def moved(page: BrowserPage, handle: object, value: object) -> None:
+def move_handle(page: BrowserPage, handle: object, value: object) -> None:
     """As when it is moved in the browser."""
     handle.value = value  # type: ignore[attr-defined]  # viser calls what listens, from here too
 
@@ -103,7 +105,7 @@ def test_browser_view_sliders_move_joints_and_button_resets_them(page: BrowserPa
     assert labels == ["turn [rad]", "raise [rad]", "extend [m]"]
     slider, address = page.controls._sliders[2]
     assert (slider.min, slider.max) == (0.0, 0.5)
-    moved(page, slider, 0.25)
+    move_handle(page, slider, 0.25)
     wait_until(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
     page.controls.reset()
     assert page.data.qpos[address] == 0.0

@@ -15,7 +15,7 @@ EMPTY = Room()
 IDEAL = Mechanics(encoder_steps=0)
 
 
-def placed(
+def robot_at(
     room: Room = EMPTY, mechanics: Mechanics = IDEAL, **options: float
 ) -> tuple[World, DifferentialRobot]:
     robot = DifferentialRobot(mechanics, START, **options)
@@ -23,12 +23,12 @@ def placed(
 
 
 def test_base_is_a_device() -> None:
-    device: DifferentialRobotDevice = placed()[1]
+    device: DifferentialRobotDevice = robot_at()[1]
     assert device.mechanics is IDEAL
 
 
 def test_base_stays_where_it_is_placed() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     world.advance(1.0)
     state = robot.state()
     assert state.time == pytest.approx(1.0)
@@ -39,7 +39,7 @@ def test_base_stays_where_it_is_placed() -> None:
 
 
 def test_base_drives_ahead_at_commanded_speed() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(300, 0)
     world.advance(2.0)
     state = robot.state()
@@ -54,7 +54,7 @@ def test_base_drives_ahead_at_commanded_speed() -> None:
 
 
 def test_base_turns_right_with_positive_rotation() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(0, 1.0)
     world.advance(1.0)
     state = robot.state()
@@ -64,7 +64,7 @@ def test_base_turns_right_with_positive_rotation() -> None:
 
 
 def test_base_odometry_agrees_with_true_motion_within_one_percent() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(400, 0.6)
     world.advance(8.0)
     state = robot.state()
@@ -74,7 +74,7 @@ def test_base_odometry_agrees_with_true_motion_within_one_percent() -> None:
 
 def test_base_drift_changes_odometry_only() -> None:
     def drive(drift: float) -> tuple[Pose, Pose]:
-        world, robot = placed(drift=drift)
+        world, robot = robot_at(drift=drift)
         robot.set_speed(400, 0)
         world.advance(5.0)
         return robot.state().odometry, robot.state().corrected
@@ -86,7 +86,7 @@ def test_base_drift_changes_odometry_only() -> None:
 
 def test_base_encoders_count_whole_steps() -> None:
     coarse = replace(IDEAL, encoder_steps=4, gear_ratio=1)
-    world, robot = placed(mechanics=coarse)
+    world, robot = robot_at(mechanics=coarse)
     robot.set_speed(100, 0)
     seen = set()
     for _ in range(200):
@@ -99,7 +99,7 @@ def test_base_encoders_count_whole_steps() -> None:
 
 def test_base_is_stopped_by_wall_while_wheels_slip() -> None:
     room = Room(walls=(Wall(-5000, 3000, 5000, 3000, 100, 1000),))
-    world, robot = placed(room)
+    world, robot = robot_at(room)
     robot.set_speed(500, 0)
     world.advance(6.0)
     state = robot.state()
@@ -109,7 +109,7 @@ def test_base_is_stopped_by_wall_while_wheels_slip() -> None:
 
 
 def test_base_stops() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(800, 0)
     world.advance(1.0)
     robot.stop()
@@ -119,7 +119,7 @@ def test_base_stops() -> None:
 
 
 def test_base_is_stopped_by_watchdog() -> None:
-    world, robot = placed(watchdog=0.3)
+    world, robot = robot_at(watchdog=0.3)
     robot.set_speed(300, 0)
     world.advance(0.3)
     assert robot.state().moving
@@ -140,7 +140,7 @@ def test_base_is_stopped_by_watchdog() -> None:
     ],
 )
 def test_base_refuses_invalid_command_unchanged(adv: float, rot: float, message: str) -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(200, 0)
     with pytest.raises(CommandRefused) as refusal:
         robot.set_speed(adv, rot)
@@ -150,7 +150,7 @@ def test_base_refuses_invalid_command_unchanged(adv: float, rot: float, message:
 
 
 def test_base_odometry_continues_from_set_pose() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_odometry(Pose(10, 20, math.pi / 2))
     robot.set_speed(200, 0)
     world.advance(1.0)
@@ -161,7 +161,7 @@ def test_base_odometry_continues_from_set_pose() -> None:
 
 
 def test_base_correction_moves_corrected_pose_only() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.correct(Pose(0, 0, 0))
     corrected = robot.state().corrected
     assert (corrected.x, corrected.z, corrected.alpha) == pytest.approx((0, 0, 0), abs=1e-9)
@@ -178,4 +178,4 @@ def test_base_correction_moves_corrected_pose_only() -> None:
 def test_base_cannot_start_inside_something() -> None:
     room = Room(pillars=(Pillar("lamp", 1000, 2100, 150, 1000),))
     with pytest.raises(SceneError, match=r"the robot starts inside `pillar 1 lamp`: x 1000 mm"):
-        placed(room)
+        robot_at(room)

@@ -21,7 +21,7 @@ from tests.support.waiting import wait_until
 DEADLINE = 120.0
 
 
-class Life:
+class LifecycleThread:
     """The life cycle of the simulator in a thread: a moment every 10 ms, until `stop`."""
 
     def __init__(self, clock: ClockSource) -> None:
@@ -45,7 +45,7 @@ class Life:
         self._thread.join()
 
 
-class Source:
+class ClockSourceWorld:
     """A world that makes the time; `apart` is by how much it was ever behind a tick."""
 
     def __init__(self, folder: Path, options: SimulationOptions) -> None:
@@ -55,25 +55,27 @@ class Source:
         self.clock = ClockSource(self._tell)
         self.world.simulation.start(self.clock)
         self.hand = self.world.ports["Simulation"]
-        self.life: Life | None = None
+        self.life: LifecycleThread | None = None
 
     def _tell(self, tick: Tick) -> None:
         self.ticks.append(tick)
         self.apart = max(self.apart, tick.time / 1e9 - self.world.simulation.world.advanced_to)
 
     def live(self) -> None:
-        self.life = Life(self.clock)
+        self.life = LifecycleThread(self.clock)
 
 
 @pytest.fixture
 def source(tmp_path: Path, request: pytest.FixtureRequest) -> Any:
-    result = Source(tmp_path, getattr(request, "param", SimulationOptions(speed=0)))
-    yield result
-    if result.life:
-        result.life.stop()
+    clock_source_world = ClockSourceWorld(
+        tmp_path, getattr(request, "param", SimulationOptions(speed=0))
+    )
+    yield clock_source_world
+    if clock_source_world.life:
+        clock_source_world.life.stop()
 
 
-def test_clock_leader_advances_world_before_tick(source: Source) -> None:
+def test_clock_leader_advances_world_before_tick(source: ClockSourceWorld) -> None:
     source.live()
     wait_until(lambda: source.clock.now() > 1.0)
     source.hand.pause()
@@ -83,7 +85,7 @@ def test_clock_leader_advances_world_before_tick(source: Source) -> None:
     assert state.time == pytest.approx(source.clock.now(), abs=1e-9)
 
 
-def test_clock_leader_steps_world_with_clock(source: Source) -> None:
+def test_clock_leader_steps_world_with_clock(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
     wait_until(lambda: source.clock.reset_count == 0)
@@ -95,7 +97,9 @@ def test_clock_leader_steps_world_with_clock(source: Source) -> None:
     assert source.clock.paused
 
 
-def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_clock_leader_step_times_out(
+    source: ClockSourceWorld, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("robocomp_dsl.simulation.stepping.clock_leader.STEP_TIMEOUT_S", 0.01)
     source.clock.pause()
     with pytest.raises(
@@ -106,7 +110,7 @@ def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyP
     assert source.clock.current_tick.time == 0
 
 
-def test_clock_leader_resets_clock_with_world(source: Source) -> None:
+def test_clock_leader_resets_clock_with_world(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
     wait_until(lambda: source.clock.reset_count == 0)
@@ -125,7 +129,7 @@ def test_clock_leader_resets_clock_with_world(source: Source) -> None:
     assert source.ticks[-1].epoch == 2
 
 
-def test_clock_leader_resets_world_with_clock(source: Source) -> None:
+def test_clock_leader_resets_world_with_clock(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
     wait_until(lambda: source.clock.reset_count == 0)
@@ -138,7 +142,7 @@ def test_clock_leader_resets_world_with_clock(source: Source) -> None:
     assert source.world.ports["robot"].getBaseState().z == 0
 
 
-def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
+def test_clock_leader_reports_speed_and_factor_of_clock(source: ClockSourceWorld) -> None:
     source.hand.setSpeed(4.0)
     source.live()
     wait_until(lambda: source.hand.getState().realTimeFactor > 0)
@@ -154,7 +158,7 @@ def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
     [SimulationOptions(speed=0), SimulationOptions(speed=0, diverged="stop")],
     indirect=True,
 )
-def test_clock_leader_resets_or_pauses_after_divergence(source: Source) -> None:
+def test_clock_leader_resets_or_pauses_after_divergence(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
     wait_until(lambda: source.clock.reset_count == 0)

@@ -133,7 +133,7 @@ def test_regulator_is_bounded_resets_and_is_switched_off(loop: Loop) -> None:
     arm.world.advance(0.002)
     assert arm.settings.pid_output(ONE, loop) == pytest.approx([0.01])
     others = set(Loop) - {loop}
-    assert all(not arm.settings.pid_output(ONE, item).any() for item in others)
+    assert all(not arm.settings.pid_output(ONE, loop).any() for loop in others)
     arm.settings.enable_pid(ONE, False, loop)
     assert arm.settings.pid_enabled(None, loop).tolist() == [
         i != ELBOW for i in range(len(arm.inside))
