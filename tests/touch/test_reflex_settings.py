@@ -79,11 +79,13 @@ def test_reflex_joins_taxels_within_reach_to_one_touch(centred_harness) -> None:
     centred_harness.robot.forces[first] = 0.5
     centred_harness.robot.forces[near[np.argsort(apart)[1]]] = 0.06
     centred_harness.run(0.02)
-    (response,) = [e for e in centred_harness.robot.messages if isinstance(e, interfaces.Event)]
+    (response,) = [
+        e for e in centred_harness.robot.reflex_messages if isinstance(e, interfaces.Event)
+    ]
     assert 0.2 < response.force < 0.35
     centred_harness.worker().params.set({"reach": 0.002})
     centred_harness.run(0.02)
-    events = [e for e in centred_harness.robot.messages if isinstance(e, interfaces.Event)]
+    events = [e for e in centred_harness.robot.reflex_messages if isinstance(e, interfaces.Event)]
     assert max(e.force for e in events) == pytest.approx(0.5)
 
 
@@ -92,7 +94,7 @@ def test_reflex_events_report_response_and_state(centred_harness) -> None:
     centred_harness.run(0.02)
     centred_harness.release()
     centred_harness.run_until("Watching")
-    messages = centred_harness.robot.messages
+    messages = centred_harness.robot.reflex_messages
     states = [message for message in messages if isinstance(message, interfaces.ReflexState)]
     assert [state.name for state in states] == [
         "Watching",
