@@ -11,7 +11,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -19,6 +18,7 @@ from typing import NoReturn
 import pytest
 
 from tests.support import samples
+from tests.support.waiting import wait_until
 
 EDITORS = Path(__file__).parents[2] / "editors"
 DEADLINE_S = 90
@@ -44,14 +44,15 @@ class Project:
         return self.folder / name
 
     def assert_no_server_left(self) -> None:
-        """Every server that was started has ended, or does so within the deadline."""
+        """Every started server has ended, or ends within the deadline."""
         started = self.pids.read_text().split() if self.pids.exists() else []
         assert started, "no server was started"
-        left = [int(item) for item in started]
-        end = time.monotonic() + DEADLINE_S
-        while left := [pid for pid in left if _alive(pid)]:
-            assert time.monotonic() < end, f"servers are left: {left}"
-            os.sched_yield()
+        pids = [int(pid) for pid in started]
+        wait_until(
+            lambda: not any(_alive(pid) for pid in pids),
+            lambda: f"servers are left: {[pid for pid in pids if _alive(pid)]}",
+            DEADLINE_S,
+        )
 
 
 def run(
