@@ -8,9 +8,8 @@ from robocomp_dsl.runtime.parameters.findings import (
     ConfigLocation,
     ParameterRejected,
 )
-from robocomp_dsl.runtime.parameters.group import ParameterGroup
 from robocomp_dsl.runtime.parameters.load import load_values
-from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema, Value
+from robocomp_dsl.runtime.parameters.schema import Group, Parameter, ParameterGroup, Schema, Value
 from robocomp_dsl.runtime.parameters.values import Description, Parameters
 
 if TYPE_CHECKING:

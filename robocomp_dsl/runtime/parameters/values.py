@@ -14,10 +14,10 @@ from typing import Any, Self
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters import scalar as scalars
 from robocomp_dsl.runtime.parameters.findings import ConfigLocation, ConfigText, ParameterRejected
-from robocomp_dsl.runtime.parameters.group import ParameterGroup, build_group, walk_parameters
+from robocomp_dsl.runtime.parameters.group import build_group, walk_parameters
 from robocomp_dsl.runtime.parameters.live import apply_changes
 from robocomp_dsl.runtime.parameters.load import load_values
-from robocomp_dsl.runtime.parameters.schema import Kind, Parameter, Value
+from robocomp_dsl.runtime.parameters.schema import Kind, Parameter, ParameterGroup, Value
 from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
 
