@@ -225,7 +225,7 @@ def test_joints_and_bodies_of_the_robot_are_compared():
         "r.yaml:19:14: the limb `lower` is on `LForeArm`, which the robot does not have "
         "(did you mean `LForearm`?)",
     ]
-    assert [finding.fault for finding in caught.value.findings] == [
+    assert [finding.kind for finding in caught.value.findings] == [
         Fault.JOINT,
         Fault.LIMITS,
         Fault.LIMITS,
@@ -292,7 +292,7 @@ def test_a_servo_that_is_there_twice_is_told():
     with pytest.raises(DescriptionError) as caught:
         read_part_xml(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
     (error,) = caught.value.findings
-    assert (error.message, error.fault) == (
+    assert (error.message, error.kind) == (
         "the destination servo `2` is used twice",
         Fault.TWICE,
     )

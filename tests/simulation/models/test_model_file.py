@@ -163,7 +163,7 @@ def test_what_is_no_model_is_told_with_its_line(
     with pytest.raises(ModelFileError) as error:
         load(tmp_path, text)
     assert message in str(error.value)
-    assert error.value.faults[0].line == line
+    assert error.value.findings[0].location.line == line
 
 
 @pytest.mark.parametrize(
@@ -183,7 +183,8 @@ def test_what_had_to_be_guessed_is_found(
     text = inside.replace("@", JOINT.format("revolute", "a", "b", ""))
     found = load(tmp_path, f"<robot name='r'>{text}</robot>").findings
     assert any(
-        (item.kind, item.line) == (kind, line) and message in item.message for item in found
+        (item.kind, item.location.line) == (kind, line) and message in item.message
+        for item in found
     ), found
 
 
@@ -223,7 +224,7 @@ def test_a_mesh_that_cannot_be_had_is_a_box(
     if content:
         (tmp_path / file).write_text(content)
     loaded = load(tmp_path, text.format(file))
-    assert [(finding.kind, finding.line) for finding in loaded.findings] == [("mesh", 2)]
+    assert [(finding.kind, finding.location.line) for finding in loaded.findings] == [("mesh", 2)]
     assert message in loaded.findings[0].message
     model = loaded.model
     assert model.geom_type[0] == GEOM.mjGEOM_BOX
@@ -261,7 +262,9 @@ def test_a_massless_body_and_a_missing_texture_of_mjcf(tmp_path: Path) -> None:
         "<geom size='.1' mass='0' material='m'/></body></worldbody></mujoco>"
     )
     loaded = load(tmp_path, text)
-    assert [(finding.kind, finding.subject, finding.line) for finding in loaded.findings] == [
+    assert [
+        (finding.kind, finding.subject, finding.location.line) for finding in loaded.findings
+    ] == [
         ("texture", "t", 2),
         ("mass", "b", 0),
     ]
