@@ -17,11 +17,11 @@ from robocomp_dsl.hardware.control.errors import (
     UnknownJoint,
     WrongMode,
 )
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
 from robocomp_dsl.hardware.control.parking import Parking, ParkState
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from robocomp_dsl.hardware.devices.errors import SceneError
