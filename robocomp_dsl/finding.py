@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import re
 
-from robocomp_dsl.record import Record, ValueRecord
+from robocomp_dsl.record import ValueRecord
 
 _SHOWN_WIDTH = 160
 _WORD = re.compile(r"[^\s,:{}\[\]<>]*")
 
 
-class SourceText(Record):
+class SourceText(ValueRecord):
     """The text that findings point into; `name` is its file, or the option it was given with."""
 
     name: str
