@@ -59,7 +59,7 @@ class SpecificWorker(GenericWorker):
         part = load_arm_part(params.description, params.part, self.config_file)
         for proxy in proxies.values():
             proxy.set_timeout(params.patience / 1000)
-        boards = create_boards(part, params.description, proxies)
+        boards = create_boards(part, proxies)
         self.log.info("%s: %s", params.part, boards)
         self.arm = GenericArm(part)
         begin = StartAction(params.begin, params.begin_speed, params.compliant)

@@ -15,8 +15,9 @@ TactileError
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Enum, StrEnum
+
+from robocomp_dsl.finding import Finding
 
 
 class TactileError(Exception):
@@ -24,7 +25,7 @@ class TactileError(Exception):
 
 
 class Fault(StrEnum):
-    """What kind of fault a file has."""
+    """The `kind` of a finding: what is wrong in a file."""
 
     FORM = "form"
     JOINT = "joint"
@@ -34,30 +35,16 @@ class Fault(StrEnum):
     TWICE = "twice"
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One fault of a file, with line and column from 1; `help` is the way out, or empty."""
-
-    file: str
-    line: int
-    column: int
-    message: str
-    help: str = ""
-    fault: Fault = Fault.FORM
-
-    def __str__(self) -> str:
-        text = f"{self.file}:{self.line}:{self.column}: {self.message}"
-        return f"{text} ({self.help})" if self.help else text
-
-
 class DescriptionError(TactileError):
     """A file that cannot be used. `findings` are all its faults, in the order of the file."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
-        self.findings = tuple(
-            sorted(findings, key=lambda finding: (finding.file, finding.line, finding.column))
-        )
+        self.findings = tuple(sorted(findings, key=_file_order))
         super().__init__("\n".join(str(finding) for finding in self.findings))
+
+
+def _file_order(finding: Finding) -> tuple[str, int, int]:
+    return finding.location.file, finding.location.line, finding.location.column
 
 
 class BadFit(TactileError):

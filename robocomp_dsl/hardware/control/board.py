@@ -12,19 +12,19 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from robocomp_dsl.hardware.control.acceleration import AccelerationFilter
-from robocomp_dsl.hardware.control.ease import BoundsCheck
-from robocomp_dsl.hardware.control.faults import FaultCode, Faults, overloaded, too_hot
-from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
-from robocomp_dsl.hardware.control.law import ControlLaw
-from robocomp_dsl.hardware.control.limits import JointLimits
-from robocomp_dsl.hardware.control.loops import ControlLoops
 from robocomp_dsl.hardware.control.mode_table import ModeTable
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.references import References
+from robocomp_dsl.hardware.control.protection.ease import BoundsCheck
+from robocomp_dsl.hardware.control.protection.faults import FaultCode, Faults, overloaded, too_hot
+from robocomp_dsl.hardware.control.protection.limits import JointLimits
+from robocomp_dsl.hardware.control.protection.watchdog import Watchdog
+from robocomp_dsl.hardware.control.regulators.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.regulators.law import ControlLaw
+from robocomp_dsl.hardware.control.regulators.loops import ControlLoops
 from robocomp_dsl.hardware.control.state import BoardState
-from robocomp_dsl.hardware.control.watchdog import Watchdog
+from robocomp_dsl.hardware.control.trajectories.references import References
 
 
 class Board:

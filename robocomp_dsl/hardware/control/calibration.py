@@ -17,9 +17,9 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 
 STILL = 0.01
 """A joint slower than this is at its stop [rad/s]."""

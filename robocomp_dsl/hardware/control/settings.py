@@ -10,10 +10,10 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Joints, Values
-from robocomp_dsl.hardware.control.faults import FaultReport
 from robocomp_dsl.hardware.control.joints import Bools, Floats, numbers
-from robocomp_dsl.hardware.control.loops import Loop
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.protection.faults import FaultReport
+from robocomp_dsl.hardware.control.regulators.loops import Loop
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 
 
 class ControlSettings:

@@ -19,9 +19,9 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.calibration import Calibrator, Procedure
 from robocomp_dsl.hardware.control.commands import Commands
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats
 from robocomp_dsl.hardware.control.parking import Parking
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.devices.errors import HardwareError
 

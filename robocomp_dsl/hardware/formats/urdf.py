@@ -10,7 +10,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.formats.urdf_elements import Element, ElementReader, elements
 
 Vector = tuple[float, float, float]
@@ -92,7 +93,7 @@ class UrdfRobot:
 
     name: str
     links: tuple[tuple[UrdfLink, UrdfJoint | None], ...]
-    findings: tuple[ModelFinding, ...]
+    findings: tuple[Finding, ...]
 
 
 def read_urdf(data: bytes) -> UrdfRobot:
@@ -141,7 +142,7 @@ class _RobotReader:
                 self.reader.error("joint", hung.name, message, hung.line)
         if self.reader.faults:
             first = self.reader.faults[0]
-            raise ModelFileError(first.message, first.line, tuple(self.reader.faults))
+            raise ModelFileError(first.message, first.location.line, tuple(self.reader.faults))
         return UrdfRobot(self.root.get("name") or "robot", ordered, tuple(self.reader.findings))
 
     def _hang(self, joint: UrdfJoint) -> None:

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from robocomp_dsl.hardware.description.findings import Kind, ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import Kind, ModelFileError, model_finding
 
 _DEEPEST = 100
 
@@ -75,16 +76,16 @@ def elements(data: bytes) -> Element:
 class ElementReader:
     """`faults` make the file unusable, `findings` do not. `{}` in a message is the subject."""
 
-    faults: list[ModelFinding] = field(default_factory=list)
-    findings: list[ModelFinding] = field(default_factory=list)
+    faults: list[Finding] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
     def error(self, kind: Kind, subject: str, message: str, line: int) -> None:
         """Something without which there is no model."""
-        self.faults.append(ModelFinding(kind, subject, message.replace("{}", subject), line))
+        self.faults.append(model_finding(kind, subject, message.replace("{}", subject), line))
 
     def warn(self, kind: Kind, subject: str, message: str, line: int) -> None:
         """Something that was guessed or left out."""
-        self.findings.append(ModelFinding(kind, subject, message.replace("{}", subject), line))
+        self.findings.append(model_finding(kind, subject, message.replace("{}", subject), line))
 
     def number(self, element: Element, name: str, default: float) -> float:
         """A finite attribute; reported and `default` if it is none."""

@@ -17,8 +17,8 @@ from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import WrongMode
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK
 from robocomp_dsl.hardware.devices.errors import CommandRefused, require_finite
 from robocomp_dsl.hardware.kinematics.cartesian import LEVER, JointChain, goal_of, solve, step
 from robocomp_dsl.hardware.kinematics.cartesian_line import LineMotion

@@ -68,7 +68,7 @@ def _check(type_: Type, value: Any, path: str) -> None:
                 as_scalar(type_, value)
             case _ if issubclass(type_, Struct):
                 _check_record(type_, value)
-            case _:
+            case _ if issubclass(type_, StructArray):
                 _check_rows(type_, value)
     except EncodeError as error:
         inner = error.path if path else error.path.removeprefix(".")

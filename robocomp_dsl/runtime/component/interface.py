@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.codec.codec import (
     compile_error_encoder,
 )
 from robocomp_dsl.runtime.data.schema import Declared, fields_of
-from robocomp_dsl.runtime.data.type_hash import digest, interface_shape
+from robocomp_dsl.runtime.data.type_hash import interface_hash, operation_shape
 from robocomp_dsl.runtime.errors import DeclaredError
 
 
@@ -62,6 +62,13 @@ class Operation:
         self.outputs = (*result, *fields_of(outputs))
         self.throws = throws
         self.idempotent = idempotent
+
+    @property
+    def shape(self) -> str:
+        """The canonical text that the type hash of the interface covers."""
+        return operation_shape(
+            self.pattern.value, self.name, self.inputs, self.outputs, self.throws
+        )
 
     @cached_property
     def encode_request(self) -> Callable[[tuple[Any, ...]], bytes]:
@@ -112,7 +119,7 @@ class Interface:
         their types on the wire, and the patterns. Names of types are not in it: a component that
         knows two modules with a type of the same name calls them otherwise than its peer.
         """
-        return digest(interface_shape(self))
+        return interface_hash(self.name, (operation.shape for operation in self.operations))
 
     @cached_property
     def _by_name(self) -> dict[str, Operation]:

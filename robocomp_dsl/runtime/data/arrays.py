@@ -7,24 +7,24 @@ element would cost two orders of magnitude more to send and receive.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, MutableSequence
-from typing import Any, ClassVar, Generic, Never, Self, TypeVar, get_args, overload
+from typing import Any, Generic, Never, Self, TypeVar, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.runtime.data.convert import as_array, described
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.rows import row_view, row_views, rows_of, writable
-from robocomp_dsl.runtime.data.schema import Type
+from robocomp_dsl.runtime.data.schema import StructArrayBase, Type
 from robocomp_dsl.runtime.data.struct import Struct
 from robocomp_dsl.runtime.data.values import shown_items
-from robocomp_dsl.runtime.errors import EncodeError
 
 T = TypeVar("T", bound=Struct)
 
 
-class StructArray(MutableSequence[T]):
+class StructArray(MutableSequence[T], StructArrayBase):
     """A list of structs of numbers, stored as one numpy structured array.
 
     `scan[3].dist` reads and writes the array, `column("dist")` is a writable numpy view of all.
@@ -37,7 +37,6 @@ class StructArray(MutableSequence[T]):
     """
 
     __slots__ = ("_array", "_store")
-    _element_: ClassVar[type[Any]]
     _array: NDArray[Any]  # what is in the list
     _store: NDArray[Any]  # with room to grow behind
 

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, STRING, Enum, Primitive
-from robocomp_dsl.runtime.errors import EncodeError
 
 FLAGS = {False: False, True: True}
 """What a bool field takes; equal keys make 0, 1 and numpy's bools do as well."""

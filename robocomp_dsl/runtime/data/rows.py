@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.runtime.data.convert import as_scalar, described
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.layout import Leaf, RowLayout, row_layout
 from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.schema import BOOL, Enum, Primitive, Type
 from robocomp_dsl.runtime.data.struct import Struct
-from robocomp_dsl.runtime.errors import EncodeError
 
 
 def row_view(element: type[Struct], array: NDArray[Any], index: int) -> Any:

@@ -9,13 +9,9 @@ from __future__ import annotations
 import enum
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias, get_args, get_origin
+from typing import Any, ClassVar, TypeAlias, get_args, get_origin
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.data.arrays import StructArray
-    from robocomp_dsl.runtime.data.struct import Struct
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +43,21 @@ STRING = Primitive("string", "", 4)  # it begins with its length
 
 class Enum(enum.IntEnum):
     """Base of the enumerations that an IDSL file declares; 32 bits on the wire."""
+
+
+class StructBase:
+    """What the schema knows of a struct or exception class; `Struct` is its only subclass."""
+
+    __slots__ = ()
+    _fields_: ClassVar[Fields]  # (name on the wire, type)
+    _names_: ClassVar[tuple[str, ...]]  # the attributes, in the same order
+
+
+class StructArrayBase:
+    """What the schema knows of an array of structs; `StructArray` is its only subclass."""
+
+    __slots__ = ()
+    _element_: ClassVar[type[Any]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +95,7 @@ class Dictionary:
 
 
 Type: TypeAlias = (
-    "Primitive | Array | Sequence | Dictionary | type[Enum | Struct | StructArray[Any]]"
+    Primitive | Array | Sequence | Dictionary | type[Enum | StructBase | StructArrayBase]
 )
 Fields: TypeAlias = tuple[tuple[str, Type], ...]
 
@@ -119,9 +130,7 @@ def schema_of(annotation: Any) -> Type:
 
 def _is_declared(cls: Any) -> bool:
     """Whether it is an enum, a struct or an array of structs, whose classes know their fields."""
-    if not isinstance(cls, type):
-        return False
-    return issubclass(cls, Enum) or hasattr(cls, "_fields_") or hasattr(cls, "_element_")
+    return isinstance(cls, type) and issubclass(cls, Enum | StructBase | StructArrayBase)
 
 
 def fields_of(declared: Declared) -> Fields:

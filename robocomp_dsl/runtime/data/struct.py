@@ -8,15 +8,22 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
+from typing import Any, ClassVar, dataclass_transform
 
 import numpy as np
 
-from robocomp_dsl.runtime.data.schema import Array, Dictionary, Enum, Primitive, Sequence, schema_of
+from robocomp_dsl.runtime.data.schema import (
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    StructBase,
+    Type,
+    schema_of,
+)
 from robocomp_dsl.runtime.data.values import hashed, same, shown
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.data.schema import Fields, Type
 
 _EMPTY = object()
 
@@ -76,7 +83,7 @@ def _annotations(name: str, namespace: dict[str, Any]) -> dict[str, object]:
 
 
 @dataclass_transform()
-class Struct(metaclass=StructMeta):
+class Struct(StructBase, metaclass=StructMeta):
     """Base of the structs that an IDSL file declares: a value with named fields.
 
     A subclass annotates one attribute for each field, in the order of the wire:
@@ -91,8 +98,8 @@ class Struct(metaclass=StructMeta):
     """
 
     __slots__ = ()
-    _fields_: ClassVar[Fields] = ()  # (name on the wire, type)
-    _names_: ClassVar[tuple[str, ...]] = ()  # the attributes, in the same order
+    _fields_: ClassVar[Fields] = ()
+    _names_: ClassVar[tuple[str, ...]] = ()
     _defaults_: ClassVar[dict[str, Any]] = {}
     _plain_: ClassVar[type[Struct]]  # the declared class, also of a row of an array
 

@@ -13,7 +13,7 @@ import re
 from numbers import Integral, Real
 from typing import SupportsFloat
 
-from robocomp_dsl.runtime.parameters.findings import did_you_mean
+from robocomp_dsl.runtime.parameters.errors import did_you_mean
 from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Parameter, Value
 from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 

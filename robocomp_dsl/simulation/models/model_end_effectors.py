@@ -16,7 +16,8 @@ from typing import Any
 
 import mujoco
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_texts import texts_of
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms
@@ -27,7 +28,7 @@ Data = dict[str, Any]
 
 
 def end_effectors_of(
-    model: Any, seen: ModelTransforms, devices: Sequence[Data], findings: list[ModelFinding]
+    model: Any, seen: ModelTransforms, devices: Sequence[Data], findings: list[Finding]
 ) -> list[Data]:
     """A device for every end effector; invalid ones are findings."""
     devices_found: list[Data] = []
@@ -37,7 +38,7 @@ def end_effectors_of(
         try:
             devices_found.append(_end_effector(model, seen, devices, name, words))
         except _InvalidEndEffector as why:
-            findings.append(ModelFinding("joint", "", f"`{name}` {why}: it is left out"))
+            findings.append(model_finding("joint", "", f"`{name}` {why}: it is left out"))
     return devices_found
 
 

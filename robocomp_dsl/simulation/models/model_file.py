@@ -15,7 +15,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError, model_finding
 from robocomp_dsl.hardware.description.model_kind import root_tag
 from robocomp_dsl.hardware.formats.urdf import read_urdf
 from robocomp_dsl.simulation.models.mjcf_spec import build_mjcf, error_with_line
@@ -33,7 +34,7 @@ class LoadedModel:
 
     spec: Any
     model: Any
-    findings: list[ModelFinding]
+    findings: list[Finding]
 
 
 def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
@@ -42,7 +43,7 @@ def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
     return LoadedModel(spec, compiled(spec, findings), findings)
 
 
-def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[ModelFinding]]:
+def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
     """What is in the file at `path`, not compiled yet. Raises `ModelFileError`, `OSError`."""
     data = path.read_bytes()
     match root_tag(data):
@@ -57,7 +58,7 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Mode
             raise ModelFileError(f"{message}, a model begins with `<robot>` or `<mujoco>`")
 
 
-def compiled(spec: Any, findings: list[ModelFinding]) -> Any:
+def compiled(spec: Any, findings: list[Finding]) -> Any:
     """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
     reserve_arena(spec, len(spec.bodies))
     try:
@@ -101,20 +102,20 @@ def _require_finite(model: Any) -> None:
 _KINDS = {"body": "body", "jnt": "joint", "geom": "geom", "site": "site", "cam": "camera"}
 
 
-def _compile(spec: Any, findings: list[ModelFinding]) -> Any:
+def _compile(spec: Any, findings: list[Finding]) -> Any:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             model = spec.compile()
         except (ValueError, mujoco.FatalError) as error:
             raise error_with_line(error) from None
-    findings += [ModelFinding("file", "", str(warning.message)) for warning in caught]
+    findings += [model_finding("file", "", str(warning.message)) for warning in caught]
     return model
 
 
-def _light(model: Any) -> list[ModelFinding]:
+def _light(model: Any) -> list[Finding]:
     return [
-        ModelFinding("mass", name, f"`{name}` moves and has no mass: it gets {_LIGHTEST:g} kg")
+        model_finding("mass", name, f"`{name}` moves and has no mass: it gets {_LIGHTEST:g} kg")
         for i in range(1, model.nbody)
         if model.body_jntnum[i] and model.body_mass[i] <= _LIGHTEST
         for name in [model.body(i).name or f"body{i}"]

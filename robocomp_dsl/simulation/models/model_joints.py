@@ -24,7 +24,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_motors import (
     JointActuator,
@@ -74,12 +75,12 @@ def joints_of(model: Any, seen: ModelTransforms, started: StartSpec) -> list[Dat
         device_kind = (
             f"too light for their motors at this step, they get more `armature`: {_few(each)}"
         )
-        findings.append(ModelFinding("joint", light[0][0], device_kind))
+        findings.append(model_finding("joint", light[0][0], device_kind))
     if left := [f"`{name}`" for name in others(model)]:
         device_kind = (
             "not on one joint, so on no control board; they keep the commands of the start"
         )
-        findings.append(ModelFinding("joint", "", f"{device_kind}: {_few(left)}"))
+        findings.append(model_finding("joint", "", f"{device_kind}: {_few(left)}"))
     return devices
 
 
@@ -108,7 +109,7 @@ def _settings(
     return settings
 
 
-def _boards(model: Any, findings: list[ModelFinding]) -> dict[int, str]:
+def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:
     """The board of joints that are in a tuple, in its order; the first one of a joint counts."""
     found: dict[int, str] = {}
     for i in range(model.ntuple):
@@ -122,11 +123,11 @@ def _boards(model: Any, findings: list[ModelFinding]) -> dict[int, str]:
                 message = (
                     f"`{model.joint(joint).name}` is in `{name}` and stays on the board `{board}`"
                 )
-                findings.append(ModelFinding("joint", model.joint(joint).name, message))
+                findings.append(model_finding("joint", model.joint(joint).name, message))
     return found
 
 
-def couplings_of(model: Any, devices: Sequence[Data], findings: list[ModelFinding]) -> Data:
+def couplings_of(model: Any, devices: Sequence[Data], findings: list[Finding]) -> Data:
     """The coupling matrix of each board in the file, as a list of numbers."""
     boards = Counter(device["settings"]["board"] for device in devices if device["kind"] in JOINTS)
     found: Data = {}
@@ -140,11 +141,11 @@ def couplings_of(model: Any, devices: Sequence[Data], findings: list[ModelFindin
             found[board] = numbers.tolist()
             continue
         message = f"`{name}` is no {n} x {n} matrix that can be turned round: it is left out"
-        findings.append(ModelFinding("joint", "", message))
+        findings.append(model_finding("joint", "", message))
     return found
 
 
-def _speed(model: Any, joint: str, findings: list[ModelFinding]) -> float:
+def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
     """The highest speed in the file; 0 if there is none."""
     name = f"speed_{joint}"
     at = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
@@ -154,7 +155,7 @@ def _speed(model: Any, joint: str, findings: list[ModelFinding]) -> float:
     if 0 < speed < math.inf:
         return speed
     findings.append(
-        ModelFinding("joint", joint, f"`{name}` is {speed:g}, no speed: the usual is taken")
+        model_finding("joint", joint, f"`{name}` is {speed:g}, no speed: the usual is taken")
     )
     return 0.0
 

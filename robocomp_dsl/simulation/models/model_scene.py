@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.scene import ROOT
 from robocomp_dsl.simulation.models.model_end_effectors import end_effectors_of
 from robocomp_dsl.simulation.models.model_file import compiled
@@ -31,7 +31,7 @@ class ModelDescription:
     """`scene` holds `file` as the name of its model; `step` is the length of a step in s."""
 
     scene: Data
-    findings: list[ModelFinding]
+    findings: list[Finding]
     step: float
 
 

@@ -16,7 +16,8 @@ from typing import Any
 
 import mujoco
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.simulation.models.model_file import read_spec
 
 Numbers = Sequence[float]
@@ -30,7 +31,7 @@ class StartSpec:
     """
 
     spec: Any
-    findings: list[ModelFinding]
+    findings: list[Finding]
     start: dict[str, Numbers] = field(default_factory=dict)
     held: dict[str, float] = field(default_factory=dict)
 

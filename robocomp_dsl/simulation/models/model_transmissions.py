@@ -21,7 +21,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_texts import texts_of
 
@@ -30,7 +31,7 @@ PREFIX = "joints_"
 Data = dict[str, Any]
 
 
-def transmissions_of(model: Any, devices: Sequence[Data], findings: list[ModelFinding]) -> Data:
+def transmissions_of(model: Any, devices: Sequence[Data], findings: list[Finding]) -> Data:
     """The transmission matrix of each board in the file; its joints get their names."""
     found: Data = {}
     for text, names in texts_of(model).items():
@@ -40,7 +41,7 @@ def transmissions_of(model: Any, devices: Sequence[Data], findings: list[ModelFi
         here = [d for d in devices if d["kind"] in JOINTS and d["settings"]["board"] == board]
         matrix = _numbers(model, f"transmission_{board}")
         if why := _wrong(here, devices, names, matrix):
-            findings.append(ModelFinding("joint", "", f"`{text}` {why}: it is left out"))
+            findings.append(model_finding("joint", "", f"`{text}` {why}: it is left out"))
             continue
         found[board] = matrix.tolist()
         for device, name in zip(here, names, strict=True):

@@ -16,7 +16,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.model_paths import resolve
 from robocomp_dsl.hardware.formats.urdf import (
     UrdfInertia,
@@ -39,7 +40,7 @@ _LIGHT = 1e-3
 
 def build_urdf(
     robot: UrdfRobot, path: Path, packages: Sequence[Path] = ()
-) -> tuple[Any, list[ModelFinding]]:
+) -> tuple[Any, list[Finding]]:
     """The model of `robot`, whose file is at `path`."""
     spec = mujoco.MjSpec()
     spec.modelname = robot.name
@@ -59,7 +60,7 @@ class _Builder:
     spec: Any
     path: Path
     packages: Sequence[Path]
-    findings: list[ModelFinding]
+    findings: list[Finding]
     meshes: MeshCache
     bodies: dict[str, Any] = field(default_factory=dict)
 
@@ -87,14 +88,14 @@ class _Builder:
         if inertia is None:
             if moves:
                 message = f"`{link.name}` moves and has no mass: it gets {_LIGHT:g} kg"
-                self.findings.append(ModelFinding("mass", link.name, message, link.line))
+                self.findings.append(model_finding("mass", link.name, message, link.line))
             inertia = UrdfInertia(_LIGHT, (_LIGHT * 1e-3,) * 3 + (0.0,) * 3, UrdfPose())
         tensor, fits = _about_link(inertia)
         if not fits:
             message = (
                 f"the inertia of `{link.name}` is none that a body can have: a ball's is taken"
             )
-            self.findings.append(ModelFinding("mass", link.name, message, link.line))
+            self.findings.append(model_finding("mass", link.name, message, link.line))
             tensor = np.eye(3) * 0.4 * inertia.mass * 0.05**2
         body.explicitinertial = True
         body.mass = inertia.mass

@@ -159,7 +159,7 @@ class InnerModelServant(Servant):
 
     def getPose(self, base: str, item: str) -> tuple[bool, Any]:
         """Where a frame is, seen from another."""
-        matrix = nodes.between(self.device(), base, item)
+        matrix = nodes.between(self.device().state, base, item)
         return True, self.types.Pose3D(*nodes.pose_of(matrix))
 
     def getPoseFromParent(self, item: str) -> tuple[bool, Any]:
@@ -169,18 +169,18 @@ class InnerModelServant(Servant):
     def transform(self, base: str, item: str, coordInItem: Any) -> tuple[bool, Any]:
         """A point of `item`, seen from `base`."""
         require_finite(x=coordInItem.x, y=coordInItem.y, z=coordInItem.z)
-        matrix = nodes.between(self.device(), base, item)
+        matrix = nodes.between(self.device().state, base, item)
         point = matrix[:3, :3] @ (coordInItem.x, coordInItem.y, coordInItem.z) + matrix[:3, 3]
         return True, self.types.coord3D(*map(float, point))
 
     def getTransformationMatrix(self, base: str, item: str) -> Any:
         """The transform from `item` to `base`, as the interface declares it."""
-        matrix = nodes.between(self.device(), base, item)
+        matrix = nodes.between(self.device().state, base, item)
         return self.types.Matrix(cols=4, rows=4, data=matrix.ravel().astype(np.float32))
 
     def collide(self, a: str, b: str) -> bool:
         """Whether two subtrees touch."""
-        found: bool = nodes.touching(self.device(), a, b)
+        found: bool = nodes.touching(self.device().state, a, b)
         return found
 
     # -- changing -----------------------------------------------------------------------------

@@ -10,7 +10,8 @@ from typing import Any
 
 import mujoco
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.simulation.models.mjcf_spec import error_with_line
 
 _MOST = 10
@@ -18,7 +19,7 @@ _LEAST = 1e-4
 """m: less is normal contact."""
 
 
-def overlaps(model: Any) -> list[ModelFinding]:
+def overlaps(model: Any) -> list[Finding]:
     """Bodies that overlap at the start, at most ten pairs. Raises `ModelFileError`.
 
     The start is the first key frame, if there is one.
@@ -33,7 +34,7 @@ def overlaps(model: Any) -> list[ModelFinding]:
     return current_overlaps(model, data)
 
 
-def current_overlaps(model: Any, data: Any) -> list[ModelFinding]:
+def current_overlaps(model: Any, data: Any) -> list[Finding]:
     """Bodies that overlap in the state `data`, at most ten pairs."""
     deepest: dict[tuple[str, str], float] = {}
     for contact in data.contact:
@@ -42,7 +43,9 @@ def current_overlaps(model: Any, data: Any) -> list[ModelFinding]:
         deepest[first, other] = min(deepest.get((first, other), 0.0), float(contact.dist))
     ordered = sorted(deepest.items(), key=lambda item: item[1])
     return [
-        ModelFinding("overlap", first, f"`{first}` and `{other}` overlap by {-depth * 1000:.3g} mm")
+        model_finding(
+            "overlap", first, f"`{first}` and `{other}` overlap by {-depth * 1000:.3g} mm"
+        )
         for (first, other), depth in ordered[:_MOST]
         if depth < -_LEAST
     ]

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import (
     CommandRefused,
@@ -246,7 +246,7 @@ class Simulation:
         if self.failure:
             raise Diverged(self.failure)
 
-    def overlaps(self) -> list[ModelFinding]:
+    def overlaps(self) -> list[Finding]:
         """Bodies that overlap now, the deepest first."""
         return current_overlaps(self.world.model, self.world.data)
 

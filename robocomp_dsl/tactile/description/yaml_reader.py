@@ -16,7 +16,8 @@ from pathlib import Path
 
 import yaml
 
-from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+from robocomp_dsl.finding import NOWHERE, Finding, Location, SourceText
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
 UNITS = {"deg": math.pi / 180.0, "rad": 1.0, "mm": 0.001, "m": 1.0}
 UNITS_OF = {"a number": (), "an angle": ("deg", "rad"), "a length": ("mm", "m")}
@@ -36,37 +37,32 @@ class YamlReader:
 
     file: Path
     findings: list[Finding] = field(default_factory=list)
+    text: SourceText = NOWHERE.text
 
     def root(self, text: str) -> YamlValue:
         """The whole document. Raises `DescriptionError` when it is not YAML."""
+        self.text = SourceText.of_text(self.file, text)
         try:
             node = yaml.compose(text, Loader=yaml.SafeLoader)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
             message = f"invalid YAML: {error.problem or error.context}"
-            raise DescriptionError([Finding(str(self.file), line, column, message)]) from None
+            raise DescriptionError([self.finding(line, column, message)]) from None
         except yaml.YAMLError as error:
-            raise DescriptionError([Finding(str(self.file), 1, 1, str(error))]) from None
+            raise DescriptionError([self.finding(1, 1, str(error))]) from None
         if node is None:
-            raise DescriptionError([Finding(str(self.file), 1, 1, "the file is empty")])
+            raise DescriptionError([self.finding(1, 1, "the file is empty")])
         return YamlValue(self, node)
+
+    def finding(self, line: int, column: int, message: str) -> Finding:
+        """A finding about the form of the file."""
+        return Finding(self.text.word_at(line, column), message, kind=Fault.FORM)
 
     def finish(self) -> None:
         """Raise `DescriptionError` if there are findings."""
         if self.findings:
             raise DescriptionError(self.findings)
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A position in a file, from 1."""
-
-    line: int
-    column: int
-
-
-NOWHERE = Place(1, 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,14 +73,14 @@ class YamlValue:
     node: yaml.Node
 
     @property
-    def place(self) -> Place:
-        """Line and column of its first character."""
-        return Place(self.node.start_mark.line + 1, self.node.start_mark.column + 1)
+    def place(self) -> Location:
+        """The location of its first word."""
+        mark = self.node.start_mark
+        return self.reader.text.word_at(mark.line + 1, mark.column + 1)
 
     def report(self, message: str, help: str = "", fault: Fault = Fault.FORM) -> None:
         """Note a fault of this value."""
-        file, place = str(self.reader.file), self.place
-        self.reader.findings.append(Finding(file, place.line, place.column, message, help, fault))
+        self.reader.findings.append(Finding(self.place, message, help=help, kind=fault))
 
     def table(self) -> YamlTable:
         """The value as a table; an empty one, with a finding, if it is none."""

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from robocomp_dsl.cli.rcgen.simulation.model_findings import (
     read_source,
-    report_faults,
+    report_error,
     report_findings,
 )
 from robocomp_dsl.diagnostics import Report
@@ -40,7 +40,7 @@ def model_world(
         described = describe(path, file, packages)
         text = copy_model(path, packages)
     except ModelFileError as error:
-        report_faults(error, source, report)
+        report_error(error, source, report)
         return None
     except OSError as error:
         message = f"`{error.filename or path}` cannot be read: {error.strerror or error}"

@@ -15,14 +15,15 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli.rcgen.simulation.model_findings import (
     code_of,
     read_source,
-    report_faults,
+    report_error,
     report_findings,
 )
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.generate.scene.scene_files import resolve_files
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import SceneError
@@ -82,7 +83,7 @@ def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | No
         add_lighting(spec)
         model = compiled(spec, findings)
     except ModelFileError as error:
-        report_faults(error, source, report)
+        report_error(error, source, report)
         return None
     report_findings(findings, source, report)
     return Subject(path.stem, model, {})
@@ -96,7 +97,7 @@ def _world(path: Path, report: Report) -> Subject | None:
     if not body.root.children:
         return _empty(path)
     spans = {node.id: node.span for node, _ in body.nodes()}
-    findings: list[ModelFinding] = []
+    findings: list[Finding] = []
     try:
         data = lower_body(body)
         resolve_files(data, path.parent)

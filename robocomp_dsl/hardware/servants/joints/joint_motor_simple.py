@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.joints.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.runtime import types as rt
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 
 
 class Currents:

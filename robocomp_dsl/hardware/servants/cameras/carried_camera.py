@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 
 from robocomp_dsl.hardware.devices.camera import CameraDevice
 from robocomp_dsl.hardware.servants.base import base_state_to_message
-from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.joints.joint_motor import JointMotorServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.runtime import types as rt
 

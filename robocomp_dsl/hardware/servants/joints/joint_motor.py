@@ -12,8 +12,8 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK
 from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.servants.servant import Servant
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints
-from robocomp_dsl.hardware.control.limits import JointLimits
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
-from robocomp_dsl.hardware.control.velocity import VelocityRamp
+from robocomp_dsl.hardware.control.protection.limits import JointLimits
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK, MinimumJerk
+from robocomp_dsl.hardware.control.trajectories.velocity import VelocityRamp
 
 LEAD = 0.1
 """How far a reference that moves by velocity may run ahead of its joint [rad]."""

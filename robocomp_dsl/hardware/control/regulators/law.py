@@ -10,13 +10,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from robocomp_dsl.hardware.control.currents import Currents
-from robocomp_dsl.hardware.control.deviations import ControlErrors
-from robocomp_dsl.hardware.control.impedance import Impedance
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.loops import ControlLoops, Loop, loop_of
 from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
+from robocomp_dsl.hardware.control.regulators.currents import Currents
+from robocomp_dsl.hardware.control.regulators.deviations import ControlErrors
+from robocomp_dsl.hardware.control.regulators.impedance import Impedance
+from robocomp_dsl.hardware.control.regulators.loops import ControlLoops, Loop, loop_of
 
 
 class ControlLaw:

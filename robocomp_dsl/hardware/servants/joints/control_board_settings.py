@@ -16,8 +16,8 @@ from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import UnknownJoint
 from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints, run
-from robocomp_dsl.hardware.control.loops import Loop
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.regulators.loops import Loop
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from robocomp_dsl.hardware.servants.servant import Servant

@@ -21,7 +21,7 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Ints
 from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
-from robocomp_dsl.hardware.control.pid import Gains, PidBank
+from robocomp_dsl.hardware.control.regulators.pid import Gains, PidBank
 
 CURRENT_GAIN, CURRENT_TIME = 9.0, 0.001
 """Of what the turning of a motor takes off its current so many parts in ten are made good at once,

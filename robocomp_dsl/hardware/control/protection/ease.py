@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Floats
-from robocomp_dsl.hardware.control.limits import AHEAD, JointLimits
-from robocomp_dsl.hardware.control.pid import PidBank
+from robocomp_dsl.hardware.control.protection.limits import AHEAD, JointLimits
+from robocomp_dsl.hardware.control.regulators.pid import PidBank
 
 
 class BoundsCheck:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.devices.camera import CameraSettings, Picture
-from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
+from robocomp_dsl.hardware.servants.cameras.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
 Floats = NDArray[np.float32]

@@ -17,7 +17,7 @@ from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.targets import targets
 from robocomp_dsl.hardware.devices.errors import HardwareError
-from robocomp_dsl.hardware.servants.control_board_settings import BoardSettings, Names
+from robocomp_dsl.hardware.servants.joints.control_board_settings import BoardSettings, Names
 
 _MODES, _INTERACTIONS = tuple(Mode), tuple(Interaction)  # in the order of the interface
 

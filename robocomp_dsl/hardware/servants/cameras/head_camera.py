@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.devices.camera import CameraSettings
 from robocomp_dsl.hardware.devices.errors import CommandRefused
-from robocomp_dsl.hardware.servants.carried_camera import CarriedCameraServant
+from robocomp_dsl.hardware.servants.cameras.carried_camera import CarriedCameraServant
 from robocomp_dsl.runtime import types as rt
 
 Bytes = NDArray[np.uint8]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.loops import ControlLoops, Loop
+from robocomp_dsl.hardware.control.regulators.loops import ControlLoops, Loop
 
 
 class ControlErrors:

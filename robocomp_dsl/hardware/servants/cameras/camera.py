@@ -12,7 +12,7 @@ import numpy as np
 
 from robocomp_dsl.hardware.devices.camera import CameraDevice, Picture, points
 from robocomp_dsl.hardware.devices.errors import CommandRefused, DeviceGone, NoRendering
-from robocomp_dsl.hardware.servants.exposure import Exposure
+from robocomp_dsl.hardware.servants.cameras.exposure import Exposure
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.runtime import types as rt
 
