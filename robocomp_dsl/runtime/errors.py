@@ -1,14 +1,19 @@
-"""What can go wrong between components, as types. In: words. Out: exceptions that users catch.
+"""Exceptions of communication and configuration, for user code to catch.
 
-Exception ├── MiddlewareError the call, the topic or the message did not work out │ ├── NoServer
-nobody serves the interface that is called │ ├── AmbiguousServer several serve it and no wire says
-which is meant │ ├── Timeout no answer came in time │ ├── InterfaceMismatch the two sides were
-generated from different interfaces │ ├── RemoteError the other side failed with something it did
-not declare │ └── MalformedMessage the bytes are not what the interface says (offset and field) ├──
-DeclaredError base of the exceptions that an IDSL file declares ├── EncodeError a value that its
-type cannot carry (also a ValueError) ├── NotImplementedOperation the component has no method for it
-(also a NotImplementedError) ├── ConfigError a configuration that cannot be used } defined in └──
-ParameterRejected a live parameter change that is not made } `runtime.parameters`
+Exception
+├── MiddlewareError            a call, a topic or a message failed
+│   ├── NoServer               no component serves the interface
+│   ├── AmbiguousServer        several components serve it, and no connection selects one
+│   ├── Timeout                no reply arrived in time
+│   ├── InterfaceMismatch      the peers were generated from different interfaces
+│   ├── RemoteError            the server failed with an undeclared exception
+│   └── MalformedMessage       the bytes do not match the interface (field and offset)
+├── DeclaredError              base of the exceptions of an IDSL file
+├── EncodeError                a value that does not fit its type (also a ValueError)
+├── NotImplementedOperation    the component has no method for the operation (also a
+│                              NotImplementedError)
+├── ConfigError                an invalid configuration    } defined in
+└── ParameterRejected          a rejected live change      } `runtime.parameters`
 """
 
 from __future__ import annotations
@@ -17,15 +22,15 @@ from robocomp_dsl.runtime.data.struct import Struct
 
 
 class MiddlewareError(Exception):
-    """Base of everything that goes wrong between two components."""
+    """Base of all communication errors between two components."""
 
 
 class NoServer(MiddlewareError):
-    """Nobody serves the interface that is called."""
+    """No component serves the interface that is called."""
 
 
 class AmbiguousServer(MiddlewareError):
-    """Several components serve the interface and the required port is not wired to one of them.
+    """Several components serve the interface, and the required port is connected to none of them.
 
     `servers` are their ports, as `component.Port`.
     """
@@ -35,22 +40,22 @@ class AmbiguousServer(MiddlewareError):
         self.servers = servers
 
 
-class Timeout(MiddlewareError):  # the name that users of every middleware know
-    """No answer came in time. Whether the operation was carried out is not known."""
+class Timeout(MiddlewareError):  # the usual name in middlewares
+    """No reply arrived in time. Whether the operation was executed is unknown."""
 
 
 class InterfaceMismatch(MiddlewareError):
-    """The two sides were generated from interfaces of different shape."""
+    """The two components were generated from different versions of the interface."""
 
 
 class RemoteError(MiddlewareError):
-    """The other side failed in a way that its interface does not declare."""
+    """The server failed with an exception that its interface does not declare."""
 
 
 class MalformedMessage(MiddlewareError):
-    """Received bytes that are no message of the expected type.
+    """Received bytes that are not a message of the expected type.
 
-    `path` is the field that could not be read (`scan.points[3].x`; empty: the message as a whole),
+    `path` is the invalid field (`scan.points[3].x`; empty: the whole message),
     `offset` counts bytes from the start of the message, its 4-byte header included.
     """
 
@@ -66,7 +71,7 @@ class MalformedMessage(MiddlewareError):
 
 
 class EncodeError(ValueError):
-    """A value that its type cannot carry; nothing was sent. `path` is the field it was given to."""
+    """A value that does not fit its type; nothing was sent. `path` is the assigned field."""
 
     def __init__(self, reason: str, path: str = "") -> None:
         self.reason = reason
@@ -78,11 +83,11 @@ class EncodeError(ValueError):
 
 
 class NotImplementedOperation(NotImplementedError):
-    """The component declares the interface but has no method for this operation."""
+    """The component declares the interface but has no method for the operation."""
 
 
 class DeclaredError(Struct, Exception):
-    """Base of the exceptions that an IDSL file declares; carries fields as a struct does."""
+    """Base of the exceptions of an IDSL file; has fields like a struct."""
 
     __slots__ = ()
     _fields_ = ()

@@ -1,6 +1,6 @@
-"""The canonical text of an interface's shape, and its hash. In: schema objects. Out: text, bytes.
+"""Canonical form and type hash of an interface. In: schema objects. Out: text, bytes.
 
-Two sides that share this text understand each other's bytes and mean the same by them.
+Two components with the same canonical form can communicate.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ def digest(text: str) -> bytes:
 
 
 def interface_shape(interface: Interface) -> str:
-    """Every operation on a line of its own, in alphabetical order: their order means nothing."""
+    """One line per operation, in alphabetical order, because their order is irrelevant."""
     lines = sorted(_operation(operation) for operation in interface.operations)
     return "\n".join([f"interface {interface.name}", *lines])
 
 
 def type_shape(type_: Type) -> str:
-    """`struct{x:double,y:double}`, `sequence<int>` and so on."""
+    """`struct{x:double,y:double}`, `sequence<int>` etc."""
     match type_:
         case Primitive():
             return type_.name
@@ -57,7 +57,7 @@ def _fields(fields: Fields) -> str:
 
 
 def _enumerators(enum: type[Enum]) -> str:
-    # Python adds an underscore to some names; other languages do not.
+    # Python appends an underscore to some names; other languages do not.
     return ",".join(f"{enumerator.name.rstrip('_')}={enumerator.value}" for enumerator in enum)
 
 

@@ -22,7 +22,7 @@ _MESSAGE = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)
 
 
 def read_toml(text: ConfigText, source: str, findings: list[ConfigFinding]) -> Mapping | None:
-    """The root mapping of `source`; None when it is not TOML. Adds to `findings`."""
+    """The root mapping of `source`; None if it is not TOML. Adds to `findings`."""
     root = ConfigLocation(text, 1, 1)
     try:
         data = tomllib.loads(source)
@@ -45,7 +45,7 @@ def _syntax_error(text: ConfigText, error: tomllib.TOMLDecodeError) -> ConfigFin
 
 
 def _places(text: ConfigText) -> Iterator[tuple[str, tuple[ConfigLocation, ConfigLocation]]]:
-    """Path of every key at the begin of a line, with the places of key and value."""
+    """Path of every key at the start of a line, with the locations of key and value."""
     prefix = ""
     counts: dict[str, int] = {}
     for number, line in enumerate(text.lines, start=1):
