@@ -1,6 +1,6 @@
 """Checks a device plan before any device is opened.
 
-In: a description and the kinds that there are. Out: findings, each with its item;
+In: a plan and the available kinds. Out: findings, each with its item;
 none if the plan is valid. `PlanError` carries them all.
 """
 
@@ -67,7 +67,7 @@ def attach_order(plan: DevicePlan) -> tuple[str, ...]:
 def calibrator_of(
     action: DeviceAction, plan: DevicePlan, kinds: Mapping[str, DeviceKind]
 ) -> list[str]:
-    """Devices that could calibrate or park for `action`; valid is exactly one."""
+    """Devices that could calibrate or park for `action`; a valid plan has exactly one."""
     if action.by:
         return [action.by]
     known = _kinds(plan, kinds)
