@@ -1,8 +1,8 @@
 """Shows a running simulation on a browser page, refreshed 20 times a second.
 
-In: proxies of `Simulation` and `InnerModelManager`, served by any component. Out: a page
-that follows: switches pause time, sliders move joints, numbers place nodes. When the simulation has
-other nodes or is restarted, the page is rebuilt.
+In: proxies of `Simulation` and `InnerModelManager`, served by any component. Out: a page that
+follows the simulation: switches pause time, sliders move joints, numbers place nodes. When the
+nodes of the simulation change or it restarts, the page is rebuilt.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ log = logging.getLogger("robocomp.view")
 
 
 class LivePage:
-    """Open until `close`; without `nodes` no nodes can be placed.
+    """Open until `close`; without `nodes` nodes cannot be moved.
 
-    Raises as `fetch_live_state` does, and `OSError` when the port is taken.
+    Raises the errors of `fetch_live_state`, and `OSError` if the port is in use.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class LivePage:
             self.page.controls.show_status("  \n".join(filter(None, lines)), running=not it.paused)
 
     def run(self, keep_running: Callable[[], bool] = lambda: True) -> None:
-        """Follow until `keep_running` says no. Raises `UnsupportedSimulation`."""
+        """Follow until `keep_running` returns False. Raises `UnsupportedSimulation`."""
         while keep_running():
             time.sleep(1 / REFRESH_HZ)
             self.refresh()

@@ -1,8 +1,8 @@
-"""The nodes of a running world: where they are, and changes of them, physics going on.
+"""The nodes of a running world: their poses, and changes at run time.
 
-In: a simulation, whose turn it is. Out: poses in RoboComp's frame, another scene. A frame without a
-joint is changed in the model directly; for everything else the world is rebuilt with its state
-(some ms, more with many meshes). Every function may raise `NodeError`.
+In: a simulation whose lock is held. Out: poses in RoboComp's frame, or a changed scene. A frame
+without a joint is changed in the model directly; for all other changes the world is rebuilt with
+its state (some ms, more with many meshes). Every function may raise `NodeError`.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def matrix_of(pose: Sequence[float]) -> Matrix:
 
 
 def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -> None:
-    """Put the frame `item` where `pose` in `base` is."""
+    """Set the pose of the frame `item` in `base`."""
     frame = frame_of(simulation.state.scene, item)
     if frame.id == ROOT:
         raise NodeError(NodeErrorCode.WRONG_NODE, "the root stays where it is")
@@ -73,7 +73,7 @@ def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -
 
 
 def _place_given(simulation: Simulation, frame: Frame, in_root: Matrix) -> None:
-    """Move a body of a model file: `mocap` bodies, and free ones."""
+    """Move a body of a model file: `mocap` or free bodies."""
     if frame.model_part == "joint":
         message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
         raise NodeError(NodeErrorCode.WRONG_NODE, message)
@@ -124,7 +124,7 @@ def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None
 
 
 def touching(simulation: Simulation, first: str, other: str) -> bool:
-    """Whether a shape at or below one node touches or enters one at or below the other."""
+    """Whether a shape in one subtree touches or penetrates one in the other."""
     left, right = (_geoms(simulation, node) for node in (first, other))
     world = simulation.state.world
     model, data = world.model, world.data
