@@ -55,7 +55,7 @@ class CartesianEndEffector:
 
     @staticmethod
     def goal(pose: Matrix) -> Matrix:
-        """A goal of the controller from a pose, (4, 4), or position, (3,). Raises `CommandRefused`."""
+        """The goal of a pose, (4, 4), or a position, (3,) [m], in mm. Raises `CommandRefused`."""
         if not np.isfinite(pose).all():
             raise CommandRefused("the goal holds NaN or infinity")
         if pose.ndim == 1:
