@@ -18,7 +18,7 @@ from recording import Floats, Ints, Skin
 from topic_buffer import TopicBuffer
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation
 
 HIGHEST = 2.0
 """End of the colour scale [N]."""

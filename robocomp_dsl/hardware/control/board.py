@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from robocomp_dsl.hardware.control.acceleration import AccelerationFilter
-from robocomp_dsl.hardware.control.ease import BoundsCheck
+from robocomp_dsl.hardware.control.bounds_check import BoundsCheck
 from robocomp_dsl.hardware.control.faults import FaultCode, Faults, overloaded, too_hot
 from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from robocomp_dsl.hardware.control.control_errors import ControlErrors
 from robocomp_dsl.hardware.control.currents import Currents
-from robocomp_dsl.hardware.control.deviations import ControlErrors
 from robocomp_dsl.hardware.control.impedance import Impedance
 from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.loops import ControlLoops, Loop, loop_of

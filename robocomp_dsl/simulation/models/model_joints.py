@@ -34,8 +34,8 @@ from robocomp_dsl.simulation.models.model_motors import (
     motors_of,
     others,
 )
-from robocomp_dsl.simulation.models.model_start import StartSpec
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms
+from robocomp_dsl.simulation.models.start_spec import StartSpec
 from robocomp_dsl.simulation.scene.scene_joints import SPEED
 
 _KINDS = {mujoco.mjtJoint.mjJNT_HINGE: "joint", mujoco.mjtJoint.mjJNT_SLIDE: "prismaticjoint"}

@@ -19,9 +19,9 @@ from robocomp_dsl.simulation.models.model_file import compiled
 from robocomp_dsl.simulation.models.model_joints import couplings_of, joints_of
 from robocomp_dsl.simulation.models.model_motors import others, through_tendons
 from robocomp_dsl.simulation.models.model_sensors import sensors_of
-from robocomp_dsl.simulation.models.model_start import StartSpec, begin
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms, model_transforms
 from robocomp_dsl.simulation.models.model_transmissions import transmissions_of
+from robocomp_dsl.simulation.models.start_spec import StartSpec, load_spec
 
 Data = dict[str, Any]
 
@@ -40,7 +40,7 @@ def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> ModelDescr
 
     Raises `ModelFileError`, `OSError`.
     """
-    started = begin(path, packages)
+    started = load_spec(path, packages)
     model = compiled(started.spec, started.findings)
     seen = model_transforms(model)
     devices = joints_of(model, seen, started)

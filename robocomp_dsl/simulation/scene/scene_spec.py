@@ -17,7 +17,7 @@ import numpy as np
 from robocomp_dsl.hardware.description.scene import ROOT, Frame, Model, Motion, Scene, Triple
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.kinematics.rotations import rotation
-from robocomp_dsl.simulation.models.model_start import reload_spec
+from robocomp_dsl.simulation.models.start_spec import reload_spec
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.scene.scene_shapes import add_box, add_mesh

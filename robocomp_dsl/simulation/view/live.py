@@ -14,9 +14,9 @@ from collections.abc import Callable
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.simulation.simulation_interface import InnerModelManagerProxy, SimulationProxy
 from robocomp_dsl.simulation.view.browser import DEFAULT_VIEWPOINT, BrowserPage
+from robocomp_dsl.simulation.view.live_state import LiveState, fetch_live_state
 from robocomp_dsl.simulation.view.picture import Viewpoint
 from robocomp_dsl.simulation.view.remote_simulation import RemoteSimulation
-from robocomp_dsl.simulation.view.running import LiveState, fetch_live_state
 
 REFRESH_HZ = 20.0  # per second
 CALL_TIMEOUT_S = 2.0

@@ -21,8 +21,8 @@ pytest.importorskip("viser", reason="needs the extra `view`")
 
 from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.simulation.view.live import LivePage
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.view.nodes import quaternion
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.world import visual_state
 from tests.simulation.served_worlds import CLIENT, Served, rcgen, run, served
 from tests.support.chromium_tab import PATIENCE, needs_chromium, opened_tab, red, wait_for

@@ -23,8 +23,8 @@ from robocomp_dsl.simulation.simulation_interface import (
     InnerModelManagerProxy,
     SimulationProxy,
 )
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.view.picture import Viewpoint
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 
 CLIENT_NAME = f"rcgen-view-{os.getpid()}"
 DEFAULT_DOMAIN = "default"

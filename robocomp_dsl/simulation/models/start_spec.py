@@ -35,7 +35,7 @@ class StartSpec:
     held: dict[str, float] = field(default_factory=dict)
 
 
-def begin(path: Path, packages: Sequence[Path] = ()) -> StartSpec:
+def load_spec(path: Path, packages: Sequence[Path] = ()) -> StartSpec:
     """The specification in the file at `path`. Raises `ModelFileError`, `OSError`."""
     spec, findings = read_spec(path, packages)
     _name(spec)
@@ -55,7 +55,7 @@ def reload_spec(path: Path) -> StartSpec:
 
 @lru_cache(maxsize=2)
 def _base_spec(path: Path, _: int) -> StartSpec:
-    return begin(path)
+    return load_spec(path)
 
 
 def _name(spec: Any) -> None:
