@@ -154,11 +154,20 @@ class NaoSimulatorParams(Parameters):
             doc="Duration of one physics step.",
         ),
         Parameter(
+            "noise",
+            "float",
+            default=1.0,
+            low=0.0,
+            high=100.0,
+            live=True,
+            doc="Factor on the noise that the devices declare.",
+        ),
+        Parameter(
             "diverged",
             "choice",
             default="reset",
             choices=("reset", "stop"),
-            doc="Factor on the noise that the devices declare. Reaction to a diverged simulation (values that are not finite). What happens when the physics leaves the range of finite numbers.",
+            doc="Reaction to a diverged simulation (values that are not finite).",
         ),
         Parameter(
             "reference_timeout",
@@ -184,8 +193,8 @@ class NaoSimulatorParams(Parameters):
     # Duration of one physics step.
     step: float
     # Factor on the noise that the devices declare.
+    noise: float
     # Reaction to a diverged simulation (values that are not finite).
-    # What happens when the physics leaves the range of finite numbers.
     diverged: Literal["reset", "stop"]
     # A joint holds its position this long after its last torque, duty cycle or current reference; 0: never.
     reference_timeout: float

@@ -82,11 +82,6 @@ class Simulator:
         """Whether the world has joints with streamed references."""
         return any(port.interface == BOARDS for port in self.ports)
 
-    @property
-    def published(self) -> str:
-        """The ports of its topics, for Markdown."""
-        return ", ".join(f"`{topic.port}`" for topic in self.topics)
-
 
 def simulator(body: InnerModel) -> Simulator:
     """The simulator of a world. File names in the scene become absolute paths."""
