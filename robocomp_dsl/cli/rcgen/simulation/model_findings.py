@@ -18,7 +18,7 @@ from robocomp_dsl.source import Source, Span, UnreadableSource
 def read_source(path: Path) -> Source:
     """The text of the file; empty if it is unreadable.
 
-    MuJoCo takes what is not UTF-8, or very large; lines are left out then.
+    MuJoCo also accepts large files and text other than UTF-8; findings then have no lines.
     """
     try:
         return Source.read(path)
@@ -27,13 +27,13 @@ def read_source(path: Path) -> Source:
 
 
 def report_faults(error: ModelFileError, source: Source, report: Report) -> None:
-    """All reasons why there is no model."""
+    """All errors that prevent a model."""
     for fault in error.faults:
         report.add(codes.MODEL_FILE, at_line(source, fault.line), fault.message)
 
 
 def report_findings(findings: Iterable[ModelFinding], source: Source, report: Report) -> None:
-    """What is not as described, at its line or where its link or body begins."""
+    """Deviations from the file, at their line, or where their link or body starts."""
     for finding in findings:
         place = at_line(source, finding.line) if finding.line else _named(source, finding)
         report.add(code_of(finding), place, finding.message)
@@ -45,7 +45,7 @@ def code_of(finding: ModelFinding) -> Code:
 
 
 def at_line(source: Source, number: int) -> Span:
-    """A line without its blanks; the whole text for one that is not there."""
+    """A line without surrounding blanks; the whole text if there is no such line."""
     if not 0 < number <= len(source.line_starts):
         return source.file_span
     text = source.line(number)
@@ -54,7 +54,7 @@ def at_line(source: Source, number: int) -> Span:
 
 
 def _named(source: Source, finding: ModelFinding) -> Span:
-    """The tag of what a finding is about."""
+    """The tag of a finding's subject."""
     tags = "joint" if finding.kind == "joint" else "link|body"
     tag = rf"<(?:{tags})\b[^<>]*\bname\s*=\s*([\"']){re.escape(finding.subject)}\1"
     found = re.search(tag, source.text) if finding.subject else None
