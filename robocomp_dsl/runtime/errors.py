@@ -35,15 +35,15 @@ __all__ = [
 
 
 class MiddlewareError(Exception):
-    """Base of everything that goes wrong between two components."""
+    """Base of all communication errors between two components."""
 
 
 class NoServer(MiddlewareError):
-    """Nobody serves the interface that is called."""
+    """No component serves the interface that is called."""
 
 
 class AmbiguousServer(MiddlewareError):
-    """Several components serve the interface and the required port is not wired to one of them.
+    """Several components serve the interface, and the required port is connected to none of them.
 
     `servers` are their ports, as `component.Port`.
     """
@@ -53,22 +53,22 @@ class AmbiguousServer(MiddlewareError):
         self.servers = servers
 
 
-class Timeout(MiddlewareError):  # the name that users of every middleware know
-    """No answer came in time. Whether the operation was carried out is not known."""
+class Timeout(MiddlewareError):  # the usual name in middlewares
+    """No reply arrived in time. Whether the operation was executed is unknown."""
 
 
 class InterfaceMismatch(MiddlewareError):
-    """The two sides were generated from interfaces of different shape."""
+    """The two components were generated from different versions of the interface."""
 
 
 class RemoteError(MiddlewareError):
-    """The other side failed in a way that its interface does not declare."""
+    """The server failed with an exception that its interface does not declare."""
 
 
 class MalformedMessage(MiddlewareError):
-    """Received bytes that are no message of the expected type.
+    """Received bytes that are not a message of the expected type.
 
-    `path` is the field that could not be read (`scan.points[3].x`; empty: the message as a whole),
+    `path` is the invalid field (`scan.points[3].x`; empty: the whole message),
     `offset` counts bytes from the start of the message, its 4-byte header included.
     """
 

@@ -1,11 +1,11 @@
-"""The errors of touch and of the generic arm.
+"""Errors of touch and of the generic arm.
 
 TactileError
-    DescriptionError     a description or position file is wrong; holds all findings
+    DescriptionError     a description or position file is invalid; contains all findings
     InvalidCommand       a command holds NaN, or has the wrong number of values
     Unreachable          no joint angles within the limits reach the pose
     RejectedFrame        a taxel frame cannot be used, with the reason
-    BadFit               points describe no cone
+    BadFit               no cone fits the points
     BadGeometry          the geometry message of a skin is inconsistent
     InvalidField         a receptive field does not fit the skin or the arm
     NoState              no measurement of the arm has arrived yet
@@ -25,7 +25,7 @@ class TactileError(Exception):
 
 
 class Fault(StrEnum):
-    """The `kind` of a finding: what is wrong in a file."""
+    """Kind of a finding in a file."""
 
     FORM = "form"
     JOINT = "joint"
@@ -36,7 +36,7 @@ class Fault(StrEnum):
 
 
 class DescriptionError(TactileError):
-    """A file that cannot be used. `findings` are all its faults, in the order of the file."""
+    """A file that cannot be used. `findings` are all problems, in the order of the file."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
         self.findings = tuple(sorted(findings, key=_file_order))
@@ -48,7 +48,7 @@ def _file_order(finding: Finding) -> tuple[str, int, int]:
 
 
 class BadFit(TactileError):
-    """The points describe no cone; the message says why."""
+    """No cone fits the points; the message gives the reason."""
 
 
 class BadGeometry(TactileError):
@@ -56,7 +56,7 @@ class BadGeometry(TactileError):
 
 
 class InvalidField(TactileError):
-    """A receptive field does not fit the skin or the arm; the message says which and why."""
+    """A receptive field does not fit the skin or the arm; the message gives the reason."""
 
 
 class NoState(TactileError):
@@ -81,7 +81,7 @@ class Unreachable(TactileError):
 
 
 class FrameFault(Enum):
-    """Why a taxel frame is rejected."""
+    """Reasons of a rejected taxel frame."""
 
     NOT_FINITE = "it holds NaN or infinity"
     WRONG_LENGTH = "its length is not that of the geometry"

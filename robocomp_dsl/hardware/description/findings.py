@@ -1,4 +1,4 @@
-"""Findings about a model file, and the error for one that cannot be loaded."""
+"""Findings in a model file, and the error for a file that cannot be loaded."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.hardware.devices.errors import SceneError
 
 Kind: TypeAlias = Literal[
-    "file",  # the file says something that cannot be understood
-    "tree",  # parts that do not make one tree
+    "file",  # the file contains something invalid
+    "tree",  # parts that do not form one tree
     "joint",
-    "mass",  # something moves and weighs nothing
-    "mesh",  # a mesh that is shown as a box
+    "mass",  # a moving part without mass
+    "mesh",  # a mesh replaced by its bounding box
     "texture",
     "size",
-    "overlap",  # bodies that collide before anything has moved
+    "overlap",  # bodies that collide in the initial pose
 ]
 
 MODEL_TEXT = SourceText("")

@@ -61,7 +61,7 @@ def attach_order(plan: DevicePlan) -> tuple[str, ...]:
 def calibrator_of(
     action: DeviceAction, plan: DevicePlan, kinds: Mapping[str, DeviceKind]
 ) -> list[str]:
-    """Devices that could calibrate or park for `action`; valid is exactly one."""
+    """Devices that could calibrate or park for `action`; a valid plan has exactly one."""
     if action.by:
         return [action.by]
     known = _kinds(plan, kinds)

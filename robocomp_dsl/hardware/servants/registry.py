@@ -54,4 +54,4 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompUltrasound::Ultrasound": UltrasoundServant,
     "RoboCompBatteryStatus::BatteryStatus": BatteryServant,
 }
-"""Interface name to servant class, for devices that any robot has."""
+"""Interface name to servant class, for devices that simulated and real robots have."""

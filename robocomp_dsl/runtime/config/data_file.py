@@ -1,7 +1,7 @@
 """Finds a file that a parameter names, such as a map or a robot description.
 
 In: the value of the parameter, the configuration file. Out: the path, or `ConfigError` that lists
-every path where the file was looked for.
+all searched paths.
 """
 
 from __future__ import annotations

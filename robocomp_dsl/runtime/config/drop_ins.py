@@ -27,7 +27,7 @@ def drop_in_roots(environment: SearchEnvironment, findings: list[Finding]) -> tu
 
 
 def _files(folders: Iterable[Path]) -> list[Path]:
-    """The drop-in files, by name in each folder; a user's file overrides others of its name."""
+    """The drop-in files, by name in each folder; a user's file overrides one of the same name."""
     found: dict[str, Path] = {}
     for folder in folders:
         try:

@@ -1,6 +1,6 @@
-"""The canonical text of an interface's shape, and its hash. In: schema objects. Out: text, bytes.
+"""Canonical form and type hash of an interface. In: schema objects. Out: text, bytes.
 
-Two sides that share this text understand each other's bytes and mean the same by them.
+Two components with the same canonical form can communicate.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ def interface_hash(name: str, operations: Iterable[str]) -> bytes:
 def operation_shape(
     pattern: str, name: str, inputs: Fields, outputs: Fields, throws: Iterable[Type]
 ) -> str:
-    """An operation with its pattern, its types on the wire and the exceptions that it declares."""
+    """One line per operation, in alphabetical order, because their order is irrelevant."""
     exceptions = ",".join(map(type_shape, throws))
     return f"{pattern} {name}({_fields(inputs)})->({_fields(outputs)}) throws({exceptions})"
 
 
 def type_shape(type_: Type) -> str:
-    """`struct{x:double,y:double}`, `sequence<int>` and so on."""
+    """`struct{x:double,y:double}`, `sequence<int>` etc."""
     match type_:
         case Primitive():
             return type_.name
@@ -60,5 +60,5 @@ def _fields(fields: Fields) -> str:
 
 
 def _enumerators(enum: type[Enum]) -> str:
-    # Python adds an underscore to some names; other languages do not.
+    # Python appends an underscore to some names; other languages do not.
     return ",".join(f"{enumerator.name.rstrip('_')}={enumerator.value}" for enumerator in enum)

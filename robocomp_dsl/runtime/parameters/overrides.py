@@ -26,7 +26,7 @@ _STEP = re.compile(r"\.?([A-Za-z_][A-Za-z0-9_-]*)|\[([0-9]{1,6})\]")
 
 
 def parse_path(path: str) -> list[str | int] | None:
-    """`a.b[2].c` as `["a", "b", 2, "c"]`; None when it is no such path."""
+    """`a.b[2].c` as `["a", "b", 2, "c"]`; None if the path is invalid."""
     steps: list[str | int] = []
     at = 0
     while at < len(path):
@@ -41,7 +41,7 @@ def parse_path(path: str) -> list[str | int] | None:
 
 
 def format_path(path: Iterable[str | int]) -> str:
-    """The inverse of `steps`."""
+    """The inverse of `parse_path`."""
     text = ""
     for step in path:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
@@ -90,7 +90,7 @@ class _InvalidPath(Exception):
 def _replace(
     node: Node | None, path: list[str | int], depth: int, key: Location, leaf: Scalar
 ) -> Node:
-    """A copy of `node` with `leaf` at `path[depth:]`; aliases elsewhere keep what they have."""
+    """A copy of `node` with `leaf` at `path[depth:]`; aliases of the node are unchanged."""
     if depth == len(path):
         return leaf
     step = path[depth]

@@ -22,7 +22,7 @@ _MESSAGE = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)
 
 
 def read_toml(text: SourceText, source: str, findings: list[Finding]) -> Mapping | None:
-    """The root mapping of `source`; None when it is not TOML. Adds to `findings`."""
+    """The root mapping of `source`; None if it is not TOML. Adds to `findings`."""
     root = Location(text, 1, 1)
     try:
         data = tomllib.loads(source)
@@ -43,7 +43,7 @@ def _syntax_error(text: SourceText, error: tomllib.TOMLDecodeError) -> Finding:
 
 
 def _places(text: SourceText) -> Iterator[tuple[str, tuple[Location, Location]]]:
-    """Path of every key at the begin of a line, with the places of key and value."""
+    """Path of every key at the start of a line, with the locations of key and value."""
     prefix = ""
     counts: dict[str, int] = {}
     for number, line in enumerate(text.lines, start=1):

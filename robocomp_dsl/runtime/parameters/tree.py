@@ -40,7 +40,7 @@ class Items:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One `key: value`; `place` is that of the key."""
+    """One `key: value`; `place` is the location of the key."""
 
     place: Location
     value: Node

@@ -22,7 +22,7 @@ _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def read_yaml(text: SourceText, source: str, findings: list[Finding]) -> Mapping | None:
-    """The root mapping of `source`; None when it is not YAML. Adds to `findings`."""
+    """The root mapping of `source`; None if it is not YAML. Adds to `findings`."""
     composer = _Composer(text, findings)
     try:
         return composer.document(iter(yaml.parse(source, Loader=_LOADER)))
@@ -41,7 +41,7 @@ class _TooDeep(Exception):
 
 
 class _Composer:
-    """Makes nodes of the events of one text (events are `Any`: PyYAML declares no attributes)."""
+    """Builds nodes from a text's events (`Any`: PyYAML declares no attributes)."""
 
     def __init__(self, text: SourceText, findings: list[Finding]) -> None:
         self.text = text

@@ -1,7 +1,7 @@
-"""A mesh file as a geom of MuJoCo, or a box as a placeholder.
+"""A mesh file as a geom of MuJoCo, or a placeholder box.
 
-In: a body of an `MjSpec`, a file and a scale. Out: settings of a geom, with a finding where it is
-not the mesh. Points are taken as the file has them: m, z up, as URDF and MJCF do.
+In: a body of an `MjSpec`, a file and a scale. Out: settings of a geom, with a finding if it is a
+placeholder. Points are in the axes of the file: m, z up, as in URDF and MJCF.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def _box(half: list[float], centre: Matrix) -> dict[str, Any]:
 
 
 def is_flat(points: Matrix) -> bool:
-    """Whether the points, shape (n, 3), lie in a plane, of which MuJoCo makes no mesh."""
+    """Whether the points, shape (n, 3), are coplanar; MuJoCo rejects such meshes."""
     if len(points) < 4:
         return True
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

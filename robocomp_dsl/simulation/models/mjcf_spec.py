@@ -1,7 +1,7 @@
 """Reads MJCF files, and replaces missing meshes and textures.
 
 In: the path of an MJCF file. Out: its `MjSpec`, in which meshes that MuJoCo cannot read are boxes
-and textures that are not there are left out, with findings.
+and missing textures are dropped, with findings.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def build_mjcf(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Fin
 
 
 def error_with_line(error: Exception) -> ModelFileError:
-    """The error of MuJoCo about a file, with its line."""
+    """MuJoCo's error about a file, with its line."""
     message = str(error)
     line = _LINE.search(message)
     words = " ".join(message.replace("XML Error:", "").removeprefix("Error:").split())
@@ -77,7 +77,7 @@ def _replace_meshes(
 
 
 def _mesh_source(mesh: Any, file: Path) -> bool:
-    """Give a mesh the points of an STL file; MuJoCo reads only the binary form, and small ones."""
+    """Set the points of a mesh from an STL file; MuJoCo reads only small binary STL files."""
     try:
         surface = read_surface(file)
     except MeshError:

@@ -5,8 +5,7 @@ In: the compiled model, and the joints on its boards. Out: a device for each
     <custom> <text name="cartesian_LArm" data="l_hand torso"/> </custom>
 
 which names a board, the body or site that its joints move, and the body in which poses are
-expressed (without one: the world). Joints that are named behind are left as they are, as those of
-fingers.
+expressed (default: the world). Joints named after these are not moved, such as those of fingers.
 """
 
 from __future__ import annotations

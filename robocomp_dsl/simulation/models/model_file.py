@@ -1,7 +1,7 @@
-"""A model file, URDF or MJCF, as something that can be simulated.
+"""Loads a model file, URDF or MJCF, as a compiled MuJoCo model.
 
-In: a path and folders of packages. Out: the compiled model with its spec and findings on all that
-is not as described; `ModelFileError` when there is no model, with the lines that are to blame.
+In: a path and folders of packages. Out: the compiled model with its spec, and findings on
+deviations from the file; `ModelFileError` with the relevant lines if no model can be built.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _LIGHTEST = 1e-3
 
 @dataclass(slots=True)
 class LoadedModel:
-    """`spec` is that of `model`."""
+    """`spec` is the specification of `model`."""
 
     spec: Any
     model: Any
@@ -44,7 +44,7 @@ def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
 
 
 def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
-    """What is in the file at `path`, not compiled yet. Raises `ModelFileError`, `OSError`."""
+    """The uncompiled model in the file at `path`. Raises `ModelFileError`, `OSError`."""
     data = path.read_bytes()
     match root_tag(data):
         case "robot":
@@ -59,7 +59,7 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Find
 
 
 def compiled(spec: Any, findings: list[Finding]) -> Any:
-    """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
+    """The model of `spec`; moving parts without mass get some. Raises `ModelFileError`."""
     reserve_arena(spec, len(spec.bodies))
     try:
         model = _compile(spec, findings)
@@ -81,11 +81,11 @@ _NUMBERS = {
     "site": ("pos", "quat"),
     "cam": ("pos", "quat", "fovy"),
 }
-"""What MuJoCo takes as it is, also where it is no number."""
+"""Attributes that MuJoCo does not check for finite values."""
 
 
 def _require_finite(model: Any) -> None:
-    """Raises `ModelFileError` for what is not made of finite numbers."""
+    """Raises `ModelFileError` for attributes that are not finite."""
     for kind, names in _NUMBERS.items():
         for name in names:
             numbers = getattr(model, f"{kind}_{name}")

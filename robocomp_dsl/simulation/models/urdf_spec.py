@@ -1,8 +1,8 @@
-"""A robot of URDF as a MuJoCo model: a body for every link, a joint for all that moves.
+"""A URDF robot as a MuJoCo model: a body for every link, a joint for every moving one.
 
 In: a `Robot`. Out: an `MjSpec` whose bodies and joints have the names of the file, and findings.
-Visual and collision shapes are separate geoms; the latter are in group 3, which viewers hide,
-where a link has something to be seen.
+Visual and collision shapes are separate geoms; collision shapes of links with visual shapes are in
+group 3, which viewers hide.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from robocomp_dsl.hardware.kinematics.rotations import Matrix
 from robocomp_dsl.simulation.models.mesh_geom import MeshCache
 
 WORLD = "world"
-"""A link of this name is the world itself."""
+"""A link with this name is the world itself."""
 
 _GEOM, _JOINT = mujoco.mjtGeom, mujoco.mjtJoint
 _HIDDEN = 3
@@ -184,7 +184,7 @@ def quaternion(turn: Matrix) -> Matrix:
 
 
 def _about_link(inertia: UrdfInertia) -> tuple[Matrix, bool]:
-    """The tensor along the link's axes, and whether a rigid body can have it."""
+    """The tensor along the link's axes, and whether it is physically possible."""
     xx, yy, zz, xy, xz, yz = inertia.tensor
     turn = turned(inertia.pose)
     tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T

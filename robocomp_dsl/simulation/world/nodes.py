@@ -1,8 +1,8 @@
-"""The nodes of a running world: where they are, and changes of them, physics going on.
+"""The nodes of a running world: their poses, and changes at run time.
 
-In: a simulation, whose turn it is. Out: poses in RoboComp's frame, another scene. A frame without a
-joint is changed in the model directly; for everything else the world is rebuilt with its state
-(some ms, more with many meshes). Every function may raise `NodeError`.
+In: a simulation whose lock is held. Out: poses in RoboComp's frame, or a changed scene. A frame
+without a joint is changed in the model directly; for all other changes the world is rebuilt with
+its state (some ms, more with many meshes). Every function may raise `NodeError`.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def matrix_of(pose: Sequence[float]) -> Matrix:
 
 
 def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[float]) -> None:
-    """Put the frame `item` where `pose` in `base` is."""
+    """Set the pose of the frame `item` in `base`."""
     state = simulation.state
     frame = frame_of(state.scene, item)
     if frame.id == ROOT:
@@ -85,7 +85,7 @@ def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[floa
 
 
 def _place_given(branch: SimulationState, frame: Frame, in_root: Matrix) -> None:
-    """Move a body of a model file: `mocap` bodies, and free ones."""
+    """Move a body of a model file: `mocap` or free bodies."""
     if frame.model_part == "joint":
         message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
         raise NodeError(NodeErrorCode.WRONG_NODE, message)
@@ -135,7 +135,7 @@ def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) ->
 
 
 def touching(state: SimulationState, first: str, other: str) -> bool:
-    """Whether a shape at or below one node touches or enters one at or below the other."""
+    """Whether a shape in one subtree touches or penetrates one in the other."""
     left, right = (_geoms(state, node) for node in (first, other))
     model, data = state.world.model, state.world.data
     if not len(left) or not len(right):

@@ -1,7 +1,7 @@
 """Finds bodies that overlap.
 
-In: a compiled model, or a world in some state. Out: findings, the deepest first. Contacts are what
-MuJoCo makes of the shapes: pairs that it excludes (a body and its parent) are not reported.
+In: a compiled model, or a world in some state. Out: findings, the deepest first. Based on MuJoCo's
+contacts: pairs that it excludes (a body and its parent) are not reported.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from robocomp_dsl.simulation.models.mjcf_spec import error_with_line
 
 _MOST = 10
 _LEAST = 1e-4
-"""m: less is normal contact."""
+"""m: smaller overlaps are normal contacts."""
 
 
 def overlaps(model: Any) -> list[Finding]:
@@ -52,7 +52,7 @@ def current_overlaps(model: Any, data: Any) -> list[Finding]:
 
 
 def _name(model: Any, geom: int) -> str:
-    """The name of the body; for the world itself the name of the shape."""
+    """The name of the body, or of the shape if it belongs to the world."""
     body = int(model.geom_bodyid[geom])
     name = model.body(body).name if body else model.geom(geom).name or "world"
     return name.removesuffix(".") or f"body{body}"

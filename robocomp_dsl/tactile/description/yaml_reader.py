@@ -1,9 +1,8 @@
 """Read YAML with positions, so that every finding has a line and a column.
 
-In: a text. Out: `Entry` trees that hand out tables, lists, numbers and words. What is wrong is
-collected in `Reading.findings` and a harmless value is returned, so that reading goes on and all
-faults are told at once. A length or an angle may carry a unit: `90 deg`, `62.5 mm`; rad and m are
-meant else.
+In: a text. Out: `Value` trees with tables, lists, numbers and strings. Errors are collected as
+findings, and a neutral value is returned, so that reading continues and all errors are reported
+together. A length or an angle may have a unit: `90 deg`, `62.5 mm`; the default is rad and m.
 """
 
 from __future__ import annotations
@@ -79,11 +78,11 @@ class YamlValue:
         return self.reader.text.word_at(mark.line + 1, mark.column + 1)
 
     def report(self, message: str, help: str = "", fault: Fault = Fault.FORM) -> None:
-        """Note a fault of this value."""
+        """Report an error of this value."""
         self.reader.findings.append(Finding(self.place, message, help=help, kind=fault))
 
     def table(self) -> YamlTable:
-        """The value as a table; an empty one, with a finding, if it is none."""
+        """The value as a table; an empty one, with a finding, if it is not a table."""
         rows: dict[str, YamlValue] = {}
         if not isinstance(self.node, yaml.MappingNode):
             self.report("expected a table of `key: value`")
@@ -111,17 +110,16 @@ class YamlValue:
         return [YamlValue(self.reader, node) for node in self.node.value]
 
     def text(self) -> str:
-        """The value as a string; an empty one, with a finding, if it is none."""
+        """The value as a string; an empty one, with a finding, if it is not a string."""
         if isinstance(self.node, yaml.ScalarNode) and self.node.value:
             return str(self.node.value)
         self.report("expected a string")
         return ""
 
     def number(self, quantity: str, default_unit: str = "") -> float:
-        """The value, `what` of `UNITS_OF`; 0 after a complaint.
+        """The value as a `quantity` of `UNITS_OF`; 0, with a finding, if it is invalid.
 
-        In SI units, or as something that is `counted` in this unit has it; then so is a number that
-        carries none.
+        In SI units, or in `default_unit` if set; a number without a unit is in the same unit.
         """
         match = None
         if isinstance(self.node, yaml.ScalarNode):
@@ -142,14 +140,14 @@ class YamlValue:
         return value * UNITS[unit] / UNITS[default_unit or "m"]
 
     def integer(self) -> int:
-        """The value as an integer; 0, with a finding, if it is none."""
+        """The value as an integer; 0, with a finding, if it is not an integer."""
         value = self.number(NUMBER)
         if value != int(value):
             self.report("expected an integer")
         return int(value)
 
     def numbers(self, quantities: tuple[str, ...], default_unit: str = "") -> tuple[float, ...]:
-        """A list with one number per entry of `quantities`; zeros, with a finding, if not."""
+        """A list with one number per entry of `quantities`; zeros, with a finding, if invalid."""
         items = self.items(len(quantities))
         values = (
             item.number(quantity, default_unit)
@@ -197,7 +195,7 @@ class YamlTable:
         default: tuple[float, ...] = (),
         default_unit: str = "",
     ) -> tuple[float, ...]:
-        """The list of numbers at `key`; without a default it must be there."""
+        """The list of numbers at `key`; required unless there is a default."""
         value = self.get(key) if default else self.require(key)
         return (
             value.numbers(quantities, default_unit)
@@ -206,7 +204,7 @@ class YamlTable:
         )
 
     def finish(self) -> None:
-        """Report unknown keys, with the most similar known one."""
+        """Report unknown keys, each with the most similar known key."""
         for key, value in self.rows.items():
             if key not in self.requested:
                 near = get_close_matches(key, self.requested, n=1)

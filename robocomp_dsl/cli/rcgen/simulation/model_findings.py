@@ -19,7 +19,7 @@ from robocomp_dsl.source import Source, Span, UnreadableSource
 def read_source(path: Path) -> Source:
     """The text of the file; empty if it is unreadable.
 
-    MuJoCo takes what is not UTF-8, or very large; lines are left out then.
+    MuJoCo also accepts large files and text other than UTF-8; findings then have no lines.
     """
     try:
         return Source.read(path)
@@ -28,13 +28,13 @@ def read_source(path: Path) -> Source:
 
 
 def report_error(error: ModelFileError, source: Source, report: Report) -> None:
-    """All reasons why there is no model."""
+    """All errors that prevent a model."""
     for finding in error.findings:
         report.add_finding(codes.MODEL_FILE, finding, source)
 
 
 def report_findings(findings: Iterable[Finding], source: Source, report: Report) -> None:
-    """What is not as described, at its line or where its link or body begins."""
+    """Deviations from the file, at their line, or where their link or body starts."""
     for finding in findings:
         if finding.location.line:
             report.add_finding(code_of(finding), finding, source)
@@ -48,7 +48,7 @@ def code_of(finding: Finding) -> Code:
 
 
 def _named(source: Source, finding: Finding) -> Span:
-    """The tag of what a finding is about."""
+    """The tag of a finding's subject."""
     tags = "joint" if finding.kind == "joint" else "link|body"
     tag = rf"<(?:{tags})\b[^<>]*\bname\s*=\s*([\"']){re.escape(finding.subject)}\1"
     found = re.search(tag, source.text) if finding.subject else None

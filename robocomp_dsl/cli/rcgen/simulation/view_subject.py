@@ -1,6 +1,6 @@
-"""What `rcgen view` looks at: a file in InnerModel, URDF or MJCF, or a robot that ships.
+"""Loads the subject of `rcgen view`: a file in InnerModel, URDF or MJCF, or a shipped robot.
 
-In: what the user named. Out: a compiled model, and findings with their places.
+In: the user's argument. Out: a compiled model, and findings with locations.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from robocomp_dsl.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """`start` is what the joints have at first, by name, where that is not 0.
+    """`start` has the initial joint positions by name, if they are not 0.
 
     A model file starts at the first of its key frames.
     """
@@ -49,12 +49,12 @@ class Subject:
     start: dict[str, float]
 
     def data(self) -> Any:
-        """Its state at the start, an `MjData`."""
+        """Its initial state, an `MjData`."""
         return initial_data(self.model, self.start)
 
 
 def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
-    """The model that `path` names; None after errors that leave nothing to look at."""
+    """The model that `path` names; None if no part of it is valid."""
     if not path.exists() and str(path) in ROBOTS:
         return _robot(str(path))
     try:
@@ -122,7 +122,7 @@ def _empty(path: Path) -> Subject:
 
 
 def _named(message: str, spans: dict[str, Span], otherwise: Span) -> Span:
-    """The tag of the node whose id a message names first."""
+    """The tag of the first node whose id a message contains."""
     found = next((spans[name] for name in message.split("`")[1::2] if name in spans), otherwise)
     line = found.source.text.find("\n", found.start, found.end)
     return found.source.span(found.start, found.end if line < 0 else line)

@@ -1,4 +1,4 @@
-"""Hardware faults: found each step, latched until force-idle clears them."""
+"""Hardware faults: detected in each step, latched until force-idle clears them."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class FaultCode(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class FaultReport:
-    """The last fault of a joint, in words."""
+    """Message of a joint's last fault."""
 
     code: FaultCode
     message: str
@@ -40,9 +40,9 @@ _NONE = FaultReport(FaultCode.NONE, "")
 
 
 class Faults:
-    """The last fault of each joint; kept after it is cleared, so that one can ask why.
+    """The last fault of each joint; available also after it is cleared.
 
-    `now` (n,) are the codes of faults that no change of mode has cleared.
+    `now` (n,) are the codes of uncleared faults.
     """
 
     def __init__(self, size: int) -> None:
@@ -50,7 +50,7 @@ class Faults:
         self.now: Codes = np.zeros(size, np.int32)
 
     def raise_(self, joints: Ints, code: FaultCode, message: str) -> None:
-        """Note a fault of `joints`."""
+        """Record a fault of `joints`."""
         for joint in joints.tolist():
             self.last[joint] = FaultReport(code, message)
         self.now[joints] = code
@@ -61,7 +61,7 @@ class Faults:
 
 
 def overloaded(motors: Motors, current: Floats) -> Bools:
-    """Motors (n,) whose current has reached their largest one."""
+    """Motors (n,) at their maximum current."""
     over: Bools = np.abs(current) >= motors.max_current
     return over
 

@@ -1,8 +1,8 @@
 """Limits on position, speed and torque, applied before anything reaches a motor.
 
-In: wishes. Out: what the joint may do. Positions are clipped when they are commanded and on the
-way; a torque that would push a joint past a limit, at its present speed, is taken away and a spring
-leads it back; a torque that would speed it up beyond its limit is taken away too.
+In: requested values. Out: permitted values. Positions are clipped when commanded and during the
+motion; a torque that would push a joint past a limit at its current speed is removed, and a spring
+moves the joint back; a torque that would exceed the speed limit is removed as well.
 """
 
 from __future__ import annotations
@@ -13,19 +13,19 @@ from robocomp_dsl.hardware.control.errors import BadValue
 from robocomp_dsl.hardware.control.joints import BoardSpec, Bools, Floats, Ints
 
 _SPRING = 20.0
-"""Strength of the soft stops, in torque limits per rad."""
+"""Stiffness of the soft stops, in torque limits per rad."""
 
 AHEAD = 0.05
-"""How far ahead a fast joint is seen to run into its stop [s]."""
+"""Look-ahead time of the soft stops for fast joints [s]."""
 
 _FAST = 0.5
-"""A joint slower than this is not braked before it is at its limit [rad/s]."""
+"""A slower joint is only stopped at its limit [rad/s]."""
 
 
 class JointLimits:
     """All arrays (n,): `low`, `high` [rad], `speed` [rad/s], `torque` [N m].
 
-    `stops` are `low` and `high` where the encoders can be trusted; `version` counts changes.
+    `stops` are `low` and `high` if the encoder is calibrated; `version` counts changes.
     """
 
     def __init__(self, spec: BoardSpec) -> None:
@@ -38,12 +38,12 @@ class JointLimits:
         self._place_stops()
 
     def trust(self, calibrated: Bools) -> None:
-        """Where the encoders (n,) tell true angles; elsewhere there are no soft stops."""
+        """Whether the encoders (n,) are calibrated; other joints have no soft stops."""
         self._trusted = calibrated
         self._place_stops()
 
     def set_position(self, joints: Ints, low: Floats, high: Floats) -> None:
-        """Narrow the range of `joints`; wider than the mechanics is refused."""
+        """Narrow the range of `joints`; limits beyond the mechanical range are rejected."""
         self._check(low, high)
         if (low < self._widest[0][joints]).any() or (high > self._widest[1][joints]).any():
             raise BadValue("position limits may be narrowed, not be wider than the joint's own")
@@ -51,25 +51,25 @@ class JointLimits:
         self._place_stops()
 
     def set_speed(self, joints: Ints, speed: Floats) -> None:
-        """Change the largest speeds of `joints`."""
+        """Set the maximum speeds of `joints`."""
         if (speed <= 0.0).any():
             raise BadValue("a speed limit must be positive")
         self.speed[joints] = speed
         self.version += 1
 
     def clip(self, joints: Ints, position: Floats) -> tuple[Floats, Bools]:
-        """Positions within the limits, and where they had to be moved."""
+        """Positions clipped to the limits, and which were clipped."""
         allowed = np.clip(position, self.low[joints], self.high[joints])
         return allowed, allowed != position
 
     def guard(self, q: Floats, dq: Floats, torque: Floats) -> Floats:
-        """Torques (n,) that keep to all limits, from wished torques at `q` with speed `dq`."""
+        """Torques (n,) within all limits, from requested torques at `q` with speed `dq`."""
         low, high = self.stops
         ahead = q + AHEAD * dq
         past = ahead - np.minimum(np.maximum(ahead, low), high)
         fast = np.abs(dq) > self.speed
         if np.count_nonzero(past):
-            # a slow joint is held only where it is past its limit already
+            # a slow joint is only stopped beyond its limit
             there = (q < low) | (q > high) | (np.abs(dq) > _FAST)
             back = -self.torque * _SPRING * past
             torque = np.where(there & (past > 0.0), np.minimum(torque, back), torque)

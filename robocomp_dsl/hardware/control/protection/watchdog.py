@@ -1,7 +1,7 @@
 """A watchdog on streamed references: torques, duty cycles and currents.
 
 In: the time and the joints of each reference. Out: the joints whose references have timed out.
-Joints that share motors are fed together, since they change their mode together.
+Joints that share motors count as one, since they change their mode together.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from robocomp_dsl.hardware.control.joints import BoardSpec, Ints
 from robocomp_dsl.hardware.control.modes import Mode
 
 STREAMED_MODES = (Mode.TORQUE, Mode.PWM, Mode.CURRENT)
-"""Modes that need a stream of references: each keeps acting on the last one."""
+"""Modes that need a stream of references: the motor would keep the last one."""
 
 
 class Watchdog:
@@ -25,7 +25,7 @@ class Watchdog:
     def __init__(self, spec: BoardSpec) -> None:
         n = len(spec.joints)
         self.timeout = self.due = np.inf
-        self._since = np.full(n, np.inf)  # when the last reference came; infinite: none is expected
+        self._since = np.full(n, np.inf)  # time of the last reference; infinite: none is expected
         self._together = np.zeros((n, n), bool)
         for joint in range(n):
             self._together[joint, spec.coupled(joint)] = True
@@ -39,13 +39,13 @@ class Watchdog:
         self._update_due()
 
     def feed(self, joints: Ints, time: float) -> None:
-        """References for `joints` came at `time`."""
+        """Record references for `joints` at `time`."""
         fed = joints if self._apart else self._together[joints].any(axis=0)
         self._since[fed] = time
         self._update_due()
 
     def follow(self, joints: Ints, modes: list[Mode], time: float) -> None:
-        """From `time` on `joints` are in these `modes`: references are expected, or not."""
+        """Record mode changes at `time`: references of `joints` are expected, or not."""
         self._since[joints] = [time if mode in STREAMED_MODES else np.inf for mode in modes]
         self._update_due()
 

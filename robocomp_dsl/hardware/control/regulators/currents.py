@@ -1,12 +1,12 @@
-"""Current controllers, together with the motors that they drive.
+"""Current controllers and the motors that they drive.
 
 In: references [A], speeds of the joints [rad/s]. Out: joint torques. A current settles much faster
-than a board steps, so that controller and motor are solved together over each step. With a motor of
-resistance r and back EMF e, both in percent of its supply, and gains kp and ki,
+than one step of the board, so controller and motor are solved together over each step. With a motor
+of resistance r and back EMF e, both in percent of its supply, and gains kp and ki,
 
     u = feedforward * reference + offset + kp * error + integral,    r * current = u - e
 
-the error falls by exp(-ki / (r + kp) * time), whatever the gains and the step; kd plays no part.
+the error falls by exp(-ki / (r + kp) * time), for all gains and steps; kd is not used.
 """
 
 from __future__ import annotations
@@ -34,29 +34,29 @@ class Currents:
         self._dt = 0.0
 
     def configure(self, gains: Sequence[Gains], here: Bools, enabled: Bools) -> None:
-        """Control the currents in `here`; the output of a controller that is not `enabled` is 0."""
+        """Control the currents in `here`; a controller that is not `enabled` outputs 0."""
         self.active, self._here = bool(here.any()), here.astype(float)
         works = here & enabled
         self._kp, self._ki, self._offset, self._forward, self._most, self._most_integral = (
             np.where(works, [getattr(gains_of_motor, name) for gains_of_motor in gains], 0.0)
             for name in ("kp", "ki", "offset", "feedforward", "max_output", "max_integral")
         )
-        self._dt = 0.0  # nothing is prepared for any step
+        self._dt = 0.0  # no step response is cached
         flowing = np.diag(self._here / self._resistance)
         self._to_torque = np.array([self._motors.torque_of_current(row) for row in flowing]).T
         self.integral, self.output = self.integral * works, self.output * works
 
     def reset(self, joints: Ints) -> None:
-        """Forget the integrals of `joints`."""
+        """Reset the integrals of `joints`."""
         self.integral[joints] = 0.0
 
     def feed(self, reference: Floats) -> None:
-        """Bring these currents (n,) about."""
+        """Set current references (n,)."""
         self._reference_given = self._forward * reference + self._offset
         self._voltage = self._resistance * reference - self._reference_given
 
     def step(self, velocity: Floats, dt: float) -> None:
-        """Let `dt` seconds pass at `velocity` (n,) of the joints."""
+        """Advance by `dt` seconds at the joints' `velocity` (n,)."""
         if dt != self._dt:
             self._prepare(dt)
         emf = self._motors.duty_of_speed(velocity)
@@ -70,7 +70,7 @@ class Currents:
         requested += self._reference_given
         self.output = np.minimum(np.maximum(requested, -self._most), self._most)
         if np.count_nonzero(requested != self.output):
-            # an output at its bound must not wind the integral up
+            # anti-windup: the integral stops while the output is saturated
             held = (requested != self.output) & (grown * error > 0.0)
             grown = np.where(held, self.integral, grown)
         self.integral = grown

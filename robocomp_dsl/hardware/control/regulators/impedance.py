@@ -1,7 +1,7 @@
-"""Compliant interaction: each joint as a spring and a damper about its reference.
+"""Compliant interaction: each joint is a spring and damper about its reference.
 
 In: position error and velocity (n,). Out: torques (n,) [N m]. Stiffness [N m/rad] and damping
-[N m s/rad] stay between bounds that keep the loop stable at its rate.
+[N m s/rad] are bounded so that the loop is stable at its rate.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Impedance:
         self.offset = np.zeros(len(bounds))
 
     def set(self, joints: Ints, stiffness: Floats, damping: Floats) -> None:
-        """Change spring and damper. Raises `BadValue` outside the bounds."""
+        """Set stiffness and damping. Raises `BadValue` outside the bounds."""
         for joint, k, d in zip(joints.tolist(), stiffness, damping, strict=True):
             most = self.bounds[joint]
             if not (0.0 <= k <= most.stiffness and 0.0 <= d <= most.damping):

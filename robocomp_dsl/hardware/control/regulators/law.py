@@ -1,7 +1,7 @@
 """The control law: joint torques from references, by mode and interaction of each joint.
 
-In: references, measurements, direct commands. Out: wished torques (n,), before the limits. Which
-terms a joint uses is worked out when its mode or its command changes, not at every step.
+In: references, measurements, direct commands. Out: requested torques (n,), before the limits. The
+terms of a joint are selected when its mode or command changes, not in every step.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ import numpy as np
 from robocomp_dsl.hardware.control.joints import Bools, Floats
 from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
+from robocomp_dsl.hardware.control.regulators.control_errors import ControlErrors
 from robocomp_dsl.hardware.control.regulators.currents import Currents
-from robocomp_dsl.hardware.control.regulators.deviations import ControlErrors
 from robocomp_dsl.hardware.control.regulators.impedance import Impedance
 from robocomp_dsl.hardware.control.regulators.loops import ControlLoops, Loop, loop_of
 
@@ -22,8 +22,8 @@ from robocomp_dsl.hardware.control.regulators.loops import ControlLoops, Loop, l
 class ControlLaw:
     """`torque`, `duty` and `current` (n,) are the references of the modes of the same name.
 
-    After a change to one of them call `apply`, and `regulate` after a change of gains. `positioned`
-    (n,) tells which joints hold a position now, `driven` which motors are on (1, else 0).
+    Call `apply` after a change of references, and `regulate` after a change of gains. `positioned`
+    (n,) marks joints that hold a position, `driven` motors that are on (1, else 0).
     """
 
     def __init__(self, loops: ControlLoops, impedance: Impedance, motors: Motors) -> None:
@@ -42,7 +42,7 @@ class ControlLaw:
         self._regulated = self._comply = self.all_powered = False
 
     def configure(self, modes: Sequence[Mode], interactions: Sequence[Interaction]) -> None:
-        """Work out which terms each joint uses."""
+        """Select the terms of each joint."""
         self._loops.use([loop_of(*pair) for pair in zip(modes, interactions, strict=True)])
         self.regulate()
         comply = np.array([pair is Interaction.COMPLIANT for pair in interactions])
@@ -63,7 +63,7 @@ class ControlLaw:
         self.apply()
 
     def regulate(self) -> None:
-        """Follow a change of gains."""
+        """Update after a change of gains."""
         loops = self._loops
         self.errors.configure(loops)
         flows = loops.works(Loop.CURRENT)
@@ -75,7 +75,7 @@ class ControlLaw:
         self._odd = self.errors.beyond_position or self._ahead is not None
 
     def apply(self) -> None:
-        """Take over torque, duty and current commands."""
+        """Set torque, duty and current commands."""
         self._bank.feed(self._by_torque * self.torque)
         if self.currents.active:
             self.currents.feed(self.current)
@@ -94,9 +94,9 @@ class ControlLaw:
         feedforward: Floats | None,
         dt: float,
     ) -> Floats:
-        """Torques without the bounds of the controllers; use `bounded` where one is passed.
+        """Torques without the bounds of the controllers; call `bounded` if one is exceeded.
 
-        `feedforward` (n,) is added where a position is held: weight, mostly.
+        `feedforward` (n,), such as gravity torques, is added for joints that hold a position.
         """
         held = None
         if self._odd:
@@ -112,12 +112,12 @@ class ControlLaw:
     def bounded(
         self, error: Floats, velocity_error: Floats, velocity: Floats, feedforward: Floats | None
     ) -> Floats:
-        """The torques of the last `step`, with the bounds of all controllers."""
+        """The torques of the last `step`, with the bounds of all controllers applied."""
         held = self._bank.bounded() if self._regulated else None
         return self._sum(held, error, velocity_error, velocity, feedforward)
 
     def _propose(self, error: Floats, late: Floats, velocity: Floats, dt: float) -> Floats:
-        """Outputs of the controllers when not all control positions."""
+        """Outputs of the controllers if not all joints control position."""
         derivative = late
         ahead = None if self._ahead is None else self._ahead * (late + velocity)
         if self.errors.beyond_position:

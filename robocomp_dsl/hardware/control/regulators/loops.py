@@ -1,13 +1,12 @@
 """The control loops of a board: position, velocity, torque and current for each joint.
 
-In: the modes of the joints, and gains. Out: a bank of controllers that holds, for each joint, the
-gains of the one that works now; those of currents are in `currents`. Gains are kept by kind,
-whatever works.
+In: the modes of the joints, and gains. Out: a bank of controllers with the gains of the active loop
+of each joint; current controllers are in `currents`. Gains are stored per loop, active or not.
 
 | loop | error | output | what `feedforward` multiplies |
 |---|---|---|---|
-| position | rad | N m | the speed of the reference [rad/s] |
-| velocity | rad/s | N m | the speed of the reference [rad/s] |
+| position | rad | N m | the reference speed [rad/s] |
+| velocity | rad/s | N m | the reference speed [rad/s] |
 | torque | N m | N m | the reference [N m] |
 | current | A, of the motor | %, of its supply | the reference [A] |
 """
@@ -24,12 +23,12 @@ from robocomp_dsl.hardware.control.modes import POSITIONED, Interaction, Mode
 from robocomp_dsl.hardware.control.regulators.pid import Gains, PidBank
 
 CURRENT_GAIN, CURRENT_TIME = 9.0, 0.001
-"""Of what the turning of a motor takes off its current so many parts in ten are made good at once,
-and the rest within so long [s]."""
+"""The back EMF's share of the current that is compensated immediately, in tenths, and the time
+constant of the rest [s]."""
 
 
 class Loop(StrEnum):
-    """What is regulated; the values are YARP's short names."""
+    """The controlled quantity; the values are YARP's short names."""
 
     POSITION = "pos1"
     VELOCITY = "vel1"
@@ -46,17 +45,17 @@ _OF_MODES = {
 
 
 def loop_of(mode: Mode, interaction: Interaction) -> Loop | None:
-    """What works in a mode; nothing where a spring does, or where all is open."""
+    """The active loop of a mode; none for a spring or an open loop."""
     if mode in POSITIONED and interaction is Interaction.COMPLIANT:
         return None
     return _OF_MODES.get(mode, Loop.POSITION if mode in POSITIONED else None)
 
 
 def default_gains(spec: BoardSpec) -> dict[Loop, list[Gains]]:
-    """In proportion to the joint's torque t, all of it at 0.1 rad of error.
+    """Default gains in proportion to the torque limit t, which is reached at 0.1 rad of error.
 
-    The integral of a speed is a way: the velocity controller is as stiff as the position
-    controller. A torque is passed on as it is.
+    The integral of a speed is a distance: the velocity controller is as stiff as the position
+    controller. The torque controller passes its reference on.
     """
     torques = [joint.torque_limit for joint in spec.joints]
     percents = [100.0 * motor.resistance / motor.supply for motor in spec.motors]
@@ -80,7 +79,7 @@ def default_gains(spec: BoardSpec) -> dict[Loop, list[Gains]]:
 
 
 class ControlLoops:
-    """`gains` and `enabled` by kind; `bank` regulates by those that `use` has chosen."""
+    """`gains` and `enabled` by loop; `bank` has the controllers that `use` has selected."""
 
     def __init__(self, spec: BoardSpec) -> None:
         n = len(spec.joints)
@@ -95,7 +94,7 @@ class ControlLoops:
         self._load()
 
     def enable(self, loop: Loop, joints: Ints, *, on: bool) -> None:
-        """Switch controllers on or off; the output of one that is off is 0."""
+        """Enable or disable controllers; a disabled one outputs 0."""
         self.enabled[loop][joints] = on
         self._load()
 
@@ -105,7 +104,7 @@ class ControlLoops:
         self._load()
 
     def works(self, loop: Loop) -> Bools:
-        """Where this kind is in use, (n,)."""
+        """Joints with this active loop, (n,)."""
         return np.array([active is loop for active in self.active], bool)
 
     def reset(self, loop: Loop, joints: Ints) -> None:
@@ -114,7 +113,7 @@ class ControlLoops:
 
     def _load(self) -> None:
         gains = [self.gains[active or Loop.POSITION][i] for i, active in enumerate(self.active)]
-        # currents are regulated by motors, apart from the bank
+        # currents have controllers per motor, outside the bank
         banked = [None if active is Loop.CURRENT else active for active in self.active]
         works = [
             active is not None and bool(self.enabled[active][i]) for i, active in enumerate(banked)

@@ -1,8 +1,8 @@
 """A bank of PID controllers, one per joint, computed together.
 
 In: errors and their derivatives, (n,). Out: outputs within `max_output`. The integral is bounded
-by `max_integral` and stops growing while the output is at its bound. What is an error, and in which
-units, is the matter of `loops`.
+by `max_integral` and stops growing while the output is saturated. `loops` defines the errors and
+their units.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ _COLUMNS = tuple(field.name for field in fields(Gains))
 
 
 class PidBank:
-    """The controllers; the output of one that is not active is 0.
+    """The controllers; inactive ones output 0.
 
     `feedforward` (n,) are the feedforward gains. `tracks` is True if any error counts
     as a fault; `bounds` are those of outputs and integrals, (n,) each, `version` counts changes.
@@ -58,7 +58,7 @@ class PidBank:
         self.configure(gains, np.ones(n, bool))
 
     def configure(self, gains: Sequence[Gains], works: Bools) -> None:
-        """Set the gains, and which controllers are active."""
+        """Set the gains, and the active controllers."""
         self.gains = list(gains)
         table = np.array([[getattr(g, name) for g in self.gains] for name in _COLUMNS])
         table[:, ~works] = 0.0
@@ -71,33 +71,33 @@ class PidBank:
         self.feed(self._fed)
 
     def feed(self, reference: Floats) -> None:
-        """Feed references (n,) forward that do not change at every step."""
+        """Feed constant references (n,) forward."""
         self._fed = reference
         self._constant = self._columns[3] + self.feedforward * reference
         self._shifted = bool(np.count_nonzero(self._constant))
 
     def set_error_limits(self, joints: Ints, error: Floats) -> None:
-        """Errors that are faults where a position is held; infinite: none is."""
+        """Error thresholds of tracking faults while a position is held; infinite: none."""
         if (error <= 0.0).any():
             raise BadValue("an error limit must be positive")
         self.error_limit[joints] = error
         self.tracks = bool(np.isfinite(self.error_limit).any())
 
     def reset(self, joints: Ints) -> None:
-        """Forget the integrals of `joints`."""
+        """Reset the integrals of `joints`."""
         self.integral[joints] = 0.0
 
     def step(self, error: Floats, derivative: Floats, dt: float) -> Floats:
-        """Outputs (n,); 0 where a controller is not active."""
+        """Outputs (n,); 0 for inactive controllers."""
         self.propose(error, derivative, dt)
         return self.bounded()
 
     def propose(
         self, error: Floats, derivative: Floats, dt: float, ahead: Floats | None = None
     ) -> Floats:
-        """Outputs (n,) as if there were no bounds; `bounded` is due where one is passed.
+        """Outputs (n,) without bounds; call `bounded` if one is exceeded.
 
-        `ahead` (n,) is fed forward in this step.
+        `ahead` (n,) is the feedforward of this step.
         """
         kp, ki, kd, _ = self._columns
         if dt != self._dt:
@@ -120,12 +120,12 @@ class PidBank:
         return requested
 
     def bounded(self) -> Floats:
-        """The outputs just proposed, with all bounds."""
+        """The last outputs with all bounds applied."""
         bound, most = self.bounds
         grown = np.minimum(np.maximum(self.integral, -most), most)
         requested = self.output - self.integral + grown
         output: Floats = np.minimum(np.maximum(requested, -bound), bound)
-        # an output at its bound must not wind the integral up
+        # anti-windup: the integral stops while the output is saturated
         held = (requested != output) & (grown * self.error > 0.0)
         self.integral = np.where(held, self._before, grown)
         self.output = output

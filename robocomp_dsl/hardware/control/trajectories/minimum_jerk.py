@@ -1,13 +1,13 @@
 """Minimum-jerk trajectories of n joints.
 
-In: goals and speeds. Out: reference positions and velocities, step by step. With d the way, v the
-speed at the start times the duration, and t from 0 to 1:
+In: goals and speeds. Out: reference positions and velocities, step by step. With d the distance, v
+the initial speed times the duration, and t from 0 to 1:
 
     x(t) = x0 + v t + (10 d - 6 v) t^3 - (15 d - 8 v) t^4 + (6 d - 3 v) t^5
 
-so that it ends at rest and without acceleration. The duration is the way over the reference speed;
-from rest to rest the peak speed is 1.875 times as high. A joint that has to turn round on its way
-would be faster: it gets more time where it would pass its speed limit.
+so that it ends at rest without acceleration. The duration is the distance over the reference speed;
+from rest to rest the peak speed is 1.875 times as high. A joint that has to reverse would be
+faster: its duration is extended if it would exceed its speed limit.
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ PEAK = 1.875
 """Peak speed over mean speed, from rest to rest."""
 
 ROUNDING = 1.0 + 1e-9
-"""Above a limit by no more than this is at the limit."""
+"""Tolerance of a limit."""
 
 AHEAD = 24
-"""Steps whose references are computed together: numpy takes hardly longer than for one."""
+"""Steps whose references are computed together: numpy is about as fast as for one."""
 
 
 class MinimumJerk:
     """The trajectories; `position` and `velocity` (n,) are the references after the last step.
 
     `active` is True while a joint moves. A joint at rest is a trajectory of rate 0, so that a
-    step treats all joints alike. The steps to come are worked out ahead, no further than to the
-    next end; whatever changes a trajectory forgets them. They keep between `bounds` (n,), if given.
+    step treats all joints alike. Coming steps are computed ahead until the next end of a
+    trajectory; any change discards them. They stay within `bounds` (n,), if set.
     """
 
     def __init__(self, position: Floats, bounds: tuple[Floats, Floats] | None = None) -> None:
@@ -44,7 +44,7 @@ class MinimumJerk:
         self.active = False
         self._time = np.zeros(n)
         self._rate = np.zeros(n)
-        # factors of t^0 to t^5, of the position and of its derivative by t
+        # coefficients of t^0 to t^5, of the position and its derivative by t
         self._factors = np.zeros((6, 2, n))
         self._factors[0, 0] = position
         self._clock = 0.0
@@ -57,9 +57,9 @@ class MinimumJerk:
     def move(
         self, joints: Ints, goal: Floats, speed: Floats, dt: float, most: Floats | None = None
     ) -> None:
-        """Go to `goal` at mean `speed` > 0, from where the reference is, as fast as it moves.
+        """Move to `goal` at mean `speed` > 0, from the current reference and its velocity.
 
-        No faster than `most`, if given, unless it moves faster already.
+        At most at speed `most`, if set, unless the joint is already faster.
         """
         self._forget()
         start, way = self.position[joints], goal - self.position[joints]
@@ -80,7 +80,7 @@ class MinimumJerk:
         self.halt(joints[at_once], goal[at_once])
 
     def halt(self, joints: Ints, position: Floats) -> None:
-        """Forget the motion of `joints`: at rest at `position`."""
+        """End the motion of `joints`: at rest at `position`."""
         self._forget()
         self.position[joints] = self.goal[joints] = position
         self.velocity[joints] = self._rate[joints] = 0.0
@@ -92,7 +92,7 @@ class MinimumJerk:
         self.active = bool(self.moving.any())
 
     def shift(self, way: Floats, low: Floats, high: Floats) -> None:
-        """Carry everything along by `way` (n,), between `low` and `high`."""
+        """Shift all trajectories by `way` (n,), between `low` and `high`."""
         self.position = np.minimum(np.maximum(self.position + way, low), high)
         self.goal = np.minimum(np.maximum(self.goal + way, low), high)
         if self.active:
@@ -102,7 +102,7 @@ class MinimumJerk:
         np.copyto(start, self.position, where=~self.moving)
 
     def step(self, dt: float) -> None:
-        """Let `dt` seconds pass."""
+        """Advance by `dt` seconds."""
         if not self.active:
             return
         if self._next == len(self._rows) or dt != self._dt:
@@ -133,7 +133,7 @@ class MinimumJerk:
 
     @staticmethod
     def _keep_within(rows: Floats, low: Floats, high: Floats) -> None:
-        """A reference that would pass a bound stops there."""
+        """Stop references at their bounds."""
         allowed = np.minimum(np.maximum(rows[:, 0], low), high)
         outside = allowed != rows[:, 0]
         if np.count_nonzero(outside):
@@ -147,7 +147,7 @@ class MinimumJerk:
 
 
 def _long_enough(way: Floats, velocity: Floats, duration: Floats, most: Floats) -> Floats:
-    """The durations, made longer until no speed is above `most` or that of the start."""
+    """The durations, extended until no speed exceeds `most` or the initial speed."""
     bound = ROUNDING * np.maximum(most, np.abs(velocity))
     for _ in range(40):
         mean = np.divide(way, duration, out=np.zeros(len(way)), where=duration > 0.0)
@@ -159,9 +159,9 @@ def _long_enough(way: Floats, velocity: Floats, duration: Floats, most: Floats) 
 
 
 def _top_speed(velocity: Floats, mean: Floats) -> Floats:
-    """The highest speed after the start, from the speeds at the start and on average.
+    """The highest speed after the start, from the initial and mean speeds.
 
-    The acceleration vanishes at 0, at 1 and at one t besides, where the speed is highest.
+    The acceleration is 0 at t = 0, t = 1 and one more t, where the speed is highest.
     """
     below = 10.0 * mean - 5.0 * velocity
     t = np.divide(5.0 * mean - 3.0 * velocity, below, out=np.zeros(len(mean)), where=below != 0.0)

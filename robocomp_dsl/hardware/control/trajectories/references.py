@@ -1,4 +1,4 @@
-"""Where n joints shall be now: trajectories, velocities and direct positions together.
+"""References of n joints: trajectories, velocities and direct positions.
 
 In: commands of the position, direct, velocity and mixed modes. Out: reference positions and
 velocities (n,), always within the limits.
@@ -14,10 +14,10 @@ from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK, Minimu
 from robocomp_dsl.hardware.control.trajectories.velocity import VelocityRamp
 
 LEAD = 0.1
-"""How far a reference that moves by velocity may run ahead of its joint [rad]."""
+"""Maximum lead of a velocity-controlled reference over its joint [rad]."""
 
 STREAM_GAP = 0.1
-"""Direct positions further apart in time than this are steps, not a motion [s]."""
+"""Direct positions with a longer interval are steps, without a velocity [s]."""
 
 
 class References:
@@ -33,7 +33,7 @@ class References:
         self.position = np.zeros(n)
         self.velocity = np.zeros(n)
         self._stream = np.zeros(n)  # speed of a stream of direct positions
-        self._age = np.full(n, np.inf)  # time since the last one
+        self._age = np.full(n, np.inf)  # time since the last position
         self._streaming = False
         self._changed = True
 
@@ -45,7 +45,7 @@ class References:
         self._changed = True
 
     def set_position(self, joints: Ints, position: Floats) -> None:
-        """Follow `position` without a trajectory; a steady stream also gives the velocity."""
+        """Follow `position` without a trajectory; a regular stream also defines the velocity."""
         age = np.maximum(self._age[joints], 1e-6)
         speed = (position - self.trajectory.position[joints]) / age
         most = self._limits.speed[joints]
@@ -56,15 +56,15 @@ class References:
         self._streaming = True
 
     def set_velocity(self, joints: Ints, velocity: Floats, hold: float) -> None:
-        """Reference velocities, reached by the joints' acceleration, for `hold` seconds."""
+        """Velocity references with limited acceleration, for `hold` seconds."""
         self.ramp.command(joints, velocity, hold)
 
     def set_velocity_direct(self, joints: Ints, velocity: Floats) -> None:
-        """Reference velocities without a ramp."""
+        """Velocity references without a ramp."""
         self.ramp.jump(joints, velocity)
 
     def stop(self, joints: Ints) -> None:
-        """End every motion of `joints` where the reference is now; velocities ramp down."""
+        """Stop `joints`: trajectories end at the current reference, velocities ramp down."""
         self.trajectory.halt(joints, self.trajectory.position[joints])
         self._changed = True
         self._stream[joints] = 0.0
@@ -82,12 +82,12 @@ class References:
         self._changed = True
 
     def step(self, measured: Floats, dt: float) -> None:
-        """Let `dt` seconds pass; `measured` (n,) keeps a blocked joint's reference near it."""
+        """Advance by `dt` seconds; the reference of a blocked joint stays near `measured` (n,)."""
         alone = not (self.ramp.active or self._streaming or self._changed)
         if alone and not self.trajectory.active:
             return
         self.trajectory.step(dt)
-        if alone and self.trajectory.active:  # which respects the limits already
+        if alone and self.trajectory.active:  # which is within the limits
             self.position, self.velocity = self.trajectory.position, self.trajectory.velocity
             return
         velocity = self.trajectory.velocity.copy()
@@ -102,13 +102,13 @@ class References:
         if np.count_nonzero(outside):
             velocity = np.where(outside, 0.0, velocity)
         self.velocity = velocity
-        # once more after the last motion, so that the end itself is taken over
+        # once more after the last motion, to copy its final values
         self._changed = self.ramp.active or self._streaming
 
     def _driven(self, measured: Floats, dt: float) -> Floats:
-        """Carry trajectories along at the ramp's velocities; the velocities that they got.
+        """Shift trajectories by the ramp's velocities; returns the resulting velocities.
 
-        A joint that lags behind its reference, or is at a limit, lets the reference wait.
+        The reference waits for a joint that lags behind it, or is at a limit.
         """
         driven = self.ramp.step(self.acceleration, dt)
         before = self.trajectory.position

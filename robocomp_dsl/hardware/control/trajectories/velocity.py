@@ -1,4 +1,4 @@
-"""Reference velocities of n joints: an acceleration-limited ramp towards what was commanded."""
+"""Reference velocities of n joints: an acceleration-limited ramp to the commanded velocity."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from robocomp_dsl.hardware.control.joints import Floats, Ints
 
 
 class VelocityRamp:
-    """`target` is what was commanded, `velocity` where the ramp is, both (n,) [rad/s].
+    """`target` is the command, `velocity` the state of the ramp, both (n,) [rad/s].
 
-    A target may hold for a limited time, as velocity commands of a caller that may die do. `active`
-    is True while a joint moves or is about to.
+    A target may expire, in case the caller exits. `active` is True while a joint moves or is
+    about to.
     """
 
     def __init__(self, size: int) -> None:
@@ -24,14 +24,14 @@ class VelocityRamp:
         self._next_end = np.inf
 
     def command(self, joints: Ints, target: Floats, hold: float = np.inf) -> None:
-        """Aim for `target`, for `hold` seconds."""
+        """Ramp to `target`, for `hold` seconds."""
         self.target[joints] = target
         self._until[joints] = self._clock + hold
         self._next_end = float(self._until.min())
         self.active, self._steady = True, False
 
     def jump(self, joints: Ints, velocity: Floats) -> None:
-        """Turn at `velocity` without a ramp."""
+        """Set `velocity` without a ramp."""
         self.command(joints, velocity)
         self.velocity[joints] = velocity
 
@@ -44,7 +44,7 @@ class VelocityRamp:
         self._steady = False
 
     def step(self, acceleration: Floats, dt: float) -> Floats:
-        """Let `dt` seconds pass; the velocities (n,)."""
+        """Advance by `dt` seconds; returns the velocities (n,)."""
         if not self.active:
             return self.velocity
         self._clock += dt
@@ -62,7 +62,7 @@ class VelocityRamp:
         return self.velocity
 
     def _expire(self) -> None:
-        """Targets whose hold time is over become 0."""
+        """Set expired targets to 0."""
         over = self._until < self._clock
         self.target[over] = 0.0
         self._until[over] = np.inf

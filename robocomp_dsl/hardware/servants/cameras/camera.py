@@ -1,4 +1,4 @@
-"""`CameraSimple` and `CameraRGBDSimple` over cameras; images are numpy arrays all the way."""
+"""`CameraSimple` and `CameraRGBDSimple` over cameras; images stay numpy arrays throughout."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -22,7 +22,7 @@ log = logging.getLogger("robocomp.camera")
 
 
 class CameraSimpleServant(Servant):
-    """One camera; a picture is drawn while the world goes on."""
+    """One camera; a picture is rendered while the world continues."""
 
     NEEDS_LOCK: ClassVar[bool] = False
 
@@ -36,7 +36,7 @@ class CameraSimpleServant(Servant):
 
 
 class RgbdSimpleServant(Servant):
-    """All cameras of the port by their names; an empty name is the only one there is."""
+    """All cameras of the port by name; an empty name selects the only camera."""
 
     NEEDS_LOCK: ClassVar[bool] = False
 
@@ -55,7 +55,7 @@ class RgbdSimpleServant(Servant):
                 seen = exposure.next(camera, wait=self.on_deployment_clock())
             except DeviceGone:
                 continue
-            except NoRendering as error:  # it will not be otherwise the next time
+            except NoRendering as error:  # the next call would fail as well
                 log.error("`%s` is not published: %s", name, error)  # noqa: TRY400
                 del self._exposures[name]
                 continue
@@ -69,7 +69,7 @@ class RgbdSimpleServant(Servant):
         return self._image(camera, found, found.picture())
 
     def getDepth(self, camera: str) -> Any:
-        """The latest depth image: 32-bit floats in mm, infinite where there is nothing."""
+        """The latest depth image: 32-bit floats in mm, infinite without an object."""
         found = self._camera(camera)
         return self._depth(camera, found, found.picture())
 
@@ -79,7 +79,7 @@ class RgbdSimpleServant(Servant):
         return self._points(found, found.picture())
 
     def getAll(self, camera: str) -> Any:
-        """All three of one moment."""
+        """All three of the same instant."""
         found = self._camera(camera)
         seen = found.picture()
         return self.types.TRGBD(

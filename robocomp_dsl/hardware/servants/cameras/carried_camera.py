@@ -1,7 +1,7 @@
-"""What servants of cameras share that tell the robot around each image.
+"""Shared by camera servants that report the robot's state with each image.
 
 In: the devices of the port, cameras before the base that carries them. Out: the states of all
-joints of the world and of the base, taken at one time.
+joints of the world and of the base at the same instant.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _ANY_TIME = nullcontext()
 
 
 class CarriedCameraServant(Servant):
-    """`cameras` and `bases` are the ids of the devices that are such; there may be no base."""
+    """`cameras` and `bases` are the ids of cameras and bases; there may be no base."""
 
     NEEDS_LOCK: ClassVar[bool] = False
 
@@ -33,7 +33,7 @@ class CarriedCameraServant(Servant):
         self.bases = [device_id for device_id in ids if device_id not in self.cameras]
 
     def camera(self, number: int = 0) -> CameraDevice:
-        """The camera of that number, as it is now."""
+        """The camera with that number."""
         found: CameraDevice = self.device(self.cameras[number])
         return found
 
@@ -42,9 +42,9 @@ class CarriedCameraServant(Servant):
         return any(hasattr(device, "board") for device in tuple(self._devices.values()))
 
     def robot_state(self) -> tuple[Any, Any]:
-        """The states of the joints by name and of the base; empty and zero where there are none."""
+        """The states of the joints by name and of the base; empty and zero if there are none."""
         state = self.types.TBaseState
-        with getattr(self.camera(), "lock", _ANY_TIME):  # a driver's world does not wait
+        with getattr(self.camera(), "lock", _ANY_TIME):  # a real device does not wait
             joints = self._motors.getAllMotorState() if self.has_joints() else {}
             base = (
                 base_state_to_message(state, self.device(self.bases[0]).state())

@@ -14,7 +14,7 @@ from robocomp_dsl.hardware.devices.errors import CommandRefused
 from robocomp_dsl.hardware.servants.servant import Servant
 
 _GREY, _COLOURED = 1, (3, 4)
-"""Channels; a fourth one is left out."""
+"""Channels; a fourth channel is ignored."""
 
 
 class DisplayServant(Servant):

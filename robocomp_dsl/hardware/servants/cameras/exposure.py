@@ -1,7 +1,7 @@
-"""Pictures of a camera one after the other, without anybody waiting for them.
+"""Consecutive pictures of a camera, taken in the background.
 
-In: a camera. Out: its latest picture, once; the next one is taken meanwhile, in a thread of its
-own. Where time is simulated, somebody has to wait, so that every run has the same pictures.
+In: a camera. Out: its latest picture, once; the next picture is meanwhile taken in another
+thread. With simulated time the caller waits, so that every run has the same pictures.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from robocomp_dsl.hardware.devices.camera import CameraDevice, Picture
 
 
 class Exposure:
-    """Of one camera."""
+    """Exposure of one camera."""
 
     def __init__(self) -> None:
         self._thread: ThreadPoolExecutor | None = None
@@ -20,9 +20,9 @@ class Exposure:
         self._last_returned: Picture | None = None
 
     def next(self, camera: CameraDevice, *, wait: bool) -> Picture | None:
-        """A picture that has not been returned yet; None while there is none.
+        """A picture that has not been returned yet; None if there is none.
 
-        Raises what the camera raises.
+        Raises the errors of the camera.
         """
         if wait:
             return self._fresh(camera.picture())

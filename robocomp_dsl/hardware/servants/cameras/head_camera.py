@@ -1,6 +1,6 @@
-"""RoboComp's first `Camera`: the cameras of a head by their numbers, in five forms.
+"""RoboComp's first `Camera`: the cameras of a head by number, in five image formats.
 
-An image is a run of bytes, rows from the top; `BOTH` is those of all cameras, one after the other.
+An image is a sequence of bytes, rows from the top; `BOTH` concatenates the images of all cameras.
 Luminance is that of ITU-R BT.601. Each image comes with the states of the joints and of the base.
 """
 
@@ -22,13 +22,13 @@ from robocomp_dsl.runtime import types as rt
 Bytes = NDArray[np.uint8]
 
 BOTH = 5
-"""The number that means all cameras together, as components of RoboComp ask for them."""
+"""The number for all cameras together, as used by RoboComp's components."""
 
 _LUMINANCE = np.array([0.299, 0.587, 0.114], dtype=np.float32)
 
 
 class HeadCameraServant(CarriedCameraServant):
-    """The devices of the port are cameras, then the base under the first, if there is one."""
+    """The devices of the port are cameras, then the base under the first, if any."""
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
@@ -37,7 +37,7 @@ class HeadCameraServant(CarriedCameraServant):
         self._fed = np.empty((0, 0, 3), dtype=np.uint8)
 
     def getYUVImage(self, cam: int) -> tuple[Any, ...]:
-        """Luminance, then u and v of every second pixel of every second row, by turns."""
+        """Luminance, then interleaved u and v of every second pixel of every second row."""
         return self._image_to_message(self._all(cam, _semi_planar))
 
     def getYImage(self, cam: int) -> tuple[Any, ...]:
@@ -45,12 +45,12 @@ class HeadCameraServant(CarriedCameraServant):
         return self._image_to_message(self._all(cam, _luminance))
 
     def getYLogPolarImage(self, cam: int) -> tuple[Any, ...]:
-        """Refused: the interface does not define the rings and rays of such an image."""
+        """Rejected: the interface does not define the rings and rays of such an image."""
         self._numbers(cam)
         raise CommandRefused("log-polar images are not made; `getYImage` has the same luminance")
 
     def getYImageCR(self, cam: int, div: int) -> tuple[Any, ...]:
-        """Luminance, each pixel the mean of `div` times `div`; what is over at the edges is not."""
+        """Luminance, averaged over blocks of `div` by `div` pixels; partial blocks are dropped."""
         smallest = min(min(picture.shape[:2]) for picture in self._seen(cam))
         if not 1 <= div <= smallest:
             raise CommandRefused(f"`div` is {div}, it must be 1 to {smallest}")
@@ -61,11 +61,11 @@ class HeadCameraServant(CarriedCameraServant):
         return self._image_to_message(self._all(cam, lambda seen: seen))
 
     def getYRGBImage(self, cam: int) -> tuple[Any, ...]:
-        """Luminance, red, green and blue, one after the other."""
+        """Luminance, red, green and blue, as consecutive planes."""
         return self._image_to_message(self._all(cam, _planes))
 
     def getCamParams(self) -> Any:
-        """The settings of the first camera; the interface assumes that all are alike."""
+        """The settings of the first camera; the interface assumes identical cameras."""
         it = self._settings(0)
         return self.types.TCamParams(
             name=self.cameras[0],
@@ -87,7 +87,7 @@ class HeadCameraServant(CarriedCameraServant):
         )
 
     def setInnerImage(self, roi: Any) -> None:
-        """What the first camera sees from now on, with colours or grey; an empty one ends it."""
+        """Replaces the image of the first camera, in colour or grey; an empty image ends it."""
         it, region = self._settings(0), np.asarray(roi, dtype=np.uint8)
         if region.size not in (0, it.width * it.height, it.width * it.height * 3):
             raise CommandRefused(
@@ -99,7 +99,7 @@ class HeadCameraServant(CarriedCameraServant):
         seen = region.reshape(*shape, 1 if grey else 3)
         self._fed = np.repeat(seen, 3, axis=2) if grey else seen
 
-    # -- what is seen -------------------------------------------------------------------------
+    # -- images -------------------------------------------------------------------------------
 
     def _numbers(self, cam: int) -> range:
         count = len(self.cameras)
@@ -123,10 +123,10 @@ class HeadCameraServant(CarriedCameraServant):
     def _settings(self, number: int) -> CameraSettings:
         return self.camera(number).settings
 
-    # -- what is around it --------------------------------------------------------------------
+    # -- states -------------------------------------------------------------------------------
 
     def _image_to_message(self, image: Bytes) -> tuple[Any, ...]:
-        """The image with the states of the joints and of the base; empty where there are none."""
+        """The image with the states of the joints and of the base; empty if there are none."""
         joints, base = self.robot_state()
         moving = any(joint.isMoving for joint in joints.values())
         return image, self.types.THeadState(motorsState=joints, isMoving=moving), base
@@ -143,7 +143,7 @@ def _planes(seen: Bytes) -> Bytes:
 
 
 def _semi_planar(seen: Bytes) -> Bytes:
-    """4:2:0 in two planes; the colours of an odd last row or column are its own."""
+    """4:2:0 in two planes; an odd last row or column has chroma samples of its own."""
     grey = seen @ _LUMINANCE
     few = seen[::2, ::2].astype(np.float32)
     blue, red = few[..., 2] - grey[::2, ::2], few[..., 0] - grey[::2, ::2]

@@ -1,7 +1,7 @@
 """`RGBD` over a camera with depth: images with the states of the joints and of the base under it.
 
-Both images are seen by one eye, so that every registration is already true. What is nowhere has an
-infinite distance, and as a point w = 0: then x, y, z are the direction.
+Both images have the same viewpoint, so every registration is exact. Pixels without an object have
+an infinite distance, and points with w = 0, whose x, y, z are the direction.
 """
 
 # ruff: noqa: N802  called as in the interface
@@ -20,7 +20,7 @@ from robocomp_dsl.runtime import types as rt
 
 Floats = NDArray[np.float32]
 _BYTES = {"color": 3, "depth": 4}
-"""Of a pixel."""
+"""Bytes of a pixel."""
 
 
 class RgbdServant(CarriedCameraServant):
@@ -33,7 +33,7 @@ class RgbdServant(CarriedCameraServant):
         self._registration = self.types.Registration.DepthInColor
 
     def getRGBDParams(self) -> Any:
-        """How the camera is set up."""
+        """Configuration of the camera."""
         it = self.camera().settings
         parameters = {
             name: self.types.CameraParameters(
@@ -55,11 +55,11 @@ class RgbdServant(CarriedCameraServant):
         )
 
     def setRegistration(self, value: Any) -> None:
-        """Keep what is asked for; the images are the same."""
+        """Store the request; the images are the same for all registrations."""
         self._registration = value
 
     def getRegistration(self) -> Any:
-        """What was asked for last."""
+        """The last requested registration."""
         return self._registration
 
     def getData(self) -> tuple[Any, ...]:
@@ -76,7 +76,7 @@ class RgbdServant(CarriedCameraServant):
         return self.getDepthInIR()
 
     def getImage(self) -> tuple[Any, ...]:
-        """Colours, distances and points of one moment."""
+        """Colours, distances and points of the same instant."""
         seen = self.camera().picture()
         return self._colours(seen), seen.depth.ravel(), self._points(seen), *self.robot_state()
 
@@ -85,7 +85,7 @@ class RgbdServant(CarriedCameraServant):
         return self._colours(self.camera().picture()), *self.robot_state()
 
     def getXYZ(self) -> tuple[Any, ...]:
-        """A point for every pixel."""
+        """One point per pixel."""
         return self._points(self.camera().picture()), *self.robot_state()
 
     def getXYZByteStream(self) -> tuple[Any, ...]:
@@ -103,7 +103,7 @@ class RgbdServant(CarriedCameraServant):
 
 
 def homogeneous(settings: CameraSettings, depth: Floats) -> Floats:
-    """A point for every pixel in the frame of the camera (mm), shape (number of pixels, 4)."""
+    """One point per pixel in the frame of the camera (mm), shape (number of pixels, 4)."""
     height, width = depth.shape
     x = (np.arange(width, dtype=np.float32) - (width - 1) / 2) / settings.focal
     y = ((height - 1) / 2 - np.arange(height, dtype=np.float32)) / settings.focal

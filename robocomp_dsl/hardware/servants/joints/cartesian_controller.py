@@ -1,4 +1,4 @@
-"""`CartesianController` over a hand: places in m, turns as axis and angle."""
+"""`CartesianController` over an end effector: positions in m, rotations as axis and angle."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -27,7 +27,7 @@ _MM = 1e-3
 
 
 class CartesianControllerServant(Servant):
-    """One hand."""
+    """One end effector."""
 
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
         (UnreachableGoal, "Unreachable"),
@@ -44,11 +44,11 @@ class CartesianControllerServant(Servant):
         return list(self._led.joints)
 
     def getPose(self) -> Any:
-        """Where the hand is."""
+        """The pose of the end effector."""
         return self._pose_to_message(self.device().pose())
 
     def getState(self) -> Any:
-        """Where the hand is, and what the controller does."""
+        """The pose of the end effector, and the state of the controller."""
         return self.types.HandState(
             time=self.device().joint_board.board.time,
             pose=self.getPose(),
@@ -58,26 +58,26 @@ class CartesianControllerServant(Servant):
     # -- motion -------------------------------------------------------------------------------
 
     def goToPose(self, pose: Any, seconds: float) -> Any:
-        """Take the hand to a pose."""
+        """Move the end effector to a pose."""
         return self._solution(self._led.go_to(self._goal(_matrix(pose)), seconds or None))
 
     def goToPosition(self, place: Any, seconds: float) -> Any:
-        """Take the hand to a place."""
+        """Move the end effector to a position."""
         return self._solution(self._led.go_to(self._goal(_point(place)), seconds or None))
 
     def getDesired(self) -> Any:
-        """What was solution_pose for the last goal."""
+        """The solution for the last goal."""
         found = self._led.desired
         if found is None or len(found.q) != np.count_nonzero(self._led.free):
             raise CommandRefused("no goal has been set since the free joints were changed")
         return self._solution(found)
 
     def checkMotionDone(self) -> bool:
-        """Whether the hand is on no way any more."""
+        """Whether no motion is in progress."""
         return self._led.state is not CartesianState.MOVING
 
     def stopControl(self) -> None:
-        """Stay where the hand is."""
+        """Stop the end effector."""
         self._led.stop()
 
     def askForPose(self, pose: Any) -> Any:
@@ -85,48 +85,48 @@ class CartesianControllerServant(Servant):
         return self._solution(self._led.solve(self._goal(_matrix(pose))))
 
     def askForPosition(self, place: Any) -> Any:
-        """Solve for a place."""
+        """Solve for a position."""
         return self._solution(self._led.solve(self._goal(_point(place))))
 
     # -- settings -----------------------------------------------------------------------------
 
     def setTrajTime(self, seconds: float) -> None:
-        """The time that a motion usually takes."""
+        """Set the default duration of a motion."""
         self._led.seconds = _positive(seconds=seconds)
 
     def getTrajTime(self) -> float:
-        """The time that a motion usually takes."""
+        """The default duration of a motion."""
         return self._led.seconds
 
     def setInTargetTol(self, distance: float, angle: float) -> None:
-        """How near a posture must bring the hand."""
+        """Set the tolerance of a goal."""
         far, turned = _positive(distance=distance) / _MM, _positive(angle=angle)
         self._led.distance, self._led.angle = far, turned
 
     def getInTargetTol(self) -> tuple[float, float]:
-        """How near a posture must bring the hand."""
+        """The tolerance of a goal."""
         return self._led.distance * _MM, self._led.angle
 
     def setTrackingMode(self, on: bool) -> None:
-        """Keep the hand at its goal."""
+        """Set whether the end effector tracks its goal after arrival."""
         self._led.tracking = on
 
     def getTrackingMode(self) -> bool:
-        """Whether the hand is kept at its goal."""
+        """Whether the end effector tracks its goal after arrival."""
         return self._led.tracking
 
     def setDOF(self, free: Sequence[bool]) -> None:
-        """Which joints may move."""
+        """Set which joints may move."""
         self._led.set_free_joints(np.array(free, bool))
 
     def getDOF(self) -> NDArray[np.bool_]:
         """Which joints may move."""
         return self._led.free
 
-    # -- both ways ----------------------------------------------------------------------------
+    # -- conversions --------------------------------------------------------------------------
 
     def declared_error(self, declared: type[Any], error: HardwareError) -> Exception:
-        """What is nearest goes along."""
+        """The best solution is part of the exception."""
         if not isinstance(error, UnreachableGoal):
             return super().declared_error(declared, error)
         exception: Exception = declared(
@@ -156,7 +156,7 @@ def _point(place: Any) -> Matrix:
 
 
 def _matrix(pose: Any) -> Matrix:
-    """A pose as (4, 4). Raises `CommandRefused` for an axis that has no length."""
+    """A pose as (4, 4). Raises `CommandRefused` for an axis of zero length."""
     axis = np.array([pose.axisX, pose.axisY, pose.axisZ])
     length = float(np.linalg.norm(axis))
     if not (math.isfinite(length) and math.isfinite(pose.angle)):

@@ -1,6 +1,6 @@
-"""`ControlBoard` over a control board: the board's own words, arrays as they are.
+"""`ControlBoard` over a control board, without conversion of arrays.
 
-A port stands for all joints of a board, or for a group of them.
+A port serves all joints of a board, or a group of them.
 """
 
 # ruff: noqa: N802  called as in the interface
@@ -31,7 +31,7 @@ class _StateConverter:
         self._values: list[Any] = []
 
     def to_message(self, enum: Callable[[int], Any], modes: Sequence[Any]) -> list[Any]:
-        """The `modes` as values of the enumeration `made`, in a list of the caller's own."""
+        """The `modes` as values of the enumeration `made`, in a new list."""
         if modes != self._modes:
             self._values = [enum(self._order.index(mode)) for mode in modes]
             self._modes = modes
@@ -52,7 +52,7 @@ class ControlBoardServant(BoardSettings):
         self._modes, self._interactions = _StateConverter(_MODES), _StateConverter(_INTERACTIONS)
 
     def getJoints(self) -> list[Any]:
-        """What joints there are."""
+        """Properties of the joints."""
         board, here = self._board, self._listed
         return [
             self.types.JointInfo(
@@ -73,7 +73,7 @@ class ControlBoardServant(BoardSettings):
         ]
 
     def getState(self) -> Any:
-        """Everything that was measured last."""
+        """The latest measurements."""
         it, listed = self._board.state(), self._listed
         here = self._rows
         return self.types.BoardState(
@@ -96,7 +96,7 @@ class ControlBoardServant(BoardSettings):
         )
 
     def getTargets(self, joints: Names) -> Any:
-        """The references as they were accepted."""
+        """The last accepted references."""
         it = targets(self._board, self._some(joints))
         return self.types.Targets(
             position=it.position,
@@ -107,11 +107,11 @@ class ControlBoardServant(BoardSettings):
         )
 
     def setControlModes(self, joints: Names, modes: Sequence[int]) -> None:
-        """Ask for a control mode of its own for each joint."""
+        """Set a control mode per joint."""
         self._commands.set_mode(self._some(joints), [_MODES[mode] for mode in modes])
 
     def setControlMode(self, joints: Names, mode: int) -> None:
-        """Ask for one control mode."""
+        """Set one control mode for these joints."""
         self._commands.set_mode(self._some(joints), _MODES[mode])
 
     def setInteractionMode(self, joints: Names, mode: int) -> None:
@@ -121,19 +121,19 @@ class ControlBoardServant(BoardSettings):
     # -- motion -------------------------------------------------------------------------------
 
     def positionMove(self, joints: Names, position: Floats) -> Bools:
-        """Minimum jerk to these positions."""
+        """Minimum-jerk motion to these positions."""
         return self._commands.position_move(self._some(joints), position)
 
     def relativeMove(self, joints: Names, way: Floats) -> Bools:
-        """Minimum jerk by these ways."""
+        """Minimum-jerk motion by these distances."""
         return self._commands.relative_move(self._some(joints), way)
 
     def motionDone(self, joints: Names) -> Bools:
-        """Whether the motions have ended."""
+        """Whether the motions are complete."""
         return self._commands.motion_done(self._some(joints))
 
     def stopMotion(self, joints: Names) -> None:
-        """End motions."""
+        """Stop motions."""
         self._commands.stop(self._some(joints))
 
     def setPosition(self, joints: Names, position: Floats) -> Bools:
@@ -141,11 +141,11 @@ class ControlBoardServant(BoardSettings):
         return self._commands.set_position(self._some(joints), position)
 
     def velocityMove(self, joints: Names, velocity: Floats, hold: float) -> Bools:
-        """Turn at these speeds for `hold` s; 0: for ever."""
+        """Move at these speeds for `hold` s; 0: without limit."""
         return self._commands.velocity_move(self._some(joints), velocity, hold or np.inf)
 
     def setVelocity(self, joints: Names, velocity: Floats) -> Bools:
-        """Turn at these speeds without a ramp."""
+        """Move at these speeds without a ramp."""
         return self._commands.set_velocity(self._some(joints), velocity)
 
     def setTorque(self, joints: Names, torque: Floats) -> Bools:
@@ -163,15 +163,15 @@ class ControlBoardServant(BoardSettings):
     # -- calibration and parking --------------------------------------------------------------
 
     def calibrate(self, joints: Names) -> None:
-        """Find the zero and go home."""
+        """Find the zero and move home."""
         self._begin(self.board_device().calibrator.calibrate, joints)
 
     def home(self, joints: Names) -> None:
-        """Send calibrated joints home."""
+        """Move calibrated joints home."""
         self._begin(self.board_device().calibrator.home, joints)
 
     def park(self, joints: Names) -> None:
-        """Go to rest and switch off."""
+        """Move to the parking position and switch off."""
         self._begin(self.board_device().parking.park, joints)
 
     def isBusy(self) -> bool:
@@ -180,7 +180,7 @@ class ControlBoardServant(BoardSettings):
         return bool(device.calibrator.leads_any(here) or device.parking.leads_any(here))
 
     def quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.board_device().calibrator.quit(self._joints)
         self.board_device().parking.quit(self._joints)
 

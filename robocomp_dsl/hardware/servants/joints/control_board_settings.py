@@ -1,6 +1,6 @@
-"""The settings of a control board as operations of `ControlBoard`: they move nothing.
+"""The settings of a control board as operations of `ControlBoard`; they cause no motion.
 
-All joints of a world are on one board, which steps them together; a port has those of its group.
+All joints of a world are on one board, which steps them together; a port serves those of its group.
 """
 
 # ruff: noqa: N802  called as in the interface
@@ -43,12 +43,12 @@ class BoardSettings(Servant):
 
     @property
     def _joints(self) -> Ints:
-        """The joints of this port on the board, in order."""
+        """Indices of the port's joints on the board, in order."""
         self._look(self.board_device())
         return self._here
 
     def _look(self, device: Any) -> None:
-        """Which joints of `device` are those of the port: `_rows` is the same as an index."""
+        """The joints of `device` that belong to the port; `_rows` is the same as an index."""
         if device is self._known:
             return
         mine = device.groups.get(self.ids[0], "")
@@ -65,7 +65,7 @@ class BoardSettings(Servant):
         return found
 
     def _some(self, names: Names) -> Ints:
-        """The named joints, all of the port for none. Raises `UnknownJoint`."""
+        """The named joints, all of the port if empty. Raises `UnknownJoint`."""
         here = self._joints
         if not len(names):
             return here
@@ -92,28 +92,28 @@ class BoardSettings(Servant):
         return ControlSettings(self._board)
 
     def setReferenceSpeed(self, joints: Names, speed: Floats) -> None:
-        """Mean speeds of the next position moves."""
+        """Set the mean speeds of later position motions."""
         self._settings.set_reference_speed(self._some(joints), speed)
 
     def setAcceleration(self, joints: Names, acceleration: Floats) -> None:
-        """How fast velocities may change."""
+        """Set the acceleration limits of velocity commands."""
         self._settings.set_acceleration(self._some(joints), acceleration)
 
     def getReferenceSpeed(self, joints: Names) -> Floats:
-        """Mean speeds of position moves."""
+        """The mean speeds of position motions."""
         return self._settings.reference_speed(self._some(joints))
 
     def getAcceleration(self, joints: Names) -> Floats:
-        """How fast velocities may change."""
+        """The acceleration limits of velocity commands."""
         return self._settings.acceleration(self._some(joints))
 
     def setImpedance(self, joint: str, impedance: Any) -> None:
-        """Spring, damper and offset."""
+        """Set stiffness, damping and torque offset."""
         self._settings.set_impedance(self._some([joint]), impedance.stiffness, impedance.damping)
         self._settings.set_impedance_offset(self._some([joint]), impedance.offset)
 
     def getImpedance(self, joint: str) -> Any:
-        """Spring, damper and offset."""
+        """Stiffness, damping and torque offset."""
         board = self._board
         at = self._joint_index(joint)
         return self.types.Impedance(
@@ -123,7 +123,7 @@ class BoardSettings(Servant):
         )
 
     def setPid(self, loop: int, joint: str, pid: Any) -> None:
-        """The gains of a PID controller."""
+        """Set the gains of a PID controller."""
         gains = Gains(
             pid.kp,
             pid.ki,
@@ -149,11 +149,11 @@ class BoardSettings(Servant):
         )
 
     def enablePid(self, loop: int, joints: Names, on: bool) -> None:
-        """Switch PID controllers on or off."""
+        """Enable or disable PID controllers."""
         self._settings.enable_pid(self._some(joints), on, _LOOPS[loop])
 
     def isPidEnabled(self, loop: int, joints: Names) -> Bools:
-        """Which PID controllers are on."""
+        """Which PID controllers are enabled."""
         return self._settings.pid_enabled(self._some(joints), _LOOPS[loop])
 
     def resetPid(self, loop: int, joints: Names) -> None:
@@ -165,7 +165,7 @@ class BoardSettings(Servant):
         return self._settings.pid_reference(self._some(joints), _LOOPS[loop])
 
     def getPidErrors(self, loop: int, joints: Names) -> Floats:
-        """What is missing from it."""
+        """The errors of the controllers."""
         return self._settings.pid_error(self._some(joints), _LOOPS[loop])
 
     def getPidOutputs(self, loop: int, joints: Names) -> Floats:
@@ -173,7 +173,7 @@ class BoardSettings(Servant):
         return self._settings.pid_output(self._some(joints), _LOOPS[loop])
 
     def setSpeedLimits(self, joints: Names, speed: Floats) -> None:
-        """Largest speeds."""
+        """Maximum speeds."""
         self._settings.set_speed_limits(self._some(joints), speed)
 
     def setMaxCurrent(self, motors: Names, current: Floats) -> None:
@@ -181,7 +181,7 @@ class BoardSettings(Servant):
         self._settings.set_max_current(self._some(motors), current)
 
     def setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count."""
+        """Set the encoder count of a motor."""
         self._settings.set_motor_encoder(self._some([motor]), counts)
 
     def setPositionLimits(self, joint: str, low: float, high: float) -> None:
@@ -189,7 +189,7 @@ class BoardSettings(Servant):
         self._settings.set_position_limits(self._some([joint]), low, high)
 
     def setEncoder(self, joint: str, position: float) -> None:
-        """Let the encoder stand at this position."""
+        """Set the encoder reading of a joint."""
         self._settings.set_encoder(self._some([joint]), position)
 
     def getLastFault(self, joint: str) -> Any:

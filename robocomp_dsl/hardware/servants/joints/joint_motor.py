@@ -1,4 +1,4 @@
-"""`JointMotor` over a control board. Angles are rad; slides have mm here and m on the board."""
+"""`JointMotor` over a control board. Angles in rad; prismatic joints: mm, on the board m."""
 
 # ruff: noqa: N802, N803  called as in the interface
 
@@ -21,7 +21,7 @@ _MM = 1e-3
 _LEAST, _MOST = -(2**31), 2**31 - 1
 
 _ROUNDING = 1e-5
-"""What a goal of 32 bits may be beyond a limit [rad or m]."""
+"""Tolerance of limits for 32-bit goals [rad or m]."""
 
 
 class JointMotorServant(Servant):
@@ -40,11 +40,11 @@ class JointMotorServant(Servant):
     # -- goals --------------------------------------------------------------------------------
 
     def setPosition(self, goal: Any) -> None:
-        """Send one motor to a position; beyond its limits is refused."""
+        """Send one motor to a position; goals beyond its limits are rejected."""
         self.setSyncPosition([goal])
 
     def setSyncPosition(self, listGoals: Sequence[Any]) -> None:
-        """Send several; all of them or none."""
+        """Send several motors, all or none."""
         self.move(
             [goal.name for goal in listGoals],
             [goal.position for goal in listGoals],
@@ -71,11 +71,11 @@ class JointMotorServant(Servant):
         self._move(np.arange(len(homes)), homes, np.zeros(len(homes)))
 
     def setVelocity(self, goal: Any) -> None:
-        """Turn one motor."""
+        """Move one motor at a velocity."""
         self.setSyncVelocity([goal])
 
     def setSyncVelocity(self, listGoals: Sequence[Any]) -> None:
-        """Turn several; a `maxAcc` of 0 leaves the acceleration as it is."""
+        """Move several motors at velocities; a `maxAcc` of 0 leaves the acceleration unchanged."""
         self.drive(
             [goal.name for goal in listGoals],
             [goal.velocity for goal in listGoals],
@@ -83,7 +83,7 @@ class JointMotorServant(Servant):
         )
 
     def drive(self, names: Sequence[str], speed: Sequence[float], most: Sequence[float]) -> None:
-        """Turn the motors `names`, with accelerations up to `most`."""
+        """Move the motors `names`, with accelerations up to `most`."""
         board, joints = self._board, self._joints(names)
         unit = self._units(joints)
         velocity = numbers("velocity", speed, len(joints)) * unit
@@ -95,7 +95,7 @@ class JointMotorServant(Servant):
         board.references.set_velocity(joints, velocity, np.inf)
 
     def _move(self, joints: Ints, goal: Floats, speed: Floats) -> None:
-        """Minimum jerk to `goal` (rad or m); `speed` (as in the interface) is the highest one."""
+        """Minimum-jerk motion to `goal` (rad or m); `speed` is the peak, as in the interface."""
         board = self._board
         self._refuse_beyond("position", joints, goal, board.limits.low, board.limits.high)
         if (speed < 0).any():
@@ -120,15 +120,15 @@ class JointMotorServant(Servant):
     # -- states -------------------------------------------------------------------------------
 
     def getMotorState(self, motor: str) -> Any:
-        """What one motor does now."""
+        """The current state of one motor."""
         return self._states([self._joint(motor)])[motor]
 
     def getMotorStateMap(self, mList: Sequence[str]) -> dict[str, Any]:
-        """What the named motors do now."""
+        """The current states of the named motors."""
         return self._states([self._joint(name) for name in mList])
 
     def getAllMotorState(self) -> dict[str, Any]:
-        """What all motors do now."""
+        """The current states of all motors."""
         return self._states(range(len(self._board.spec.joints)))
 
     def _states(self, joints: Iterable[int]) -> dict[str, Any]:
@@ -148,10 +148,10 @@ class JointMotorServant(Servant):
         time, struct = f"{state.time:.6f}", self.types.MotorState
         return {names[i]: _state(struct, time, rows[i]) for i in joints}
 
-    # -- how they are built -------------------------------------------------------------------
+    # -- configuration ------------------------------------------------------------------------
 
     def getMotorParams(self, motor: str) -> Any:
-        """How one motor is built and limited."""
+        """Configuration and limits of one motor."""
         board, joint = self._board, self._joint(motor)
         unit = self._unit(joint)
         low, high = float(board.limits.low[joint]), float(board.limits.high[joint])
@@ -168,7 +168,7 @@ class JointMotorServant(Servant):
         )
 
     def getAllMotorParams(self) -> list[Any]:
-        """How all motors are built and limited."""
+        """Configuration and limits of all motors."""
         return [self.getMotorParams(name) for name in self._board.spec.names]
 
     def getBusParams(self) -> Any:
@@ -197,7 +197,7 @@ class JointMotorServant(Servant):
 
 
 def _state(struct: type[Any], time: str, row: tuple[Any, ...]) -> Any:
-    """The struct `made` of one motor."""
+    """The struct `made` for one motor."""
     pos, vel, power, p, v, moving, temperature = row
     return struct(
         pos=pos,
@@ -212,6 +212,6 @@ def _state(struct: type[Any], time: str, row: tuple[Any, ...]) -> Any:
 
 
 def _whole(counts: Floats) -> list[int]:
-    """Counts that fit into the 32 bits of the interface."""
+    """Counts clipped to the 32 bits of the interface."""
     clamp_scene: list[int] = np.clip(counts, _LEAST, _MOST).astype(np.int64).tolist()
     return clamp_scene

@@ -13,7 +13,7 @@ from robocomp_dsl.runtime import types as rt
 
 
 class JointMotorSimpleServant(Servant):
-    """All motors of the port are on one board; an empty name is the only one there is."""
+    """All motors of the port are on one board; an empty name selects the only motor."""
 
     FAILURES = JointMotorServant.FAILURES
 
@@ -24,11 +24,11 @@ class JointMotorSimpleServant(Servant):
         self._motors = JointMotorServant(interface, port, ids, devices)
 
     def setPosition(self, name: str, goal: Any) -> None:
-        """Send the motor to a position; beyond its limits is refused."""
+        """Send the motor to a position; goals beyond its limits are rejected."""
         self._motors.move([self._named(name)], [goal.position], [goal.maxSpeed])
 
     def setVelocity(self, name: str, goal: Any) -> None:
-        """Turn the motor; a `maxAcc` of 0 leaves the acceleration as it is."""
+        """Move the motor at a velocity; a `maxAcc` of 0 leaves the acceleration unchanged."""
         self._motors.drive([self._named(name)], [goal.velocity], [goal.maxAcc])
 
     def setZeroPos(self, name: str) -> None:
@@ -36,11 +36,11 @@ class JointMotorSimpleServant(Servant):
         self._motors.setZeroPos(self._named(name))
 
     def getMotorParams(self, motor: str) -> Any:
-        """How the motor is built and limited."""
+        """Configuration and limits of the motor."""
         return self._motors.getMotorParams(self._named(motor))
 
     def getMotorState(self, motor: str) -> Any:
-        """What the motor does now."""
+        """The current state of the motor."""
         return self._motors.getMotorState(self._named(motor))
 
     def _named(self, name: str) -> str:

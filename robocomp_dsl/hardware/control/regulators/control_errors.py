@@ -1,6 +1,6 @@
 """Control errors: one error per joint, by its active loop.
 
-In: errors of position and velocity, references and sensors of torque. Out: errors (n,) and their
+In: position and velocity errors, torque references and readings. Out: errors (n,) and their
 derivatives, in the units of the loops. An error that no controller uses is not computed.
 """
 
@@ -15,7 +15,7 @@ from robocomp_dsl.hardware.control.regulators.loops import ControlLoops, Loop
 class ControlErrors:
     """`measured_torque` (n,) are the torques at the joints [N m].
 
-    The caller of `Board.step` sets them while `needs_torque`: a controller uses them.
+    The caller of `Board.step` sets them while `needs_torque`, when a controller uses them.
     `beyond_position` is True while a loop other than position is active.
     """
 
@@ -28,7 +28,7 @@ class ControlErrors:
         self._before: Floats | None = None
 
     def configure(self, loops: ControlLoops) -> None:
-        """Follow the active loops."""
+        """Update the active loops."""
         self._position, self._torque = loops.works(Loop.POSITION), loops.works(Loop.TORQUE)
         fast, gains = loops.works(Loop.VELOCITY), loops.bank.gains
         self._fast = bool(fast.any())
@@ -43,9 +43,9 @@ class ControlErrors:
     def compute(
         self, error: Floats, late: Floats, torque: Floats, dt: float
     ) -> tuple[Floats, Floats]:
-        """Errors and derivatives (n,); `error` and `late` are those of position and velocity.
+        """Errors and derivatives (n,); `error` and `late` are the errors of position and velocity.
 
-        `torque` are references. A value that no gain uses is arbitrary.
+        `torque` are references. A value without a gain is arbitrary.
         """
         beyond_position = error
         if self._fast:
@@ -53,7 +53,7 @@ class ControlErrors:
         if self.needs_torque:
             beyond_position = np.where(self._torque, torque - self.measured_torque, beyond_position)
         if not self._damped:
-            return beyond_position, late  # a derivative that meets a gain is that of a position
+            return beyond_position, late  # only position controllers have a derivative gain
         before, self._before = (
             beyond_position if self._before is None else self._before,
             beyond_position,

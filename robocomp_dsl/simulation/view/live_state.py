@@ -15,7 +15,7 @@ from robocomp_dsl.simulation.world.visual_state import VERSION, VisualState, fro
 
 
 class UnsupportedSimulation(Exception):
-    """The simulation cannot be shown here; the message says why."""
+    """The simulation cannot be shown here; the message gives the reason."""
 
 
 @dataclass(slots=True)

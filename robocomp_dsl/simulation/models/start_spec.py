@@ -1,8 +1,8 @@
 """Loads a model file as the base of a world, to which other parts are added.
 
-In: the path of a file in MJCF or URDF. Out: its `MjSpec`, in which everything that is served or
-moved has a name, and the first of its key frames, taken out, since its numbers fit only the file
-as it was.
+In: the path of a file in MJCF or URDF. Out: its `MjSpec`, in which every served or moving element
+has a name, and its first key frame, which is removed from the spec because its numbers fit only the
+original file.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ Numbers = Sequence[float]
 
 @dataclass(slots=True)
 class StartSpec:
-    """`spec` is not compiled. The rest is the first key frame, by the names of joints and motors.
+    """`spec` is not compiled. The other fields are the first key frame, by names.
 
-    `start` has the place of each joint in `qpos`, `held` the commands of motors.
+    `start` has the position of each joint in `qpos`, `held` the commands of motors.
     """
 
     spec: Any
@@ -36,7 +36,7 @@ class StartSpec:
     held: dict[str, float] = field(default_factory=dict)
 
 
-def begin(path: Path, packages: Sequence[Path] = ()) -> StartSpec:
+def load_spec(path: Path, packages: Sequence[Path] = ()) -> StartSpec:
     """The specification in the file at `path`. Raises `ModelFileError`, `OSError`."""
     spec, findings = read_spec(path, packages)
     _name(spec)
@@ -49,18 +49,18 @@ def begin(path: Path, packages: Sequence[Path] = ()) -> StartSpec:
 
 
 def reload_spec(path: Path) -> StartSpec:
-    """As `begin`, of a file that is read once: meshes take long, and worlds are built again."""
+    """A copy of the spec of a file that is loaded once: loading meshes takes long."""
     known = _base_spec(path, path.stat().st_mtime_ns)
     return replace(known, spec=known.spec.copy(), findings=list(known.findings))
 
 
 @lru_cache(maxsize=2)
 def _base_spec(path: Path, _: int) -> StartSpec:
-    return begin(path)
+    return load_spec(path)
 
 
 def _name(spec: Any) -> None:
-    """Name unnamed elements: bodies as in `model_transforms`, joints by their bodies."""
+    """Name unnamed elements: bodies as in `model_to_transforms`, joints after their bodies."""
     _fill(spec.bodies, "body")
     taken = {joint.name for joint in spec.joints}
     for body in spec.bodies:

@@ -1,8 +1,8 @@
-/** Where the programs of robocomp_dsl are. In: what the user set and has. Out: a path, or nothing. */
+/** Finds the programs of robocomp_dsl. In: settings and folders. Out: a path, or undefined. */
 
 import * as path from "path";
 
-/** What there is to look at. */
+/** The places to search. */
 export interface Places {
   /** The setting `robocomp.server.path`; empty if it is not set. */
   readonly configured: string;
@@ -16,7 +16,7 @@ export interface Places {
   readonly isProgram: (file: string) => boolean;
 }
 
-/** The first `rcgen` that is there: the one set, or else the workspace's, the interpreter's, the PATH's. */
+/** The first `rcgen` found: of the setting, or else of the workspace, the interpreters, the PATH. */
 export function findServer(places: Places): string | undefined {
   if (places.configured) {
     return configured(places).find(places.isProgram);
@@ -24,14 +24,14 @@ export function findServer(places: Places): string | undefined {
   const bin = places.windows ? "Scripts" : "bin";
   const folders = [
     ...places.folders.map((folder) => path.join(folder, ".venv", bin)),
-    ...places.interpreters.flatMap((one) => [path.dirname(one), path.join(one, bin)]),
+    ...places.interpreters.flatMap((python) => [path.dirname(python), path.join(python, bin)]),
     ...places.searched,
   ];
   return folders.map((folder) => path.join(folder, program("rcgen", places.windows))).find(places.isProgram);
 }
 
-/** The program `name` that came with `rcgen`. */
-export function besides(rcgen: string, name: string, windows: boolean): string {
+/** The program `name` in the folder of `rcgen`. */
+export function siblingProgram(rcgen: string, name: string, windows: boolean): string {
   return path.join(path.dirname(rcgen), program(name, windows));
 }
 
