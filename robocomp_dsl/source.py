@@ -103,6 +103,23 @@ class Source(Record):
         """The range [start, end) of this source."""
         return Span(self, start, end)
 
+    def span_at(self, line: int, column: int = 0, width: int = 0) -> Span:
+        """`width` characters at `line` and `column`, which count from 1.
+
+        Without a column, the line without its blanks; without a line, `file_span`. What is after
+        the end of the text becomes an empty span there.
+        """
+        size = len(self.text)
+        if not 0 < line <= len(self.line_starts):
+            return self.span(size, size) if line > 0 else self.file_span
+        start = self.line_starts[line - 1]
+        if not column:
+            text = self.line(line)
+            start += len(text) - len(text.lstrip())
+            return self.span(start, start + len(text.strip()))
+        start = min(start + column - 1, size)
+        return self.span(start, min(start + width, size))
+
     @property
     def file_span(self) -> Span:
         """An empty span at offset 0, for diagnostics about the file as a whole."""

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 FORMATS = {"html": ("html",), "markdown": ("markdown",), "both": ("html", "markdown")}
 FOLDERS = ("components", "deployments", "interfaces", "modules", "parameters", "statemachines")
-"""Where pages go, beside the first one."""
+"""Folder of the other pages, beside the first one."""
 MARK_BYTES = 1000
-"""The mark of our files is in the first bytes of each."""
+"""The mark of generated files is within this number of bytes."""
 
 
 @click.command()

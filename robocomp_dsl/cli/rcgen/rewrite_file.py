@@ -1,6 +1,6 @@
-"""How commands change files of the user in place: `check --fix` and `fmt`.
+"""Rewrites files of the user in place, for `check --fix` and `fmt`.
 
-In: a path and its new text. Out: the file rewritten whole, or the difference as text.
+In: a path and its new text. Out: the file rewritten atomically, or the difference as text.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ BOM = "\N{ZERO WIDTH NO-BREAK SPACE}"
 
 
 def rewrite_file(path: Path, text: str) -> None:
-    """Put `text` into the file at `path`, which keeps a BOM and becomes UTF-8.
+    """Write `text` to the file at `path`; a BOM is kept, the encoding is UTF-8.
 
     Raises `CannotWrite`.
     """

@@ -35,7 +35,7 @@ _EMPTY_LAYOUT = TaxelLayout(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0
 
 @dataclass(frozen=True, eq=False)
 class _Frame:
-    """A frame in the body: a point of it is at `orientation` @ point + `position`."""
+    """A frame in the body: a point p of it is at `orientation` @ p + `position`."""
 
     position: Floats
     orientation: Floats
@@ -52,7 +52,7 @@ class _Frame:
 
 
 def lower_robot(robot: RobotDescription) -> Data:
-    """All skin of a description."""
+    """The complete skin of a description."""
     limbs, patches = [], []
     for part in robot.parts:
         for limb in part.limbs:

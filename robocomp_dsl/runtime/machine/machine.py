@@ -95,7 +95,7 @@ class Machine(DeprecatedMachineNames):
 
     @property
     def states(self) -> tuple[str, ...]:
-        """The names of the active states, outer ones first; empty before the start."""
+        """The names of the active states, outermost first; empty before the start."""
         return self._active
 
     @property
@@ -110,7 +110,7 @@ class Machine(DeprecatedMachineNames):
         return state in self._active
 
     def send(self, event: str, **data: object) -> bool:
-        """Send an event: its transitions are taken; returns whether there was one.
+        """Send an event and take its transitions; returns whether there was one.
 
         `data` is for the conditions of an SCXML document (`_event.data`). If a transition is being
         processed (in this thread or another one), the event is queued and False is returned.
@@ -170,9 +170,9 @@ class Machine(DeprecatedMachineNames):
         return moved
 
     def tick(self) -> None:
-        """Call the `state_…` methods of the active states, outer ones first."""
+        """Call the `state_…` methods of the active states, outermost first."""
         for name in self._active:
-            # A method may have left the states of the others.
+            # A method may have exited the states of the others.
             if name in self._active and (method := self._hooks["state", name]):
                 method()
 

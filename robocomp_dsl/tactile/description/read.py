@@ -61,7 +61,7 @@ def read_robot(text: str, file: Path) -> RobotDescription:
     if body:
         robot = replace(robot, model=body.text(), model_place=body.place)
     reading.finish()
-    check(robot, reading)
+    check(robot, reading.findings)
     reading.finish()
     return robot
 

@@ -1,6 +1,6 @@
 """`rcgen config diff`: compares the user's files with the installed ones.
 
-In: a context, or one file of it. Out: a unified diff; exit code 1 where there are differences.
+In: a context, or one file of it. Out: a unified diff; exit code 1 if there are differences.
 """
 
 from __future__ import annotations

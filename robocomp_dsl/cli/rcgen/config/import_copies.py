@@ -1,7 +1,7 @@
 """`rcgen config import`: copies installed configurations into the user's folder.
 
-In: a context, or one file of it. Out: files in the user's folder, all of them or none; what is
-there already stays, unless `--force` is given.
+In: a context, or one file of it. Out: files in the user's folder, all or none; existing files are
+kept without `--force`.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def _write(copies: Sequence[Copy], *, force: bool) -> None:
         for new, target in ready:
             if force:
                 new.replace(target)
-            else:  # a link, other than a rename, fails where a file has appeared meanwhile
+            else:  # unlike a rename, a link fails if the file exists meanwhile
                 target.hardlink_to(new)
                 created.append(target)
     except OSError:

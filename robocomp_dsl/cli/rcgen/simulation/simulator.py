@@ -1,7 +1,7 @@
 """`rcgen simulator`: generates a component that simulates a world and serves its devices.
 
 In: a file in InnerModel, URDF or MJCF. Out: a folder with the component, or with `--dry-run` the
-list of what would be served; findings on standard error.
+list of the interfaces that would be served; findings on standard error.
 """
 
 from __future__ import annotations
@@ -76,11 +76,10 @@ def command(
     """Generate a simulator from a world: a component that serves its devices.
 
     The file is InnerModel, URDF or MJCF. In MJCF, a tuple of joints is a control board, and a
-    number `speed_<joint>` tells the largest speed of a joint.
+    number `speed_<joint>` is the maximum speed of a joint.
 
-    The world is built once to see that it can be; one with errors is simulated as far as it is
-    understood. All is rewritten the next time but `specificworker.py`, `README.md` and
-    `etc/config.yaml`.
+    The world is built once as a check; a world with errors is simulated with repairs. Later runs
+    rewrite all files except `specificworker.py`, `README.md` and `etc/config.yaml`.
     """
     input_report, report = Report(), Report()
     workspace = Workspace(folders)
