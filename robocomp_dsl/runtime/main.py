@@ -13,8 +13,10 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import NoReturn
 
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime.component import logs
@@ -105,7 +107,19 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
         return 1
     _on_signals(runner.stop)
     runner.start()
-    return 0 if runner.wait() else 1
+    succeeded = runner.wait()
+    if runner.abandoned:
+        _exit_now()
+    return 0 if succeeded else 1
+
+
+def _exit_now() -> NoReturn:
+    """Exit as failed without waiting for threads: one of them hangs."""
+    logging.shutdown()
+    with suppress(OSError, ValueError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+    os._exit(1)
 
 
 def _on_signals(stop: Callable[[], None]) -> None:

@@ -4,7 +4,8 @@ In: the hooks of the user's class, a clock, the callback group. Out: calls of th
 until it is stopped. A `compute` that raises brings the component into Emergency. There, once per
 period, `emergency`, `restore` and `compute` are called; when all succeed the component is back in
 Compute. An emergency that the user's code declared lasts until `end_emergency`. A stale simulated
-clock is an emergency, too; it lasts until the clock source is back.
+clock is an emergency, too; it lasts until the clock source is back. An exception that is no
+`Exception`, such as `SystemExit`, leaves `loop`: the runner ends the component as failed.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from robocomp_dsl.runtime.parameters import ConfigError
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency, for components without a period."""
+SLOT_TIMEOUT_S = 1.0
+"""Time that `finalize` waits for a callback that is running."""
 
 
 class LifecycleState(StrEnum):
@@ -81,6 +84,7 @@ class Lifecycle:
         self.state = LifecycleState.INITIALIZE
         self.reason = ""
         self._declared = False
+        self._finalize_lock = threading.Lock()
         self._logged_at: dict[str, float] = {}
 
     def initialize(self) -> bool:
@@ -99,10 +103,16 @@ class Lifecycle:
             )
             self._loop()
 
-    def finalize(self) -> bool:
-        """Finalize; returns whether it succeeded."""
+    def finalize(self, slot_timeout_s: float = SLOT_TIMEOUT_S) -> bool:
+        """Finalize; returns whether it succeeded. Only the first call has an effect.
+
+        A callback that hangs may hold the callback group for ever: after `slot_timeout_s` the hook
+        runs without it.
+        """
+        if not self._finalize_lock.acquire(blocking=False):
+            return True
         self._transition_to(LifecycleState.FINALIZE)
-        return self._call_hook(self._hooks.finalize, "finalize")
+        return self._call_hook(self._hooks.finalize, "finalize", slot_timeout_s)
 
     def stop(self) -> None:
         """Stop after the current hook."""
@@ -236,9 +246,11 @@ class Lifecycle:
         try:
             with self._callback_group:
                 action()
-        except Exception as error:
+        except BaseException as error:
             if self._stopping.is_set():
                 return
+            if not isinstance(error, Exception):
+                raise
             self._statistics.failures += 1
             self._log_throttled(error)
             self._enter_emergency(describe_error(error))
@@ -264,16 +276,21 @@ class Lifecycle:
             log.error("compute failed, retrying: %s", message)
             log.debug("traceback", exc_info=error)
 
-    def _call_hook(self, hook: Callable[[], None], name: str) -> bool:
+    def _call_hook(
+        self, hook: Callable[[], None], name: str, slot_timeout_s: float | None = None
+    ) -> bool:
+        entered = self._callback_group.enter(slot_timeout_s)
         try:
-            with self._callback_group:
-                hook()
+            hook()
         except ConfigError as error:
             # The findings contain their locations; the traceback adds nothing.
             log.error("%s", str(error).removeprefix("error: "))  # noqa: TRY400
             return False
-        except Exception as error:
+        except BaseException as error:
             log.error("%s failed: %s", name, describe_error(error))  # noqa: TRY400 - traceback below
             log.debug("traceback", exc_info=error)
             return False
+        finally:
+            if entered:
+                self._callback_group.leave()
         return True

@@ -26,14 +26,18 @@ from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
+from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
 
-INTERRUPT_TIMEOUT_S = 1.5
+INTERRUPT_TIMEOUT_S = 1.0
 """Time after a stop request before waiting calls are interrupted."""
 SHUTDOWN_TIMEOUT_S = 2.0
-"""Further time before the process exits without waiting for the current hook."""
+"""Further time for the current hook to return."""
+FINALIZE_TIMEOUT_S = 1.5
+"""Time for `finalize` beside a hook that did not return. The sum of the three is below the grace
+period of rcdeploy."""
 
 log = logging.getLogger("robocomp")
 
@@ -55,8 +59,17 @@ class Runner:
         self.statistics = Statistics()
         self.callback_group = CallbackGroup(self.spec.threads)
         self.started = time.time()
+        self.abandoned = False
+        self._failed = False
+        self._stop_requests: SimpleQueue[None] = SimpleQueue()
+        self._ended = threading.Event()
         host = MiddlewareContext(
-            self.name, settings.domain, self.callback_group, self.statistics, settings.listen_port
+            self.name,
+            settings.domain,
+            self.callback_group,
+            self.statistics,
+            settings.listen_port,
+            self.fail,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
@@ -64,7 +77,6 @@ class Runner:
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.middleware
         )
-        self._failed = False
         self.worker = self._create_worker(component, clock or self._clock_binding.clock)
         self.lifecycle = Lifecycle(
             self.worker,
@@ -78,8 +90,6 @@ class Runner:
             self.worker.machine = self.lifecycle.machine = Machine(
                 self.spec.machine, self.worker, self.worker.clock, self.lifecycle.wake
             )
-        self._stop_requests: SimpleQueue[None] = SimpleQueue()
-        self._ended = threading.Event()
         self._succeeded = False
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
@@ -137,18 +147,33 @@ class Runner:
         threading.Thread(target=self._run, name=f"{self.name}.lifecycle", daemon=True).start()
 
     def _run(self) -> None:
+        """The thread of the lifecycle: whatever ends it, `finalize` runs and the component ends."""
         life = self.lifecycle
         try:
-            self._succeeded = life.initialize()
-            if self._succeeded:
-                self._open()
-                self._log_started()
-                life.loop()
+            try:
+                self._succeeded = life.initialize()
+                if self._succeeded:
+                    self._open()
+                    self._log_started()
+                    life.loop()
+            except BaseException as error:
+                self._on_fatal_error(error)
             self._succeeded &= life.finalize()
             self._clock_binding.close()
+        except BaseException as error:
+            self._on_fatal_error(error)
         finally:
             self._ended.set()
             self.stop()
+
+    def _on_fatal_error(self, error: BaseException) -> None:
+        """End the component as failed: an error that is no emergency left the lifecycle."""
+        hint = "; to end a component normally, call self.quit()"
+        self.fail(
+            f"{self.lifecycle.state.value} failed for good: {describe_error(error)}"
+            f"{hint if isinstance(error, SystemExit) else ''}"
+        )
+        log.debug("traceback", exc_info=error)
 
     def _log_started(self) -> None:
         period = f"every {self.spec.period} ms" if self.spec.period else "on events"
@@ -170,18 +195,32 @@ class Runner:
         return bool(self.spec.machine) or not self.lifecycle.period_ms
 
     def wait(self) -> bool:
-        """Wait for the end; returns whether it stopped normally. Signals are handled meanwhile."""
+        """Wait for the end; returns whether it stopped normally. Signals are handled meanwhile.
+
+        `abandoned` is set if a hook did not return; its thread still runs.
+        """
         self._stop_requests.get()
         self.lifecycle.stop()
         if not self._ended.wait(INTERRUPT_TIMEOUT_S):
             self.middleware.interrupt()
-        ended = self._ended.wait(SHUTDOWN_TIMEOUT_S)
-        if not ended:
-            state, timeout = self.lifecycle.state.value, SHUTDOWN_TIMEOUT_S
-            log.error("%s did not return within %g s; exiting anyway", state, timeout)
+        if not self._ended.wait(SHUTDOWN_TIMEOUT_S):
+            self._abandon_hook()
         self.middleware.publish_state("")
         self.middleware.close()
-        return ended and self._succeeded and not self._failed
+        return not self.abandoned and self._succeeded and not self._failed
+
+    def _abandon_hook(self) -> None:
+        """Call `finalize` beside the hook that does not return."""
+        self.abandoned = True
+        state, timeout = self.lifecycle.state.value, SHUTDOWN_TIMEOUT_S
+        log.error("%s did not return within %g s; exiting anyway", state, timeout)
+        beside = threading.Thread(
+            target=self.lifecycle.finalize, args=(0.0,), name=f"{self.name}.finalize", daemon=True
+        )
+        beside.start()
+        beside.join(FINALIZE_TIMEOUT_S)
+        if beside.is_alive():
+            log.error("finalize did not return within %g s", FINALIZE_TIMEOUT_S)
 
     @property
     def state(self) -> LifecycleState:

@@ -88,7 +88,7 @@ def with_deadline_check(
     return watch
 
 
-def log_failure(what: str, error: Exception) -> None:
+def log_failure(what: str, error: BaseException) -> None:
     """Log an exception of user code with its location; the traceback at level debug."""
     log.error("%s failed: %s", what, describe_error(error))
     log.debug("traceback of the failure of %s", what, exc_info=error)
@@ -98,8 +98,17 @@ def describe_error(error: BaseException) -> str:
     """`Type: message (file:line)`, with the innermost location in user code."""
     frames = traceback.extract_tb(error.__traceback__)
     own = [f for f in frames if not _is_library_code(f.filename)] or frames
-    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    message = message_of(error)
+    text = f"{type(error).__name__}: {message}" if message else type(error).__name__
     return f"{text} ({own[-1].filename}:{own[-1].lineno})" if own else text
+
+
+def message_of(error: BaseException) -> str:
+    """`str(error)`; a `__str__` of user code that raises itself counts as no message."""
+    try:
+        return str(error)
+    except Exception:
+        return ""
 
 
 def _is_library_code(file: str) -> bool:
