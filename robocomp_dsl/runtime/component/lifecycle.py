@@ -20,6 +20,7 @@ from typing import Protocol
 from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.parameters import ConfigError
@@ -27,6 +28,7 @@ from robocomp_dsl.runtime.parameters import ConfigError
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency, for components without a period."""
+OVERRUN = "compute exceeded its period of %g ms by %.1f ms; overruns since the start: %d"
 SLOT_TIMEOUT_S = 1.0
 """Time that `finalize` waits for a callback that is running."""
 
@@ -85,7 +87,9 @@ class Lifecycle:
         self.reason = ""
         self._declared = False
         self._finalize_lock = threading.Lock()
-        self._logged_at: dict[str, float] = {}
+        self.finalized = threading.Event()
+        self._throttle = Throttle()
+        self._overrun_throttle = Throttle()
 
     def initialize(self) -> bool:
         """Initialize; returns whether it succeeded."""
@@ -107,12 +111,15 @@ class Lifecycle:
         """Finalize; returns whether it succeeded. Only the first call has an effect.
 
         A callback that hangs may hold the callback group for ever: after `slot_timeout_s` the hook
-        runs without it.
+        runs without it. `finalized` is set at the end.
         """
         if not self._finalize_lock.acquire(blocking=False):
             return True
-        self._transition_to(LifecycleState.FINALIZE)
-        return self._call_hook(self._hooks.finalize, "finalize", slot_timeout_s)
+        try:
+            self._transition_to(LifecycleState.FINALIZE)
+            return self._call_hook(self._hooks.finalize, "finalize", slot_timeout_s)
+        finally:
+            self.finalized.set()
 
     def stop(self) -> None:
         """Stop after the current hook."""
@@ -197,6 +204,8 @@ class Lifecycle:
         due += period
         if due < now:
             self._statistics.overruns += 1
+            if self._overrun_throttle.allows("overrun"):
+                log.warning(OVERRUN, 1000 * period, 1000 * (now - due), self._statistics.overruns)
             # Keep the phase, so that a slow cycle does not shift the following ones.
             due += ((now - due) // period) * period
         return round(due, TIME_DIGITS)
@@ -239,7 +248,7 @@ class Lifecycle:
         self._compute()
         log.info("recovered from emergency: %s", self.reason)
         self.reason = ""
-        self._logged_at.clear()
+        self._throttle.clear()
         self._transition_to(LifecycleState.COMPUTE)
 
     def _run_guarded(self, action: Callable[[], None]) -> None:
@@ -269,10 +278,8 @@ class Lifecycle:
             self.state = LifecycleState.EMERGENCY
 
     def _log_throttled(self, error: Exception) -> None:
-        """Log an error at most every ten seconds."""
-        message, now = describe_error(error), time.monotonic()
-        if now - self._logged_at.get(message, -100.0) > 10.0:
-            self._logged_at[message] = now
+        message = describe_error(error)
+        if self._throttle.allows(message):
             log.error("compute failed, retrying: %s", message)
             log.debug("traceback", exc_info=error)
 

@@ -6,6 +6,7 @@ In: endpoints and candidates. Out: one peer, or the error that says why there is
 from __future__ import annotations
 
 import logging
+import os
 import time
 import traceback
 from collections.abc import Callable, Iterable, Sequence
@@ -23,6 +24,7 @@ DISCOVERY_TIMEOUT_S = 1.0
 log = logging.getLogger("robocomp")
 _T = TypeVar("_T")
 _RUNTIME = str(Path(__file__).parents[1])
+_STANDARD_LIBRARY = str(Path(os.__file__).parent)
 
 
 def matches(at: Endpoint, component: str, port: str) -> bool:
@@ -96,11 +98,16 @@ def log_failure(what: str, error: BaseException) -> None:
 
 def describe_error(error: BaseException) -> str:
     """`Type: message (file:line)`, with the innermost location in user code."""
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [f for f in frames if not _is_library_code(f.filename)] or frames
+    location = user_location(traceback.extract_tb(error.__traceback__))
     message = message_of(error)
     text = f"{type(error).__name__}: {message}" if message else type(error).__name__
-    return f"{text} ({own[-1].filename}:{own[-1].lineno})" if own else text
+    return f"{text} ({location})" if location else text
+
+
+def user_location(frames: traceback.StackSummary) -> str:
+    """`file:line` of the innermost frame in user code, or else of the innermost; "" without any."""
+    own = [frame for frame in frames if not is_library_code(frame.filename)] or frames
+    return f"{own[-1].filename}:{own[-1].lineno}" if own else ""
 
 
 def message_of(error: BaseException) -> str:
@@ -111,6 +118,8 @@ def message_of(error: BaseException) -> str:
         return ""
 
 
-def _is_library_code(file: str) -> bool:
-    """Whether a file is not user code: the runtime, compiled codecs, generated code."""
+def is_library_code(file: str) -> bool:
+    """Whether a file is not user code: Python, the runtime, compiled codecs, generated code."""
+    if file.startswith(_STANDARD_LIBRARY) and "site-packages" not in file:
+        return True
     return file.startswith((_RUNTIME, "<")) or Path(file).parent.name.endswith("_generated")
