@@ -26,7 +26,7 @@ class HangReport:
     def summary(self) -> str:
         """One line of text."""
         where = f" at {self.location}" if self.location else ""
-        return f"{self.activity} has not returned for {self.seconds:.1f} s: it hangs{where}"
+        return f"{self.activity} has hung for {self.seconds:.1f} s{where}"
 
     def to_json(self) -> str:
         """The report as one line of JSON."""
