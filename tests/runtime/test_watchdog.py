@@ -24,7 +24,7 @@ from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.component.watchdog import Watchdog
+from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
@@ -38,9 +38,9 @@ def ignore(*_: object) -> None:
     pass
 
 
-def unstarted(group: CallbackGroup) -> Watchdog:
+def unstarted(group: CallbackGroup) -> CallbackWatchdog:
     """A watchdog whose `check` the test calls itself."""
-    return Watchdog(LIMIT_S, group, lambda _thread: "compute", ignore, ignore)
+    return CallbackWatchdog(LIMIT_S, group, lambda _thread: "compute", ignore, ignore)
 
 
 class Callback:

@@ -30,7 +30,7 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
-from robocomp_dsl.runtime.component.watchdog import Watchdog
+from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
 from robocomp_dsl.runtime.middleware.calling import describe_error
@@ -107,7 +107,7 @@ class Runner:
         self._supervisor_pipe = SupervisorPipe()
         limit = self.spec.watchdog if settings.watchdog is None else settings.watchdog
         self.watchdog = (
-            Watchdog(
+            CallbackWatchdog(
                 limit,
                 self.callback_group,
                 self._activity_of,

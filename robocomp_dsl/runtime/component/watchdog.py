@@ -28,7 +28,7 @@ MIN_INTERVAL_S = 0.02
 MAX_INTERVAL_S = 1.0
 
 
-class Watchdog:
+class CallbackWatchdog:
     """Checks the callbacks of one component in a thread, and calls `on_hang` at the first hang.
 
     `activity_of` describes what a thread (by its identifier) does; "" exempts it. `on_beat` is
