@@ -14,7 +14,9 @@ import pytest
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.errors import RemoteError
+from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure, encode_failure
 from tests.middleware.network import Network
+from tests.middleware.probe_types import PROBE
 from tests.support.waiting import wait_until
 
 
@@ -34,7 +36,6 @@ FAILURES = (
     GeneratorExit(),
     PlainBaseError("plain"),
     UnprintableError(),
-    RuntimeError("a lone surrogate \udcff"),
 )
 
 
@@ -57,6 +58,14 @@ def test_handler_failure_of_any_class_is_remote_error(
     assert server.count("fail").failures == 1
     line = fail.__code__.co_firstlineno + 1
     assert f"{Path(__file__).name}:{line}" in caplog.text
+
+
+def test_encode_failure_replaces_what_utf8_has_not() -> None:
+    error = OSError("no file \udcff")
+    data = encode_failure(PROBE.operation("fail"), error)
+    assert str(decode_failure(PROBE.operation("fail"), "a.Probe", data, 1.0)) == (
+        "a.Probe.fail failed: OSError: no file ?"
+    )
 
 
 def test_subscriber_survives_system_exit_of_handler(network: Network) -> None:
