@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.deploy.deploy_robot import build
-from tests.deploy.test_up import folder, rcdeploy, sockets, up  # noqa: F401 - fixtures
+from tests.deploy.generated_components import generate_components
+from tests.deploy.laser_app import start_app
+from tests.deploy.rcdeploy_process import rcdeploy
 
 ARM = """
 class SpecificWorker(GenericWorker):
@@ -30,14 +31,14 @@ Deployment app
 
 
 @pytest.fixture
-def hanging_app(tmp_path: Path, sockets: Path, monkeypatch: pytest.MonkeyPatch) -> None:  # noqa: F811
+def hanging_app(tmp_path: Path, socket_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    build(tmp_path, {"arm": ARM})
+    generate_components(tmp_path, {"arm": ARM})
     (tmp_path / "app.ddsl").write_text(APP)
 
 
 def test_hanging_compute_is_restarted_and_shown_in_status(hanging_app: None) -> None:
-    with up() as running:
+    with start_app() as running:
         running.until("arm is ready after")
         running.until("watchdog: compute has hung for")
         running.until("arm finalizes")

@@ -76,13 +76,13 @@ def test_subscriber_survives_system_exit_of_handler(network: Network) -> None:
         raise SystemExit(number)
 
     listener = network.node("listener")
-    listener.hear(hear)
+    listener.subscribe(hear)
     news = network.node("speaker").news()
     assert news.wait_for_server(30)
     for number in range(3):
-        news.spoke("me", number)
+        news.announced("me", number)
     wait_until(lambda: received == [0, 1, 2], lambda: str(received))
-    wait_until(lambda: listener.count("spoke", "News").failures == 3)
+    wait_until(lambda: listener.count("announced", "News").failures == 3)
 
 
 @pytest.mark.parametrize("dying", ["take", "handle"])

@@ -34,7 +34,7 @@ class HeldSubscriber:
         self.release = threading.Event()
         self.entered = threading.Event()
         self.received: list[int] = []
-        self.node.hear(self._hear, qos=Qos(reliable=True, depth=1))
+        self.node.subscribe(self._hear, qos=Qos(reliable=True, depth=1))
         self.node.execution = CallbackGroup()
         self.node.serve({"add": lambda a, b: a + b})
 
@@ -70,16 +70,16 @@ def test_held_publisher_counts_and_keeps_the_connection(
     wait_until(news.has_subscribers)
     sent = 0
     with caplog.at_level(logging.WARNING):
-        while not speaker.count("spoke", "News").drops and sent < MOST_MESSAGES:
-            news.spoke(TEXT, sent)
+        while not speaker.count("announced", "News").drops and sent < MOST_MESSAGES:
+            news.announced(TEXT, sent)
             sent += 1
-    assert speaker.count("spoke", "News").drops == 1
-    assert "a subscriber that receives nothing held News.spoke" in caplog.text
+    assert speaker.count("announced", "News").drops == 1
+    assert "a subscriber that receives nothing held News.announced" in caplog.text
     assert speaker.probe().add(2, 3) == 5
     subscriber.release.set()
 
     def hears_again() -> bool:
-        news.spoke("again", -1)
+        news.announced("again", -1)
         return -1 in subscriber.received
 
     wait_until(hears_again)
@@ -98,7 +98,7 @@ class Speaker(Component):
         self.number = 0
 
     def compute(self) -> None:
-        self.news_proxy.spoke(TEXT, self.number)
+        self.news_proxy.announced(TEXT, self.number)
         self.number += 1
 
     def finalize(self) -> None:
@@ -112,7 +112,7 @@ def test_held_publisher_can_be_stopped_and_finalizes(
     runner = Runner(Speaker, Parameters(), settings)
     runner.start()
     subscriber.entered.wait(30)
-    wait_until(lambda: runner.statistics.of("News", "spoke").drops)
+    wait_until(lambda: runner.statistics.of("News", "announced").drops)
     runner.stop()
     assert runner.wait()
     assert isinstance(runner.worker, Speaker)
