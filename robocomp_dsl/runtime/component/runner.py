@@ -56,7 +56,12 @@ class Runner:
         self.callback_group = CallbackGroup(self.spec.threads)
         self.started = time.time()
         host = MiddlewareContext(
-            self.name, settings.domain, self.callback_group, self.statistics, settings.listen_port
+            self.name,
+            settings.domain,
+            self.callback_group,
+            self.statistics,
+            settings.listen_port,
+            unique_name=True,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)

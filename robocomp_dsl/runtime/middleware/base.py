@@ -51,7 +51,8 @@ class Endpoint:
 class MiddlewareContext:
     """The component that a middleware serves. Components of other domains are invisible.
 
-    `listen_port` 0: chosen by the middleware.
+    `listen_port` 0: chosen by the middleware. `unique_name`: opening fails with `MiddlewareError`
+    if another process runs a component of this name in the domain; clients share names.
     """
 
     component: str
@@ -59,6 +60,7 @@ class MiddlewareContext:
     callback_group: CallbackGroup
     statistics: Statistics
     listen_port: int = 0
+    unique_name: bool = False
 
 
 class Channel(Protocol):
