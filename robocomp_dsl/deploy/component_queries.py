@@ -5,6 +5,7 @@ In: a domain, names of components. Out: proxies, or the `ComponentInfo` of each 
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
@@ -15,7 +16,8 @@ from robocomp_dsl.runtime.component.component_interface import ComponentInfo, Co
 from robocomp_dsl.runtime.errors import MiddlewareError
 
 ProxyFactory: TypeAlias = Callable[[str], ComponentProxy]
-_MAX_PARALLEL = 16
+_MAX_PARALLEL = 32
+MIN_CALL_TIMEOUT_S = 0.1
 
 
 @contextmanager
@@ -35,23 +37,30 @@ def component_proxies(domain: str, timeout_s: float) -> Iterator[ProxyFactory]:
 
 
 def fetch_infos(domain: str, names: Iterable[str], timeout_s: float) -> Mapping[str, ComponentInfo]:
-    """The `ComponentInfo` of each component; components that do not reply in time are left out."""
+    """The `ComponentInfo` of each component; components that do not reply in time are left out.
+
+    It takes at most about `timeout_s` seconds for all of them.
+    """
     requested = list(names)
     if not requested:
         return {}
+    deadline = time.monotonic() + timeout_s
     try:
         with (
             component_proxies(domain, timeout_s) as proxy_of,
-            ThreadPoolExecutor(_MAX_PARALLEL) as pool,
+            ThreadPoolExecutor(min(len(requested), _MAX_PARALLEL)) as pool,
         ):
-            replies = pool.map(lambda name: _fetch_info(proxy_of(name), timeout_s), requested)
+            replies = pool.map(lambda name: _fetch_info(proxy_of(name), deadline), requested)
             return {name: info for name, info in zip(requested, replies, strict=True) if info}
     except MiddlewareError:
         return {}
 
 
-def _fetch_info(proxy: ComponentProxy, timeout_s: float) -> ComponentInfo | None:
+def _fetch_info(proxy: ComponentProxy, deadline: float) -> ComponentInfo | None:
     try:
-        return proxy.getInfo() if proxy.wait_for_server(timeout_s) else None
+        if not proxy.wait_for_server(max(deadline - time.monotonic(), 0.0)):
+            return None
+        proxy.set_timeout(max(deadline - time.monotonic(), MIN_CALL_TIMEOUT_S))
+        return proxy.getInfo()
     except MiddlewareError:
         return None

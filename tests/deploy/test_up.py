@@ -108,7 +108,7 @@ def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
     assert messages.index("eye finalizes") < messages.index("arm finalizes")
     assert "stopping: Ctrl-C" in messages
     assert reaper.find_processes(f"{state['domain']}.{app.process.pid}") == []
-    assert [path.name for path in sockets.iterdir()] == [".deployments"]
+    assert sorted(path.name for path in sockets.iterdir()) == [".deployments", "token"]
     assert list((sockets / ".deployments").iterdir()) == []
 
 
@@ -263,7 +263,7 @@ def test_killed_rcdeploy_lets_components_finalize(folder: Path, sockets: Path) -
         app.end()
         reaper._wait_for_exit(running, 30)
         assert reaper.find_processes(token) == []
-    assert [path.name for path in sockets.iterdir()] == [".deployments"]
+    assert sorted(path.name for path in sockets.iterdir()) == [".deployments", "token"]
     # Its name is free at once, although nobody gave it back.
     with up("--duration", "0") as again:
         assert again.end() == 0

@@ -51,7 +51,8 @@ def main(domain: str, name: str = "", mode: str = "") -> None:
         os._exit(0)
     lock = folder_lock(opened.socket.parent) if mode == "locked" else contextlib.nullcontext()
     with lock:
-        print("ready", flush=True)
+        sys.stdout.write("ready\n")
+        sys.stdout.flush()
         sys.stdin.read()
     del token
 

@@ -72,7 +72,7 @@ def test_name_is_free_after_a_clean_end(domain: str) -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
-        with pytest.raises(MiddlewareError, match="port [0-9]+ cannot be used"):
+        with pytest.raises(MiddlewareError, match=r"port [0-9]+ cannot be used"):
             open_session(domain, port=taken.getsockname()[1], name="arm")
     assert closed(open_session(domain, name="arm")), "a failed start releases the name"
     assert not domain_path(domain).exists()

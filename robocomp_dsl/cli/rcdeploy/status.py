@@ -22,8 +22,9 @@ from robocomp_dsl.deploy import control, instances, status
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component_interface import ComponentInfo
 
-CALL_TIMEOUT_S = 1.0
-"""A component answers within a millisecond, whatever its code does; one that is stopped never."""
+CALL_TIMEOUT_S = 0.5
+"""For all components together. One answers within a millisecond, whatever its code does; one that
+is stopped never."""
 
 
 @click.command()

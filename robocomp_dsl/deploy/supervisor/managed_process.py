@@ -193,6 +193,7 @@ class ManagedProcess:
         child = self.child
         self._transition_to(status.STOPPING, self._note)
         child.signal(signal.SIGTERM)
+        child.signal(signal.SIGCONT)  # a stopped process handles the signal, too
         await wait_any(child.exited, *filter(None, [kill_now]), timeout=grace_s)
         if child.exited.is_set():
             return True

@@ -29,7 +29,7 @@ CONNECT_WAIT_MS = 250
 """The start waits this long for peers to respond; usually all do within 5 ms."""
 HANDSHAKE_TIMEOUT_MS = 3000
 """Deadline of one attempt to connect; the next attempt follows."""
-CLOSE_TIMEOUT_S = 0.2
+CLOSE_TIMEOUT_S = 0.1
 """zenoh waits for pending attempts when it closes; this process does not wait longer."""
 
 

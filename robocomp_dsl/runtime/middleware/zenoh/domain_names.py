@@ -94,12 +94,16 @@ def reserve(domain: str, names: Iterable[str], deployment: str) -> NameReservati
         for name in ordered:
             holder = NameHolder(name, os.getpid(), time.time(), deployment)
             locks.append(_claim(domain, holder, "deployment"))
-        for taken in running_components(domain, ordered):
-            raise NameTaken(domain, taken)
+        _refuse_running(domain, ordered)
     except BaseException:
         NameReservation(domain_path(domain), locks).release()
         raise
     return NameReservation(domain_path(domain), locks)
+
+
+def _refuse_running(domain: str, names: Iterable[str]) -> None:
+    if holders := running_components(domain, names):
+        raise NameTaken(domain, holders[0])
 
 
 def running_components(domain: str, names: Iterable[str]) -> list[NameHolder]:
