@@ -55,11 +55,12 @@ class NameTaken(Exception):
     def __init__(self, domain: str, holder: NameHolder) -> None:
         self.holder = holder
         process = f" ({holder.describe()})" if holder.describe() else ""
-        by = f" by the deployment `{holder.deployment}`" if holder.deployment else ""
-        super().__init__(
-            f"`{holder.name}` is already running in the domain `{domain}`{by}{process};"
-            " stop it, or use another name or --domain"
-        )
+        place = f"in the domain `{domain}`"
+        if holder.deployment:
+            text = f"is already used {place} by the deployment `{holder.deployment}`{process}"
+        else:
+            text = f"is already running {place}{process}"
+        super().__init__(f"`{holder.name}` {text}; stop it, or use another name or --domain")
 
 
 @dataclass(frozen=True, slots=True)
