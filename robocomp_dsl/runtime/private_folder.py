@@ -7,6 +7,7 @@ In: a path. Out: a folder that nobody else can read, enter or replace. The folde
 from __future__ import annotations
 
 import contextlib
+import hmac
 import os
 import re
 import secrets
@@ -74,6 +75,16 @@ def token_file(folder: Path) -> Path:
 def read_token(folder: Path) -> str:
     """The token of `token_file`. Raises `UnsafeFolder`."""
     return _parse_token(token_file(folder))
+
+
+def read_page_token() -> str:
+    """The token in the URL of browser pages of this user: 32 hexadecimal digits.
+
+    It is derived from that of `token_file`, which cannot be computed from it: browsers keep URLs.
+    Raises `UnsafeFolder`.
+    """
+    token = read_token(user_folder())
+    return hmac.new(token.encode(), b"browser page", "sha256").hexdigest()[: 2 * TOKEN_BYTES]
 
 
 def _parse_token(path: Path) -> str:

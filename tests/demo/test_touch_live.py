@@ -2,6 +2,7 @@
 
 from contextlib import closing
 from types import SimpleNamespace
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -75,7 +76,7 @@ def test_a_port_that_is_taken_is_told() -> None:
     heard = heard_of(it)
     heard.frame(frame(0.0, it.force[0]))
     with closing(demo().live.Live("NAO", Hand(), it.skin, heard, 0)) as live:
-        port = int(live.url.rpartition(":")[2])
+        port = urlsplit(live.url).port or 0
         with pytest.raises(demo().failure.DemoFailed, match=f"no page at port {port}"):
             demo().live.Live("NAO", Hand(), it.skin, heard, port)
 

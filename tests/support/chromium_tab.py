@@ -27,6 +27,8 @@ from websockets.sync.client import connect
 
 LOOPBACK = "127.0.0.1"
 PATIENCE = 150.0
+URL_LINE = r"view at (http://127\.0\.0\.1:\d+/[0-9a-f]{32}/);"
+"""What `rcgen view` prints first."""
 
 
 def wait_for(done: Callable[[], object]) -> object:

@@ -23,7 +23,15 @@ from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
-from tests.support.chromium_tab import PATIENCE, Tab, needs_chromium, opened_tab, red, wait_for
+from tests.support.chromium_tab import (
+    PATIENCE,
+    URL_LINE,
+    Tab,
+    needs_chromium,
+    opened_tab,
+    red,
+    wait_for,
+)
 
 MODELS = Path(__file__).parents[1] / "models" / "files"
 
@@ -42,7 +50,7 @@ def test_the_page_is_served_on_this_machine_alone(page: BrowserPage) -> None:
     assert page.url.startswith(f"http://{LOOPBACK}:")
     with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
         assert b"<html" in answer.read(2000).lower()
-    port = int(page.url.rpartition(":")[2])
+    port = page.port
     listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
     mine = [line.split()[1] for line in listening.splitlines() if f":{port:04X} " in line]
     assert mine
@@ -197,7 +205,7 @@ def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
     ) as served:
         try:
             assert served.stdout
-            received = re.match(r"view at (http://127\.0\.0\.1:\d+);", served.stdout.readline())
+            received = re.match(URL_LINE, served.stdout.readline())
             assert received
             tab("Network.enable")
             tab("Page.enable")

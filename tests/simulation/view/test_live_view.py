@@ -25,7 +25,14 @@ from robocomp_dsl.simulation.view.nodes import quaternion
 from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.world import visual_state
 from tests.simulation.served_worlds import CLIENT, Served, rcgen, run, served
-from tests.support.chromium_tab import PATIENCE, needs_chromium, opened_tab, red, wait_for
+from tests.support.chromium_tab import (
+    PATIENCE,
+    URL_LINE,
+    needs_chromium,
+    opened_tab,
+    red,
+    wait_for,
+)
 
 WORLD = """\
 <innerModel>
@@ -266,7 +273,7 @@ def test_a_real_browser_sees_a_robot_drive(simulator: Path) -> None:
         options = ["room_simulator", "--domain", domain, "--port", "0"]
         with command(*VIEW, *options, cwd=simulator) as view:
             assert view.stdout
-            received = re.match(r"view at (http://127\.0\.0\.1:\d+);", view.stdout.readline())
+            received = re.match(URL_LINE, view.stdout.readline())
             assert received
             tab("Page.enable")
             screen = {"width": 600, "height": 400, "deviceScaleFactor": 1, "mobile": False}

@@ -107,7 +107,7 @@ def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr("robocomp_dsl.simulation.stepping.clock_leader.STEP_TIMEOUT_S", 0.01)
     source.clock.pause()
     with pytest.raises(
-        source.world.types.RoboCompSimulation_Refused, match="step timed out after 0.01 s"
+        source.world.types.RoboCompSimulation_Refused, match=r"step timed out after 0.01 s"
     ):
         source.hand.step(1)
     assert isinstance(source.world.simulation.step_driver, ClockLeader)
