@@ -15,6 +15,7 @@ from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_
 from robocomp_dsl.runtime.private_folder import USER, read_token, token_file, user_folder
 from tests.middleware.network import Network
 
+ROOT = Path(__file__).parents[2]
 VALUE = b"position"
 
 
@@ -68,6 +69,18 @@ def test_port_refuses_a_program_without_the_token(
     with pytest.raises(zenoh.ZError):
         ask(served[1], user, password.replace("TOKEN", token))
     assert ask(served[1], USER, token) == [VALUE]
+
+
+def test_how_to_configuration_connects(served: tuple[DomainSession, int]) -> None:
+    text = (ROOT / "docs/how-to/connect_over_tcp.md").read_text()
+    example = text.partition("```json5\n")[2].partition("```")[0]
+    config = zenoh.Config.from_json5(
+        example.replace("7451", str(served[1])).replace(
+            "0123456789abcdef0123456789abcdef", read_token(user_folder())
+        )
+    )
+    with zenoh.open(config) as session:
+        assert [r.ok.payload.to_bytes() for r in session.get("rc/x", timeout=60.0) if r.ok]
 
 
 def test_port_survives_random_bytes(served: tuple[DomainSession, int]) -> None:

@@ -102,7 +102,8 @@ def command(
 
     FILE is InnerModel, URDF or MJCF, or a robot that ships: nao_h21, nao_h25, icub_v2. The page is
     served on this machine, to you alone: the URL contains a token. A model with errors is shown as
-    far as it is understood. With `--live` the page follows a simulation that runs, and its time can be held there.
+    far as it is understood. With `--live` the page follows a simulation that runs, and its time can
+    be held there.
     """
     if file is None and not live:
         raise click.UsageError("Missing argument 'FILE'; `--live` shows a simulation that runs.")
