@@ -9,6 +9,8 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -32,6 +34,11 @@ from tests.support.waiting import wait_until
 
 BOUND_S = 5.0
 STOPPED = ("T", "t")
+CLIENT = """
+import sys
+from robocomp_dsl.runtime.client import DomainClient
+DomainClient(sys.argv[1]).close()
+"""
 
 
 @pytest.fixture
@@ -139,6 +146,34 @@ def test_listener_with_a_full_backlog_blocks_neither_start_nor_end(network: Netw
         with finishes():
             opened.close()
         assert member.socket.is_socket(), "a member is not removed because it is busy"
+
+
+@pytest.mark.parametrize("tcp", [False, True])
+def test_close_does_not_wait_for_peers_that_connect_and_send_nothing(
+    network: Network, tcp: bool
+) -> None:
+    port = 0
+    if tcp:
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+    opened = open_session(network.domain, port)
+    peer = socket.socket(socket.AF_INET if tcp else socket.AF_UNIX)
+    with peer:
+        peer.connect(("127.0.0.1", port) if tcp else str(opened.socket))
+        before = set(Path("/proc/self/fd").iterdir())
+        with finishes():
+            opened.close()
+        assert set(Path("/proc/self/fd").iterdir()) <= before, "no descriptor is left"
+
+
+def test_process_beside_stopped_processes_exits_with_code_0(network: Network) -> None:
+    """A thread that is still in zenoh when the interpreter ends would abort it."""
+    with stopped_processes(network.domain, 2) as pids:
+        command = [sys.executable, "-c", CLIENT, network.domain]
+        with finishes(), subprocess.Popen(command) as process:
+            assert process.wait(BOUND_S) == 0
+        assert all(is_stopped(pid) for pid in pids)
 
 
 def test_start_does_not_wait_for_a_stopped_holder_of_the_folder_lock(network: Network) -> None:

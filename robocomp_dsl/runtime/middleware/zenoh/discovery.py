@@ -9,10 +9,8 @@ loopback. Every peer proves that it knows the token of the user.
 
 from __future__ import annotations
 
-import contextlib
 import json
 import socket
-import threading
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,6 +19,7 @@ import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import FileLock
+from robocomp_dsl.runtime.middleware.zenoh.close_session import close_session
 from robocomp_dsl.runtime.middleware.zenoh.domain_folder import Membership, join
 from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, claim_component
 from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, token_file
@@ -28,9 +27,7 @@ from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, 
 CONNECT_WAIT_MS = 250
 """The start waits this long for peers to respond; usually all do within 5 ms."""
 HANDSHAKE_TIMEOUT_MS = 3000
-"""Deadline of one attempt to connect; the next attempt follows."""
-CLOSE_TIMEOUT_S = 0.1
-"""zenoh waits for pending attempts when it closes; this process does not wait longer."""
+"""Deadline of one attempt to connect, at both ends; the next attempt follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +37,7 @@ class DomainSession:
     session: zenoh.Session
     membership: Membership
     name: FileLock | None = None
+    port: int = 0
 
     @property
     def socket(self) -> Path:
@@ -48,18 +46,10 @@ class DomainSession:
 
     def close(self) -> None:
         """Close the session and delete the socket; the last process also deletes the folder."""
-        closing = threading.Thread(target=_close, args=(self.session,), daemon=True)
-        closing.start()
-        closing.join(CLOSE_TIMEOUT_S)
+        close_session(self.session, self.socket, self.port)
         if self.name:
             self.name.release(delete=True)
         self.membership.leave()
-
-
-def _close(session: zenoh.Session) -> None:
-    # Closing twice, or after the peer has exited, is allowed.
-    with contextlib.suppress(zenoh.ZError):
-        session.close()
 
 
 def open_session(domain: str, port: int = 0, name: str = "") -> DomainSession:
@@ -82,7 +72,7 @@ def open_session(domain: str, port: int = 0, name: str = "") -> DomainSession:
         if membership:
             membership.leave()
         raise MiddlewareError(str(error)) from None
-    return DomainSession(session, membership, lock)
+    return DomainSession(session, membership, lock, port)
 
 
 def _open(own: Path, others: list[Path], port: int) -> zenoh.Session:
@@ -117,6 +107,7 @@ def _config(listen: list[str], connect: list[str], user_folder: Path) -> zenoh.C
         "open/return_conditions/declares": False,
         "scouting/delay": CONNECT_WAIT_MS,
         "transport/unicast/open_timeout": HANDSHAKE_TIMEOUT_MS,
+        "transport/unicast/accept_timeout": HANDSHAKE_TIMEOUT_MS,
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
         "transport/auth/usrpwd/user": USER,
