@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component_interface import ComponentProxy, ParameterInfo
 
 CALL_TIMEOUT_S = 5.0
-CONNECT_TIMEOUT_S = 0.5
+CONNECT_TIMEOUT_S = 0.3
 """For all components of a command together; the tokens of components arrive within 10 ms."""
 
 which = click.argument("which", metavar="APP.ddsl|NAME")
