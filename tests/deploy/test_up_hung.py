@@ -7,17 +7,16 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from robocomp_dsl.deploy import control, instances
-from tests.deploy.deploy_process import Running, runtime_folder
-from tests.deploy.deploy_robot import build
+from tests.deploy.generated_components import generate_components
+from tests.deploy.laser_app import start_app
+from tests.deploy.rcdeploy_process import RunningProcess, rcdeploy
 from tests.support.waiting import wait_until
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 BOUND_S = 5.0
 """Generous for a busy machine, and far below the 10 s that a hung component took."""
 ARM = """
@@ -42,25 +41,17 @@ Deployment app
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Two generated components and their deployment."""
+def folder(tmp_path: Path, socket_folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Two generated components that do not call each other, and their deployment."""
     monkeypatch.chdir(tmp_path)
-    build(tmp_path, {"arm": ARM, "eye": EYE})
+    generate_components(tmp_path, {"arm": ARM, "eye": EYE})
     (tmp_path / "app.ddsl").write_text(APP)
-    with runtime_folder(monkeypatch):
-        yield tmp_path
+    return tmp_path
 
 
-def up(*arguments: str) -> Running:
-    return Running(sys.executable, "-c", PROGRAM, "app.ddsl", *arguments)
-
-
-def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
+def rcdeploy_in_time(*arguments: str) -> subprocess.CompletedProcess[str]:
     started = time.monotonic()
-    run = subprocess.run(
-        [sys.executable, "-c", PROGRAM, *arguments],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
+    run = rcdeploy(*arguments)
     assert time.monotonic() - started < BOUND_S, arguments
     return run
 
@@ -75,33 +66,33 @@ def stop_process(pid: int) -> None:
 
 
 def test_rcdeploy_commands_beside_a_stopped_component(folder: Path) -> None:
-    with up() as app:
+    with start_app() as app:
         app.until("all 2 components are ready")
         rows = next(control.send_request("app", {"verb": "status"}))["rows"]
         arm = next(row["pid"] for row in rows if row["name"] == "arm")
         stop_process(arm)
-        status = rcdeploy("status", "app")
+        status = rcdeploy_in_time("status", "app")
         assert "does not answer within" in status.stdout
         assert "compute" in status.stdout.split("eye", 1)[1]
         # The one that hangs is reported, the other one is shown.
-        listed = rcdeploy("param", "list", "app")
+        listed = rcdeploy_in_time("param", "list", "app")
         assert (listed.returncode, "eye has no parameters" in listed.stdout) == (1, True)
         assert listed.stderr.startswith("error: `arm` does not answer within")
-        assert rcdeploy("param", "get", "app", "arm", "rate").returncode == 1
-        assert rcdeploy("logs", "app").returncode == 0
+        assert rcdeploy_in_time("param", "get", "app", "arm", "rate").returncode == 1
+        assert rcdeploy_in_time("logs", "app").returncode == 0
         assert is_stopped(arm), "it hangs to the end"
         # A stopped component is continued, so that it can finalize.
-        assert rcdeploy("stop", "app").returncode == 0
+        assert rcdeploy_in_time("stop", "app").returncode == 0
         app.end()
     assert app.has("arm finalizes")
 
 
 def test_rcdeploy_commands_of_a_stopped_rcdeploy_end(folder: Path) -> None:
-    with up() as app:
+    with start_app() as app:
         app.until("all 2 components are ready")
         stop_process(app.process.pid)
         for command in (["status"], ["logs", "-f"], ["stop"], ["param", "list", "app"]):
-            run = rcdeploy(*command)
+            run = rcdeploy_in_time(*command)
             assert run.returncode == 1, command
             assert run.stderr.startswith("error: `app` does not "), command
         with pytest.raises(instances.Unavailable, match="its rcdeploy may be stopped"):
@@ -114,10 +105,10 @@ def test_rcdeploy_commands_of_a_stopped_rcdeploy_end(folder: Path) -> None:
 
 def test_two_deployments_that_share_a_domain_and_a_name(folder: Path) -> None:
     """The second is refused before anything starts; the first does not notice."""
-    with up("--domain", "lab") as first:
+    with start_app("--domain", "lab") as first:
         first.until("all 2 components are ready")
         rows = next(control.send_request("app", {"verb": "status"}))["rows"]
-        refused = rcdeploy("up", "app.ddsl", "--domain", "lab", "--name", "other")
+        refused = rcdeploy_in_time("up", "app.ddsl", "--domain", "lab", "--name", "other")
         assert refused.returncode == 1
         for row in rows:
             running = f"`{row['name']}`: a component of this name runs in the domain `lab`"
@@ -126,11 +117,11 @@ def test_two_deployments_that_share_a_domain_and_a_name(folder: Path) -> None:
         assert "nothing was started (2 errors)" in refused.stderr
         # The same by hand.
         command = [sys.executable, "main.py", "--domain", "lab", "--set", "serial=x"]
-        with Running(*command, where=folder / "arm") as guest:
+        with RunningProcess(*command, where=folder / "arm") as guest:
             assert guest.end() == 1
         assert guest.has("`arm` is already running in the domain `lab` (pid ")
         # In another domain all is well.
-        with up("--domain", "hall", "--name", "other", "--duration", "0") as second:
+        with start_app("--domain", "hall", "--name", "other", "--duration", "0") as second:
             assert second.end() == 0
         assert next(control.send_request("app", {"verb": "status"}))["rows"][0]["restarts"] == 0
         first.process.terminate()
@@ -139,8 +130,8 @@ def test_two_deployments_that_share_a_domain_and_a_name(folder: Path) -> None:
 
 def test_two_deployments_of_a_name_that_start_at_once(folder: Path) -> None:
     with (
-        up("--domain", "lab", "--name", "one") as first,
-        up("--domain", "lab", "--name", "two") as second,
+        start_app("--domain", "lab", "--name", "one") as first,
+        start_app("--domain", "lab", "--name", "two") as second,
     ):
         wait_until(
             lambda: first.process.poll() is not None or second.process.poll() is not None,
