@@ -26,6 +26,7 @@ JOURNAL_SIZE = 10_000
 REPLY_TIMEOUT_S = 0.5
 """rcdeploy answers within a millisecond; one that is stopped never."""
 _CONNECT_PERIOD_S = 0.01
+_STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
 
 
@@ -165,15 +166,16 @@ def send_request(name: str, request: dict[str, Any]) -> Iterator[dict[str, Any]]
     Raises `instances.Unavailable` if the deployment does not reply. Whether it replies at all is
     known after `REPLY_TIMEOUT_S`, also for requests whose reply comes late.
     """
-    if request.get("verb") != "status":
-        for _ in send_request(name, {"verb": "status"}):
+    late_reply = request != _STATUS
+    if late_reply:
+        for _ in send_request(name, _STATUS):
             pass
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
         connection.settimeout(REPLY_TIMEOUT_S)
         try:
             _connect(connection, instances.folder_of(name) / instances.SOCKET)
             connection.sendall(json.dumps(request).encode() + b"\n")
-            if request.get("verb") != "status":
+            if late_reply:
                 connection.settimeout(None)
             with connection.makefile("rb") as replies:
                 for line in replies:

@@ -15,10 +15,11 @@ from robocomp_dsl.deploy import control, instances
 from tests.deploy.generated_components import generate_components
 from tests.deploy.laser_app import start_app
 from tests.deploy.rcdeploy_process import RunningProcess, rcdeploy
+from tests.middleware.domain_process import domain_process
 from tests.support.waiting import wait_until
 
-BOUND_S = 5.0
-"""Generous for a busy machine, and far below the 10 s that a hung component took."""
+BOUND_S = 15.0
+"""Generous for a busy machine, and far below the 10 s that each hung process took."""
 ARM = """
 class SpecificWorker(GenericWorker):
     def finalize(self):
@@ -65,16 +66,21 @@ def stop_process(pid: int) -> None:
     wait_until(lambda: is_stopped(pid))
 
 
-def test_rcdeploy_commands_beside_a_stopped_component(folder: Path) -> None:
-    with start_app() as app:
+def test_rcdeploy_commands_beside_stopped_processes(folder: Path) -> None:
+    with (
+        start_app("--domain", "lab") as app,
+        domain_process("lab") as first,
+        domain_process("lab") as second,
+    ):
         app.until("all 2 components are ready")
         rows = next(control.send_request("app", {"verb": "status"}))["rows"]
         arm = next(row["pid"] for row in rows if row["name"] == "arm")
-        stop_process(arm)
+        for pid in (first.pid, second.pid, arm):
+            stop_process(pid)
         status = rcdeploy_in_time("status", "app")
         assert "does not answer within" in status.stdout
         assert "compute" in status.stdout.split("eye", 1)[1]
-        # The one that hangs is reported, the other one is shown.
+        # The component that hangs is reported, the other one is shown.
         listed = rcdeploy_in_time("param", "list", "app")
         assert (listed.returncode, "eye has no parameters" in listed.stdout) == (1, True)
         assert listed.stderr.startswith("error: `arm` does not answer within")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -21,12 +22,13 @@ from robocomp_dsl.runtime.private_folder import (
     token_file,
     user_folder,
 )
+from tests.deploy.rcdeploy_process import runtime_folder
 
 
 @pytest.fixture
-def base(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    return tmp_path
+def base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    with runtime_folder(monkeypatch) as path:
+        yield path.parent
 
 
 def make_link(path: Path) -> None:
