@@ -14,6 +14,8 @@ from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy import instances, session
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsupported_reason
+from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, reserve
+from robocomp_dsl.runtime.private_folder import UnsafeFolder
 
 
 @click.command()
@@ -104,8 +106,13 @@ def _run(
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
+        reservation = reserve(plan.domain, (process.name for process in plan.processes), plan.name)
+    except (NameTaken, UnsafeFolder, OSError) as error:
+        return Outcome(EXIT_FINDINGS, str(error))
+    try:
         watch = ZenohMonitor(plan.domain)
     except MiddlewareError as error:
+        reservation.release()
         return Outcome(EXIT_FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
@@ -119,3 +126,4 @@ def _run(
         return session.run(plan, claim, watch, terminal, how)
     finally:
         terminal.close()
+        reservation.release()

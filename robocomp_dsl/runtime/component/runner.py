@@ -79,7 +79,8 @@ class Runner:
             self.callback_group,
             self.statistics,
             settings.listen_port,
-            self.fail,
+            fail=self.fail,
+            unique_name=True,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
