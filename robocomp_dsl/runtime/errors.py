@@ -43,6 +43,10 @@ class InterfaceMismatch(MiddlewareError):
     """The two sides were generated from interfaces of different shape."""
 
 
+class SchemaError(MiddlewareError):
+    """A component does not serve its schema, or what it sent is not a valid one."""
+
+
 class RemoteError(MiddlewareError):
     """The other side failed in a way that its interface does not declare."""
 

@@ -24,6 +24,7 @@ from robocomp_dsl.runtime.component.lifecycle import Lifecycle, LifecycleState
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
 from robocomp_dsl.runtime.middleware.registry import open_middleware
@@ -134,6 +135,9 @@ class Runner:
         introspection = Introspection(self)
         at = self._endpoint("Component", COMPONENT)
         self.middleware.serve(at, introspection.handlers(), introspection.callback_group)
+        # An interface of its own: a new operation in `Component` would change its type hash.
+        at = self._endpoint("Component", COMPONENTSCHEMA)
+        self.middleware.serve(at, introspection.schema_handlers(), introspection.callback_group)
         threading.Thread(target=self._run, name=f"{self.name}.lifecycle", daemon=True).start()
 
     def _run(self) -> None:
