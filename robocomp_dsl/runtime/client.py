@@ -39,6 +39,10 @@ class DomainClient:
         host = MiddlewareContext(name, domain, self._execution, self.statistics)
         self._middleware = open_middleware(middleware, host)
 
+    def components(self, timeout: float = 1.0) -> list[str]:
+        """The names of the components in the domain; waits up to `timeout` s for the first one."""
+        return self._middleware.find_servers(COMPONENT, timeout)
+
     def component(self, name: str) -> ComponentProxy:
         """A proxy of the interface `Component` of the component `name`."""
         return ComponentProxy(self.channel(COMPONENT, name, "Component"))

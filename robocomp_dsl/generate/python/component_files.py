@@ -41,7 +41,9 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
         _file("main.py", worker=code),
         _file(f"{package}/__init__.py", "generated_init.py", worker=code),
         _file(f"{package}/interfaces.py", code=interfaces),
-        OutputFile(f"{package}/interfaces.json", documentation(py_names.interfaces, py_names.types)),
+        OutputFile(
+            f"{package}/interfaces.json", documentation(py_names.interfaces, py_names.types)
+        ),
         _file(f"{package}/params.py", code=parameters),
         _file(f"{package}/genericworker.py", worker=code),
         *([_file(f"{package}/machine.py", machine=code.machine)] if code.machine else []),

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
@@ -73,6 +74,17 @@ class ZenohMiddleware:
         )
         token = self._session.liveliness().declare_token(port_token.key(self._host.domain))
         self._tokens.append(token)
+
+    def find_servers(self, interface: Interface, timeout: float) -> list[str]:
+        """See `base.Middleware`."""
+        if not self._registry.wait("server", interface.name, lambda _token: True, timeout):
+            return []
+        # The tokens of other peers may not have arrived: ask all peers.
+        key = f"{keys.domain_prefix(self._host.domain)}/p/server/**"
+        replies = self._session.liveliness().get(key, timeout=timeout)
+        samples = [reply.ok for reply in replies if reply.ok is not None]
+        tokens = [keys.parse_port_token(str(sample.key_expr)) for sample in samples]
+        return sorted({t.component for t in tokens if t and t.interface == interface.name})
 
     def publish_state(self, state: str) -> None:
         """See `base.Middleware`."""
