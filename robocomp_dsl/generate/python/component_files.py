@@ -37,13 +37,12 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
     config = list(params.config_lines(parameter_list))
     rows = [_row(p) for p in parameter_list]
     schema = config_schema(code.title, component.doc, parameter_list)
+    texts = documentation(py_names.interfaces, py_names.types)
     return [
         _file("main.py", worker=code),
         _file(f"{package}/__init__.py", "generated_init.py", worker=code),
         _file(f"{package}/interfaces.py", code=interfaces),
-        OutputFile(
-            f"{package}/interfaces.json", documentation(py_names.interfaces, py_names.types)
-        ),
+        OutputFile(f"{package}/interfaces.json", texts),
         _file(f"{package}/params.py", code=parameters),
         _file(f"{package}/genericworker.py", worker=code),
         *([_file(f"{package}/machine.py", machine=code.machine)] if code.machine else []),

@@ -174,6 +174,7 @@ class Introspection:
     def get_statistics(self) -> Statistics:
         """All statistics."""
         figures = self._runner.statistics
+        figures.refresh()
         period50, period99 = figures.periods.milliseconds(50, 99)
         compute50, compute99 = figures.computes.milliseconds(50, 99)
         return Statistics(

@@ -14,7 +14,7 @@ from typing import Any
 from robocomp_dsl.runtime.component.interface import Interface, Operation, Pattern
 from robocomp_dsl.runtime.data.arrays import StructArray
 from robocomp_dsl.runtime.data.schema import Array, Dictionary, Enum, Primitive, Sequence, Type
-from robocomp_dsl.runtime.data.struct import Struct, default
+from robocomp_dsl.runtime.data.struct import Struct, StructMeta, default
 from robocomp_dsl.runtime.dynamic.python_names import (
     ENUM_MEMBERS,
     ERROR_MEMBERS,
@@ -108,8 +108,9 @@ class _TypeBuilder:
         for name, (_, type_), field in zip(names, pairs, info.fields, strict=True):
             members[name] = _default(type_, field, info.name)
         rename = {n: wire for n, (wire, _) in zip(names, pairs, strict=True) if n != wire}
-        cls: type[Struct] = type(base)(_short(info.name), (base,), members, rename=rename)
-        return cls
+        cls: Any = StructMeta(_short(info.name), (base,), members, rename=rename)
+        built: type[Struct] = cls
+        return built
 
     def fields(self, infos: Iterable[FieldInfo], inside: str) -> list[tuple[str, Type]]:
         """Names and types of fields or parameters."""
@@ -136,14 +137,13 @@ def _enum(info: TypeInfo) -> type[Enum]:
     if not names:
         raise SchemaError(f"enum `{info.name}` has no enumerators")
     values = {name: e.value for name, e in zip(names, info.enumerators, strict=True)}
-    return Enum(_short(info.name), values, module=__name__)  # type: ignore[return-value]
+    create: Any = Enum  # the type checker knows only the members' constructor
+    cls: type[Enum] = create(_short(info.name), values, module=__name__)
+    return cls
 
 
 def _default(type_: Type, info: FieldInfo, inside: str) -> object:
     """What a field has that is not given."""
-    is_enum = isinstance(type_, type) and issubclass(type_, Enum)
-    if not (is_enum or isinstance(type_, Primitive)):
-        return default()
     value: Any = None
     if info.defaultValue:
         try:
@@ -155,9 +155,9 @@ def _default(type_: Type, info: FieldInfo, inside: str) -> object:
     if isinstance(type_, Primitive):
         zero = _ZEROS.get(type_.name, 0)
         return value if type(value) is type(zero) else zero
-    members: dict[str, Enum] = {
-        name.rstrip("_"): enumerator for name, enumerator in type_.__members__.items()
-    }
+    if not (isinstance(type_, type) and issubclass(type_, Enum)):
+        return default()
+    members = {name.rstrip("_"): member for name, member in type_.__members__.items()}
     zero_member = next((e for e in members.values() if e == 0), next(iter(type_)))
     return members.get(value, zero_member) if isinstance(value, str) else zero_member
 

@@ -40,8 +40,12 @@ def to_plain(type_: Type, value: Any) -> Any:
             return [to_plain(type_.element, item) for item in value]
         case Dictionary():
             return _dictionary(type_, value)
+    return _declared(type_, value)
+
+
+def _declared(type_: type[Any], value: Any) -> Any:
     if issubclass(type_, StructArray):
-        return [to_plain(type_._element_, item) for item in value]
+        return [struct_to_plain(item) for item in value]
     if issubclass(type_, Enum):
         return type_(value).name.rstrip("_")
     return struct_to_plain(value)

@@ -1,4 +1,4 @@
-"""`rcdeploy call`: calls an operation. In: the operation, its arguments as YAML. Out: the result."""
+"""`rcdeploy call`: calls an operation. In: an operation, its arguments as YAML. Out: the result."""
 
 from __future__ import annotations
 

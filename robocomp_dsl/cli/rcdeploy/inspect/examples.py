@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from robocomp_dsl.runtime.data.arrays import StructArray
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
@@ -36,6 +38,10 @@ def example(type_: Type, depth: int = _MAX_DEPTH) -> str:
             if isinstance(type_.key, type) and issubclass(type_.key, Struct):
                 return f"[{{key: {key}, value: {value}}}]"
             return f"{{{key}: {value}}}"
+    return _declared(type_, depth)
+
+
+def _declared(type_: type[Any], depth: int) -> str:
     if issubclass(type_, StructArray):
         return f"[{example(type_._element_, depth - 1)}]"
     if issubclass(type_, Enum):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from operator import attrgetter
 from typing import Any, NamedTuple
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
@@ -98,7 +99,7 @@ def _resolve(type_: Type, step: _Step, argument: str) -> tuple[Callable[[Any], A
     if isinstance(type_, type) and issubclass(type_, Struct):
         for attribute, (name, inner) in zip(type_._names_, type_._fields_, strict=True):
             if name == step.text:
-                return lambda value: getattr(value, attribute), inner
+                return attrgetter(attribute), inner
         raise _unknown("field", step, _field_names(type_), argument)
     hint = "; select an element with [0]" if _element_type(type_) else ""
     raise _problem(f"{type_name(type_)} has no fields{hint}", argument, step.column)

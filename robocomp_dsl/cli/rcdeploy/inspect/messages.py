@@ -100,5 +100,6 @@ class MessageStream:
 
     def report_lost(self) -> None:
         """Tell on stderr what did not arrive."""
+        self._client.statistics.refresh()
         if self.lost:
             print(f"{self.lost} messages were lost: this program was too slow", file=sys.stderr)

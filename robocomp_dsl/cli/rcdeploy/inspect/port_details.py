@@ -1,4 +1,4 @@
-"""One port in full: operations, and the types that they use. In: a port. Out: lines, or JSON data."""
+"""One port in full: operations, and the types that they use. In: a port. Out: lines, or data."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def used_types(component: ComponentDescription, interface: InterfaceInfo) -> lis
         used |= {*operation.throws}
         for info in (*operation.inputs, *operation.outputs):
             used |= _names(info.type)
-    for type_ in reversed(component.type_infos.values()):
+    for type_ in reversed(list(component.type_infos.values())):
         if type_.name in used:
             for field in type_.fields:
                 used |= _names(field.type)

@@ -1,4 +1,4 @@
-"""`rcdeploy stats`: counts, times and losses of components. In: components. Out: a table or JSON."""
+"""`rcdeploy stats`: counts, times and losses. In: components. Out: a table or JSON."""
 
 from __future__ import annotations
 

@@ -17,6 +17,7 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Op
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
 from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
+from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherRegistry
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
 
@@ -34,6 +35,7 @@ class ZenohMiddleware:
         self._opened = opened
         self._session = opened.session
         self._registry = PortRegistry(self._session, host.domain)
+        self._publishers: PublisherRegistry | None = None
         self._ports: list[ServedZenohPort] = []
         self._tokens: list[zenoh.LivelinessToken] = []
         self._state: zenoh.LivelinessToken | None = None
@@ -62,7 +64,10 @@ class ZenohMiddleware:
     ) -> None:
         """See `base.Middleware`."""
         port = ServedZenohPort(self._host, at, handlers, execution)
-        port.subscribe(self._session)
+        if self._publishers is None:
+            self._publishers = PublisherRegistry(self._session, self._host.domain)
+            self._host.statistics.on_refresh(self._publishers.settle)
+        port.subscribe(self._session, self._publishers)
         self._ports.append(port)
         self._declare("subscriber", at)
         self._registry.warn_on_mismatch("publisher", at)
@@ -115,4 +120,7 @@ class ZenohMiddleware:
         ports, self._ports = self._ports, []
         for port in ports:
             port.close()
+        if self._publishers:
+            self._host.statistics.off_refresh(self._publishers.settle)
+            self._publishers.close()
         self._opened.close()

@@ -1,0 +1,212 @@
+"""Counts lost publications: exactly, for any number of publishers.
+
+In: attachments of messages, and what publishers announce of themselves: a liveliness token with id
+and time of creation, and a queryable for the number of messages so far. Out: the `drops` of an
+operation.
+
+A publisher that is younger than the subscription counts from its first message. An older one
+counts from the number that it has when it is discovered.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import secrets
+import threading
+import time
+from collections.abc import Iterable, Iterator
+from itertools import count
+from typing import Any
+
+import zenoh
+
+from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.zenoh import keys
+from robocomp_dsl.runtime.middleware.zenoh.sequence import (
+    MAX_RATE,
+    SEQUENCE_FORMAT,
+    SequenceTracker,
+)
+
+COUNT_TIMEOUT_S = 0.2
+"""A publisher replies within a millisecond; one that hangs is not waited for."""
+_ALL_REPLIES: dict[str, Any] = {
+    "timeout": COUNT_TIMEOUT_S,
+    "target": zenoh.QueryTarget.ALL,
+    "consolidation": zenoh.ConsolidationMode.NONE,
+}
+SETTLE_S = 0.02
+"""A message that has arrived is passed to its handler within this time, unless one is busy."""
+MAX_UNKNOWN = 64
+"""Publishers that have not announced themselves, and are remembered for the case that they do."""
+
+
+class PublisherCounter:
+    """The publishing side of one port: its id, and a counter for each operation."""
+
+    def __init__(self, session: zenoh.Session, domain: str, at: Endpoint) -> None:
+        self.id = secrets.randbits(64)
+        self._prefix = keys.port_key(domain, "n", at)
+        self._counters: dict[str, count[int]] = {}
+        token = keys.PublisherToken(at.component, at.port, self.id, time.monotonic_ns())
+        reply = zenoh.handlers.Callback(self._reply, indirect=False)
+        self._queryable = session.declare_queryable(f"{self._prefix}/*", reply)
+        self._token = session.liveliness().declare_token(token.key(domain))
+
+    def counter(self, operation: str) -> count[int]:
+        """The counter of an operation; `next` of it is safe in any thread."""
+        return self._counters.setdefault(keys.escape_chunk(operation), count())
+
+    def close(self) -> None:
+        """Take back the announcement."""
+        self._token.undeclare()
+        self._queryable.undeclare()
+
+    def _reply(self, query: zenoh.Query) -> None:
+        with contextlib.suppress(zenoh.ZError):  # the session is closing
+            for operation, counter in list(self._counters.items()):
+                number = int(repr(counter)[len("count(") : -1])
+                query.reply(f"{self._prefix}/{operation}", SEQUENCE_FORMAT.pack(self.id, number))
+            query.drop()
+
+
+class PublisherRegistry:
+    """The publishers of a domain that have announced themselves.
+
+    `created`: their ids, with the time of creation (monotonic clock of the machine, ns).
+    """
+
+    def __init__(self, session: zenoh.Session, domain: str) -> None:
+        self._session = session
+        self._domain = domain
+        self.created: dict[int, int] = {}
+        self.counts_at_discovery: dict[tuple[int, str], int] = {}
+        self._loss_counters: list[LossCounter] = []
+        self._closed = threading.Event()
+        self._subscriber = session.liveliness().declare_subscriber(
+            f"{keys.domain_prefix(domain)}/a/**", self._on_token, history=True
+        )
+
+    def _on_token(self, sample: zenoh.Sample) -> None:
+        token = keys.parse_publisher_token(str(sample.key_expr))
+        if token is None or sample.kind == zenoh.SampleKind.DELETE:
+            return  # messages of a publisher that exited may still be in a queue
+        self.created[token.id] = token.created
+        key = keys.counts_key(self._domain, token.component, token.port)
+        with contextlib.suppress(zenoh.ZError):  # the session is closing
+            self._session.get(key, self._on_count, **_ALL_REPLIES)
+
+    def _on_count(self, reply: zenoh.Reply) -> None:
+        for publisher, operation, number in _counts((reply,)):
+            self.counts_at_discovery.setdefault((publisher, operation), number)
+
+    def loss_counter(self, counts: OperationCounts) -> LossCounter:
+        """A new counter for an operation that is subscribed to from now on."""
+        self._loss_counters.append(LossCounter(counts, self))
+        return self._loss_counters[-1]
+
+    def settle(self) -> None:
+        """Ask all publishers for their numbers, and count what did not arrive in the end."""
+        try:
+            key = f"{keys.domain_prefix(self._domain)}/n/**"
+            replies = list(self._session.get(key, **_ALL_REPLIES))
+        except zenoh.ZError:  # the session is closing
+            return
+        current = {(publisher, operation): n for publisher, operation, n in _counts(replies)}
+        # What arrived before the replies is passed to its handler in the meantime.
+        self._closed.wait(SETTLE_S)
+        for counter in list(self._loss_counters):
+            counter.settle(current)
+
+    def close(self) -> None:
+        """End a `settle` that is waiting."""
+        self._closed.set()
+
+
+def _counts(replies: Iterable[zenoh.Reply]) -> Iterator[tuple[int, str, int]]:
+    """Id, operation and number of each valid reply."""
+    for reply in replies:
+        sample = reply.ok
+        if sample is None:
+            continue
+        data = sample.payload.to_bytes()
+        if len(data) == SEQUENCE_FORMAT.size:
+            publisher, number = SEQUENCE_FORMAT.unpack(data)
+            yield publisher, str(sample.key_expr).rpartition("/")[2], number
+
+
+class LossCounter:
+    """Counts the losses of one operation of a subscribing port.
+
+    `note` is called by one thread at a time; `is_handling` is set while a message is handled.
+    """
+
+    def __init__(self, counts: OperationCounts, publishers: PublisherRegistry) -> None:
+        self._counts = counts
+        self._operation = keys.escape_chunk(counts.operation)
+        self._publishers = publishers
+        self._subscribed = time.monotonic_ns()
+        self._trackers: dict[int, SequenceTracker] = {}
+        self._reported = 0
+        self._lock = threading.Lock()
+        self.is_handling = False
+
+    def note(self, attachment: bytes) -> None:
+        """Record the attachment of a message that has arrived."""
+        if len(attachment) != SEQUENCE_FORMAT.size:
+            return
+        publisher, number = SEQUENCE_FORMAT.unpack(attachment)
+        tracker = self._trackers.get(publisher)
+        if tracker is not None and number == tracker.next and tracker.unconfirmed is None:
+            tracker.next = number + 1
+            return
+        with self._lock:
+            if tracker is not None:
+                tracker.accept(number)
+            else:
+                self._add(publisher, number)
+            self._update()
+
+    def _add(self, publisher: int, number: int) -> None:
+        """The first message of a publisher."""
+        known = self._publishers.created
+        if publisher not in known:
+            unknown = [each for each in self._trackers if each not in known]
+            if len(unknown) >= MAX_UNKNOWN:
+                del self._trackers[unknown[0]]
+        self._trackers[publisher] = SequenceTracker(number)
+
+    def _update(self) -> None:
+        """Add up the losses from publishers that have announced themselves."""
+        lost = 0
+        for publisher, tracker in self._trackers.items():
+            created = self._publishers.created.get(publisher)
+            if created is None or tracker.next > _most_published(created):
+                continue
+            if tracker.begin is None:
+                tracker.begin = self._begin(publisher, created)
+            lost += tracker.lost
+        self._counts.drops += lost - self._reported
+        self._reported = lost
+
+    def _begin(self, publisher: int, created: int) -> int | None:
+        """The number from which the messages of a publisher count; None if not known yet."""
+        if created > self._subscribed:
+            return 0
+        return self._publishers.counts_at_discovery.get((publisher, self._operation))
+
+    def settle(self, current_counts: dict[tuple[int, str], int]) -> None:
+        """Count what publishers sent after the last message that arrived, if none is waiting."""
+        with self._lock:
+            if not self.is_handling:
+                for publisher, tracker in self._trackers.items():
+                    number = current_counts.get((publisher, self._operation))
+                    if number is not None and publisher in self._publishers.created:
+                        tracker.settle(number)
+            self._update()
+
+
+def _most_published(created: int) -> float:
+    """The number of messages that a publisher can have published since its creation, in ns."""
+    return MAX_RATE * (1 + (time.monotonic_ns() - created) / 1e9)
