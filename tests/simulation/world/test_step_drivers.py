@@ -106,7 +106,9 @@ def test_clock_leader_steps_world_with_clock(source: Source) -> None:
 def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("robocomp_dsl.simulation.stepping.clock_leader.STEP_TIMEOUT_S", 0.01)
     source.clock.pause()
-    with pytest.raises(source.world.types.RoboCompSimulation_Refused, match="step timed out after 0.01 s"):
+    with pytest.raises(
+        source.world.types.RoboCompSimulation_Refused, match="step timed out after 0.01 s"
+    ):
         source.hand.step(1)
     assert isinstance(source.world.simulation.step_driver, ClockLeader)
     assert source.clock.current_tick.time == 0

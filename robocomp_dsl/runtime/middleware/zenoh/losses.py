@@ -14,12 +14,14 @@ import contextlib
 import secrets
 import threading
 import time
+from collections import deque
 from collections.abc import Iterable, Iterator
 from itertools import count
 from typing import Any
 
 import zenoh
 
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.middleware.base import Endpoint
 from robocomp_dsl.runtime.middleware.zenoh import keys
@@ -38,6 +40,8 @@ _ALL_REPLIES: dict[str, Any] = {
 }
 SETTLE_S = 0.02
 """A message that has arrived is passed to its handler within this time, unless one is busy."""
+MAX_PENDING = 32
+"""Attachments are evaluated in batches: this takes a fifth of the time of one by one."""
 MAX_UNKNOWN = 64
 """Publishers that have not announced themselves, and are remembered for the case that they do."""
 
@@ -101,9 +105,9 @@ class PublisherRegistry:
         for publisher, operation, number in _counts((reply,)):
             self.counts_at_discovery.setdefault((publisher, operation), number)
 
-    def loss_counter(self, counts: OperationCounts) -> LossCounter:
+    def loss_counter(self, counts: OperationCounts, execution: CallbackGroup) -> LossCounter:
         """A new counter for an operation that is subscribed to from now on."""
-        self._loss_counters.append(LossCounter(counts, self))
+        self._loss_counters.append(LossCounter(counts, self, execution))
         return self._loss_counters[-1]
 
     def settle(self) -> None:
@@ -114,10 +118,12 @@ class PublisherRegistry:
         except zenoh.ZError:  # the session is closing
             return
         current = {(publisher, operation): n for publisher, operation, n in _counts(replies)}
+        counters = list(self._loss_counters)
+        calls = [counter.calls for counter in counters]
         # What arrived before the replies is passed to its handler in the meantime.
         self._closed.wait(SETTLE_S)
-        for counter in list(self._loss_counters):
-            counter.settle(current)
+        for counter, calls_before in zip(counters, calls, strict=True):
+            counter.settle(current, calls_before)
 
     def close(self) -> None:
         """End a `settle` that is waiting."""
@@ -139,34 +145,48 @@ def _counts(replies: Iterable[zenoh.Reply]) -> Iterator[tuple[int, str, int]]:
 class LossCounter:
     """Counts the losses of one operation of a subscribing port.
 
-    `note` is called by one thread at a time; `is_handling` is set while a message is handled.
+    `pending` receives the attachment of each message, which is all that a message costs; `process`
+    evaluates them, and is called when there are more than `MAX_PENDING`.
     """
 
-    def __init__(self, counts: OperationCounts, publishers: PublisherRegistry) -> None:
+    def __init__(
+        self, counts: OperationCounts, publishers: PublisherRegistry, execution: CallbackGroup
+    ) -> None:
         self._counts = counts
         self._operation = keys.escape_chunk(counts.operation)
         self._publishers = publishers
+        self._execution = execution
         self._subscribed = time.monotonic_ns()
         self._trackers: dict[int, SequenceTracker] = {}
         self._reported = 0
         self._lock = threading.Lock()
-        self.is_handling = False
+        self.pending: deque[Any] = deque()
 
-    def note(self, attachment: bytes) -> None:
-        """Record the attachment of a message that has arrived."""
-        if len(attachment) != SEQUENCE_FORMAT.size:
-            return
-        publisher, number = SEQUENCE_FORMAT.unpack(attachment)
-        tracker = self._trackers.get(publisher)
-        if tracker is not None and number == tracker.next and tracker.unconfirmed is None:
-            tracker.next = number + 1
-            return
+    @property
+    def calls(self) -> int:
+        """Messages that have been passed to the handler."""
+        return self._counts.calls
+
+    def process(self) -> None:
+        """Evaluate the attachments that have arrived."""
         with self._lock:
-            if tracker is not None:
-                tracker.accept(number)
-            else:
-                self._add(publisher, number)
+            self._process()
             self._update()
+
+    def _process(self) -> None:
+        pending, trackers = self.pending, self._trackers
+        while pending:
+            attachment = pending.popleft().to_bytes()
+            if len(attachment) != SEQUENCE_FORMAT.size:
+                continue
+            publisher, number = SEQUENCE_FORMAT.unpack(attachment)
+            tracker = trackers.get(publisher)
+            if tracker is None:
+                self._add(publisher, number)
+            elif number == tracker.next and tracker.unconfirmed is None:
+                tracker.next = number + 1
+            else:
+                tracker.accept(number)
 
     def _add(self, publisher: int, number: int) -> None:
         """The first message of a publisher."""
@@ -196,12 +216,17 @@ class LossCounter:
             return 0
         return self._publishers.counts_at_discovery.get((publisher, self._operation))
 
-    def settle(self, current_counts: dict[tuple[int, str], int]) -> None:
-        """Count what publishers sent after the last message that arrived, if none is waiting."""
+    def settle(self, current: dict[tuple[int, str], int], calls_before: int) -> None:
+        """Count what publishers sent after the last message that arrived, if none is waiting.
+
+        `current`: how many messages each publisher has published; `calls_before`: `calls` when that
+        was known. While a handler is busy, messages may wait for it: then nothing is counted.
+        """
         with self._lock:
-            if not self.is_handling:
+            self._process()
+            if calls_before == self.calls and not self._execution.busy:
                 for publisher, tracker in self._trackers.items():
-                    number = current_counts.get((publisher, self._operation))
+                    number = current.get((publisher, self._operation))
                     if number is not None and publisher in self._publishers.created:
                         tracker.settle(number)
             self._update()

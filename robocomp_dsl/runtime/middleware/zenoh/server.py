@@ -10,6 +10,7 @@ its caches are cold, and each line costs five times what it costs in a loop.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping
 from threading import get_ident
 from time import perf_counter_ns
@@ -27,7 +28,11 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Op
 from robocomp_dsl.runtime.middleware.calling import log, log_failure, with_deadline_check
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import encode_failure
-from robocomp_dsl.runtime.middleware.zenoh.losses import LossCounter, PublisherRegistry
+from robocomp_dsl.runtime.middleware.zenoh.losses import (
+    MAX_PENDING,
+    LossCounter,
+    PublisherRegistry,
+)
 
 DEPTH = 256
 """Default queue length."""
@@ -186,15 +191,15 @@ class ServedZenohPort:
         acquire, release = self._execution.acquire, self._execution.release
         holders = self._execution.holders
         losses = self._loss_counter(counts)
+        pending = losses.pending if losses else deque(maxlen=1)
 
         def handle_sample(sample: zenoh.Sample) -> None:
             counts.calls += 1
             start = 0 if counts.calls % TIMING_INTERVAL else perf_counter_ns()
             try:
                 attachment = sample.attachment
-                if attachment is not None and losses is not None:
-                    losses.is_handling = True
-                    losses.note(attachment.to_bytes())
+                if attachment is not None:
+                    pending.append(attachment)
                 data = sample.payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
@@ -207,10 +212,10 @@ class ServedZenohPort:
                     release()
             except Exception as error:
                 self._report_failure(operation, error, counts)
-            if losses is not None:
-                losses.is_handling = False
             if start:
                 counts.durations.add(perf_counter_ns() - start)
+                if len(pending) > MAX_PENDING and losses is not None:
+                    losses.process()
 
         return handle_sample
 
@@ -218,7 +223,7 @@ class ServedZenohPort:
         """The counter of lost publications; commands have none."""
         if self._publishers is None:
             return None
-        return self._publishers.loss_counter(counts)
+        return self._publishers.loss_counter(counts, self._execution)
 
     def _reply_error(
         self, query: zenoh.Query, operation: Operation, error: Exception, counts: OperationCounts
