@@ -16,14 +16,17 @@ import threading
 import time
 from collections import deque
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import count
 from typing import Any
+from urllib.parse import unquote
 
 import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.calling import matches
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.sequence import (
     MAX_RATE,
@@ -102,12 +105,15 @@ class PublisherRegistry:
             self._session.get(key, self._on_count, **_ALL_REPLIES)
 
     def _on_count(self, reply: zenoh.Reply) -> None:
-        for publisher, operation, number in _counts((reply,)):
-            self.counts_at_discovery.setdefault((publisher, operation), number)
+        for published in _published_counts((reply,)):
+            key = (published.publisher, published.operation)
+            self.counts_at_discovery.setdefault(key, published.number)
 
-    def loss_counter(self, counts: OperationCounts, execution: CallbackGroup) -> LossCounter:
-        """A new counter for an operation that is subscribed to from now on."""
-        self._loss_counters.append(LossCounter(counts, self, execution))
+    def loss_counter(
+        self, at: Endpoint, counts: OperationCounts, execution: CallbackGroup
+    ) -> LossCounter:
+        """A new counter for an operation of `at`, which is subscribed to from now on."""
+        self._loss_counters.append(LossCounter(at, counts, self, execution))
         return self._loss_counters[-1]
 
     def settle(self) -> None:
@@ -117,7 +123,7 @@ class PublisherRegistry:
             replies = list(self._session.get(key, **_ALL_REPLIES))
         except zenoh.ZError:  # the session is closing
             return
-        current = {(publisher, operation): n for publisher, operation, n in _counts(replies)}
+        current = list(_published_counts(replies))
         counters = list(self._loss_counters)
         calls = [counter.calls for counter in counters]
         # What arrived before the replies is passed to its handler in the meantime.
@@ -130,16 +136,30 @@ class PublisherRegistry:
         self._closed.set()
 
 
-def _counts(replies: Iterable[zenoh.Reply]) -> Iterator[tuple[int, str, int]]:
-    """Id, operation and number of each valid reply."""
+@dataclass(frozen=True, slots=True)
+class PublishedCount:
+    """How many messages a publisher has published in one operation."""
+
+    publisher: int
+    interface: str
+    hash: str
+    component: str
+    port: str
+    operation: str
+    number: int
+
+
+def _published_counts(replies: Iterable[zenoh.Reply]) -> Iterator[PublishedCount]:
+    """The number in each valid reply."""
     for reply in replies:
         sample = reply.ok
         if sample is None:
             continue
-        data = sample.payload.to_bytes()
-        if len(data) == SEQUENCE_FORMAT.size:
+        data, chunks = sample.payload.to_bytes(), str(sample.key_expr).split("/")
+        if len(data) == SEQUENCE_FORMAT.size and len(chunks) == 8:
             publisher, number = SEQUENCE_FORMAT.unpack(data)
-            yield publisher, str(sample.key_expr).rpartition("/")[2], number
+            interface, hash_, component, port = map(unquote, chunks[3:7])
+            yield PublishedCount(publisher, interface, hash_, component, port, chunks[7], number)
 
 
 class LossCounter:
@@ -150,8 +170,13 @@ class LossCounter:
     """
 
     def __init__(
-        self, counts: OperationCounts, publishers: PublisherRegistry, execution: CallbackGroup
+        self,
+        at: Endpoint,
+        counts: OperationCounts,
+        publishers: PublisherRegistry,
+        execution: CallbackGroup,
     ) -> None:
+        self._at = at
         self._counts = counts
         self._operation = keys.escape_chunk(counts.operation)
         self._publishers = publishers
@@ -216,7 +241,7 @@ class LossCounter:
             return 0
         return self._publishers.counts_at_discovery.get((publisher, self._operation))
 
-    def settle(self, current: dict[tuple[int, str], int], calls_before: int) -> None:
+    def settle(self, current: Iterable[PublishedCount], calls_before: int) -> None:
         """Count what publishers sent after the last message that arrived, if none is waiting.
 
         `current`: how many messages each publisher has published; `calls_before`: `calls` when that
@@ -225,11 +250,32 @@ class LossCounter:
         with self._lock:
             self._process()
             if calls_before == self.calls and not self._execution.busy:
-                for publisher, tracker in self._trackers.items():
-                    number = current.get((publisher, self._operation))
-                    if number is not None and publisher in self._publishers.created:
-                        tracker.settle(number)
+                for published in current:
+                    self._settle(published)
             self._update()
+
+    def _settle(self, published: PublishedCount) -> None:
+        """Count the last messages of one publisher, or all if none has arrived."""
+        created = self._publishers.created.get(published.publisher)
+        if created is None or not self._subscribes_to(published):
+            return
+        tracker = self._trackers.get(published.publisher)
+        if tracker is None:
+            begin = self._begin(published.publisher, created)
+            if begin is None or begin > published.number:
+                return
+            tracker = self._trackers[published.publisher] = SequenceTracker(
+                begin, has_arrived=False
+            )
+        tracker.settle(published.number)
+
+    def _subscribes_to(self, published: PublishedCount) -> bool:
+        interface = self._at.interface
+        return (
+            published.operation == self._operation
+            and (published.interface, published.hash) == (interface.name, interface.hash.hex())
+            and matches(self._at, published.component, published.port)
+        )
 
 
 def _most_published(created: int) -> float:

@@ -41,8 +41,9 @@ class SequenceTracker:
         "unconfirmed",
     )
 
-    def __init__(self, first: int) -> None:
+    def __init__(self, first: int, *, has_arrived: bool = True) -> None:
         self._restart(first)
+        self.next = first + has_arrived
         self.begin: int | None = None
         self._start = time.monotonic()
 

@@ -223,7 +223,7 @@ class ServedZenohPort:
         """The counter of lost publications; commands have none."""
         if self._publishers is None:
             return None
-        return self._publishers.loss_counter(counts, self._execution)
+        return self._publishers.loss_counter(self.at, counts, self._execution)
 
     def _reply_error(
         self, query: zenoh.Query, operation: Operation, error: Exception, counts: OperationCounts
