@@ -1,97 +1,21 @@
-"""`rcdeploy` with generated components over zenoh, in processes, as a user has it."""
+"""`rcdeploy` with generated components over zenoh, in processes, as a user starts it."""
 
 from __future__ import annotations
 
 import json
 import os
-import re
 import signal
-import socket
-import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
-
-import pytest
 
 from robocomp_dsl.deploy.supervisor import reaper
-from tests.deploy.deploy_process import Running, runtime_folder
-from tests.deploy.deploy_robot import build
-
-PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
-ARM = """
-class SpecificWorker(GenericWorker):
-    def initialize(self):
-        print("arm begins with", self.params.serial, self.params.rate, os.environ.get("MODE"))
-    def finalize(self):
-        print("arm finalizes")
-    def Laser_getLaserData(self):
-        self.log.info("asked by a client")
-        return TLaserData([TData(0.5, float(os.getpid()))])
-"""
-EYE = """
-class SpecificWorker(GenericWorker):
-    seen = 0
-    def compute(self):
-        server = int(self.laser_proxy.getLaserData()[0].dist)
-        if server != self.seen:
-            print("eye sees a new arm", server)
-        self.seen = server
-    def finalize(self):
-        print("eye finalizes")
-"""
-APP = """
-import "arm/arm.cdsl";
-import "eye/eye.cdsl";
-Deployment app
-{
-    component arm { set serial = "abc"; set rate = 20; env MODE = fast; ready within 200 s; };
-    component eye { after arm; ready within 200 s; };
-};
-"""
+from tests.deploy.laser_app import last_number, start_app, status
+from tests.deploy.rcdeploy_process import RunningProcess, rcdeploy
 
 
-@pytest.fixture
-def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    """Where the processes of the test find each other."""
-    with runtime_folder(monkeypatch) as path:
-        yield path
-
-
-@pytest.fixture
-def folder(tmp_path: Path, sockets: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Two generated components and their deployment."""
-    monkeypatch.chdir(tmp_path)
-    build(tmp_path, {"arm": ARM, "eye": EYE})
-    (tmp_path / "app.ddsl").write_text(APP)
-    return tmp_path
-
-
-def up(*arguments: str) -> Running:
-    return Running(sys.executable, "-c", PROGRAM, "app.ddsl", *arguments)
-
-
-def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", PROGRAM, *arguments],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-
-
-def status(name: str = "app") -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(rcdeploy("status", name, "--format", "json").stdout)
-    return found
-
-
-def pid_in(line: str) -> int:
-    """The last number of a line."""
-    return int(re.findall(r"\d+", line)[-1])
-
-
-def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
-    with up() as app:
-        arm = pid_in(app.until("all 2 components are ready", "eye sees a new arm"))
+def test_up_runs_deployment_until_ctrl_c(app_folder: Path, socket_folder: Path) -> None:
+    with start_app() as app:
+        arm = last_number(app.until("all 2 components are ready", "eye sees a new arm"))
         state = status()
         assert [(c["name"], c["state"]) for c in state["components"]] == [
             ("arm", "ready"), ("eye", "ready"),
@@ -108,12 +32,12 @@ def test_from_start_to_ctrl_c(folder: Path, sockets: Path) -> None:
     assert messages.index("eye finalizes") < messages.index("arm finalizes")
     assert "stopping: Ctrl-C" in messages
     assert reaper.find_processes(f"{state['domain']}.{app.process.pid}") == []
-    assert [path.name for path in sockets.iterdir()] == [".deployments"]
-    assert list((sockets / ".deployments").iterdir()) == []
+    assert [path.name for path in socket_folder.iterdir()] == [".deployments"]
+    assert list((socket_folder / ".deployments").iterdir()) == []
 
 
-def test_parameters_of_running_components(folder: Path) -> None:
-    with up() as app:
+def test_param_command_reads_and_sets_running_parameters(app_folder: Path) -> None:
+    with start_app() as app:
         app.until("all 2 components are ready")
         listed = rcdeploy("param", "list", "app.ddsl").stdout.splitlines()
         row = ["arm", "rate", "20.0", "float", "1.0:1000.0", "[Hz]", "live"]
@@ -125,7 +49,7 @@ def test_parameters_of_running_components(folder: Path) -> None:
         assert "`arm` rejects the change: `serial` is not live" in refused.stderr
         assert rcdeploy("param", "get", "app.ddsl", "arm", "rate").stdout == "20.0\n"
         done = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "--save")
-        saved = folder / "arm" / "etc" / "config.saved.yaml"
+        saved = app_folder / "arm" / "etc" / "config.saved.yaml"
         assert done.stdout == f"arm: rate = 30\nkept in {saved.resolve()}\n"
         assert '"rate": 30.0\n' in saved.read_text()
         data = json.loads(rcdeploy("param", "list", "app", "arm", "--format", "json").stdout)
@@ -154,12 +78,12 @@ def test_parameters_of_running_components(folder: Path) -> None:
         assert app.end() == 0
 
 
-def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:
-    with up() as app:
-        first = pid_in(app.until("eye sees a new arm"))
+def test_up_restarts_killed_component_and_client_reconnects(app_folder: Path) -> None:
+    with start_app() as app:
+        first = last_number(app.until("eye sees a new arm"))
         os.kill(first, signal.SIGKILL)
         app.until("arm: killed by SIGKILL, restarting in 0.1 s")
-        second = pid_in(app.until("eye sees a new arm"))
+        second = last_number(app.until("eye sees a new arm"))
         assert second != first
         rows = status()["components"]
         assert [(row["name"], row["restarts"]) for row in rows] == [("arm", 1), ("eye", 0)]
@@ -168,93 +92,8 @@ def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> N
         assert app.end() == 0
 
 
-GROUPED = """
-import "arm/arm.cdsl";
-import "eye/eye.cdsl";
-Deployment app
-{
-    host desk { address "127.0.0.1"; };
-    group left on desk
-    {
-        component arm { set serial = "abc"; ready within 200 s; };
-        component eye { after arm; ready within 200 s; };
-        export Laser from arm;
-    };
-    component eye on localhost { after left; ready within 200 s; };
-};
-"""
-
-
-def test_groups_run(folder: Path) -> None:
-    (folder / "app.ddsl").write_text(GROUPED)
-    with up() as app:
-        app.until("all 3 components are ready")
-        while sum("eye sees a new arm" in line for line in app.lines) < 2:
-            app.until("eye sees a new arm")
-        rows = status()["components"]
-        assert [c["name"] for c in rows] == ["left-arm", "left-eye", "eye"]
-        app.process.send_signal(signal.SIGINT)
-        assert app.end() == 0
-    seen = [pid_in(line) for line in app.lines if "eye sees a new arm" in line]
-    assert seen == [rows[0]["pid"]] * 2
-
-
-def test_one_group_runs_alone(folder: Path) -> None:
-    (folder / "app.ddsl").write_text(GROUPED)
-    with up("--group", "left") as app:
-        app.until("all 2 components are ready", "eye sees a new arm")
-        rows = status("app-left")["components"]
-        assert [c["name"] for c in rows] == ["left-arm", "left-eye"]
-        stopped = rcdeploy("stop", "app-left")
-        assert stopped.returncode == 0
-        assert app.end() == 0
-    unknown = rcdeploy("plan", "app.ddsl", "--group", "right")
-    assert unknown.returncode == 2
-    assert "`app` has no group `right`; its groups: left" in unknown.stderr
-
-
-def test_its_own_fixed_port_is_not_held_against_a_running_deployment(folder: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    (folder / "app.ddsl").write_text(APP.replace("env MODE", f"port {port}; env MODE"))
-    with up() as app:
-        app.until("all 2 components are ready")
-        assert rcdeploy("app.ddsl", "check").returncode == 0
-        assert f"--listen-port {port}" in rcdeploy("app.ddsl", "plan").stdout
-        again = rcdeploy("app.ddsl")
-        assert again.returncode == 1
-        assert "`app` is already running (pid" in again.stderr
-        other = rcdeploy("app.ddsl", "--name", "other")
-        assert other.returncode == 1
-        assert f"port {port} cannot be used" in other.stderr
-        app.process.terminate()
-        assert app.end() == 0
-
-
-def test_two_of_the_same_file_do_not_see_each_other(folder: Path) -> None:
-    with up() as first:
-        first.until("all 2 components are ready")
-        with up() as refused:
-            assert refused.end() == 1
-            assert refused.has(f"`app` is already running (pid {first.process.pid},")
-        with up("--name", "other") as other:
-            server = pid_in(other.until("eye sees a new arm"))
-            assert server == next(
-                row["pid"] for row in status("other")["components"] if row["name"] == "arm"
-            )
-            unclear = rcdeploy("stop", "app.ddsl")
-            assert unclear.returncode == 1
-            assert "several deployments are running" in unclear.stderr
-            assert rcdeploy("stop", "other").returncode == 0
-            assert other.end() == 0
-        assert [row["state"] for row in status("app")["components"]] == ["ready", "ready"]
-        first.process.terminate()
-        assert first.end() == 0
-    assert not first.has("AmbiguousServer")
-
-
-def test_killed_rcdeploy_lets_components_finalize(folder: Path, sockets: Path) -> None:
-    with up() as app:
+def test_killed_rcdeploy_lets_components_finalize(app_folder: Path, socket_folder: Path) -> None:
+    with start_app() as app:
         app.until("all 2 components are ready")
         token = f"{status()['domain']}.{app.process.pid}"
         running = reaper.find_processes(token)
@@ -263,47 +102,17 @@ def test_killed_rcdeploy_lets_components_finalize(folder: Path, sockets: Path) -
         app.end()
         reaper._wait_for_exit(running, 30)
         assert reaper.find_processes(token) == []
-    assert [path.name for path in sockets.iterdir()] == [".deployments"]
-    # Its name is free at once, although nobody gave it back.
-    with up("--duration", "0") as again:
+    assert [path.name for path in socket_folder.iterdir()] == [".deployments"]
+    # Its name is free at once, although it was not released.
+    with start_app("--duration", "0") as again:
         assert again.end() == 0
 
 
-FAILING = """
-class SpecificWorker(GenericWorker):
-    def initialize(self):
-        raise RuntimeError("no such device")
-"""
-
-
-def test_a_component_that_cannot_initialize_ends_the_deployment(folder: Path) -> None:
-    text = (folder / "arm" / "specificworker.py").read_text()
-    head = text.partition("class SpecificWorker")[0]
-    (folder / "arm" / "specificworker.py").write_text(head + FAILING)
-    (folder / "app.ddsl").write_text(APP.replace("env MODE", "restart on-failure max 1; env MODE"))
-    with up() as app:
-        assert app.end() == 1
-    assert app.has("initialize failed")
-    assert app.has("arm failed permanently: exit code 1 (restart limit reached: 1 in 60 s")
-    assert app.lines[-1] == "error: failed: arm"
-    assert not app.has("eye is ready")
-
-
-def test_a_port_in_use_starts_nothing(folder: Path, sockets: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        (folder / "app.ddsl").write_text(APP.replace("env MODE", f"port {port}; env MODE"))
-        with up() as app:
-            assert app.end() == 1
-    assert app.has(f"port {port} cannot be used: Address already in use")
-    assert [path.name for path in sockets.iterdir()] == [".deployments"]  # no domain was opened
-
-
-def test_a_named_domain_may_be_joined_by_hand(folder: Path) -> None:
-    with up("--domain", "lab", "--duration", "1000") as app:
+def test_component_joins_named_domain_of_deployment(app_folder: Path) -> None:
+    with start_app("--domain", "lab", "--duration", "1000") as app:
         app.until("all 2 components are ready")
         command = [sys.executable, "main.py", "--name", "guest", "--domain", "lab"]
-        with Running(*command, where=folder / "eye") as guest:
+        with RunningProcess(*command, where=app_folder / "eye") as guest:
             guest.until("eye sees a new arm")
             guest.process.terminate()
             assert guest.end() == 0

@@ -21,7 +21,7 @@ def _module():
     return modules[0]
 
 
-def test_every_operation_has_a_servant():
+def test_control_board_interface_operations_have_servants():
     board = next(
         interface for interface in _module().interfaces if interface.name == "ControlBoard"
     )
@@ -31,7 +31,7 @@ def test_every_operation_has_a_servant():
         assert answers is not None, operation.name
 
 
-def test_modes_are_in_the_order_of_the_interface():
+def test_control_board_modes_match_interface_order():
     """The servant turns one into the other by its place."""
     enums = {
         declaration.name: declaration

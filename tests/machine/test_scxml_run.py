@@ -11,7 +11,7 @@ from typing import NamedTuple
 import pytest
 
 from robocomp_dsl.runtime.machine import Machine, MachineSpec, StateSpec
-from tests.machine.test_machine import HandClock, Worker
+from tests.machine.machine_samples import ManualClock, Worker
 
 OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript"'
 
@@ -161,9 +161,9 @@ def spec(body: str, states: str, events: str) -> MachineSpec:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_documents(name: str) -> None:
+def test_scxml_document_runs_as_specified(name: str) -> None:
     case = CASES[name]
-    clock = HandClock()
+    clock = ManualClock()
     machine = Machine(spec(case.body, case.states, case.events), Worker(), clock, lambda: None)
     machine.start()
     for event, leads in case.ways:
@@ -184,8 +184,8 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_nothing_of_a_document_is_run_as_code(name: str) -> None:
-    machine = Machine(spec(REFUSED[name], "a", ""), Worker(), HandClock(), lambda: None)
+def test_scxml_executes_no_code_of_document(name: str) -> None:
+    machine = Machine(spec(REFUSED[name], "a", ""), Worker(), ManualClock(), lambda: None)
     with pytest.raises(Exception, match=r".") as failed:
         machine.start()
     assert not isinstance(failed.value, AssertionError)

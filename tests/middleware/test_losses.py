@@ -43,10 +43,10 @@ class Gate:
         self.open.set()
         self.numbers: list[tuple[str, int]] = []
         self.arrived: dict[str, int] = {}
-        node.hear(self._handle, qos=Qos(reliable=False, depth=depth))
+        node.subscribe(self._handle, qos=Qos(reliable=False, depth=depth))
         # Shows what has arrived while the gate is closed.
         at = Endpoint(NEWS, node.name, "Second", (), Qos(depth=100_000))
-        node.middleware.subscribe(at, {"spoke": self.arrived.__setitem__}, CallbackGroup())
+        node.middleware.subscribe(at, {"announced": self.arrived.__setitem__}, CallbackGroup())
 
     def _handle(self, who: str, number: int) -> None:
         self.open.wait(DEADLINE)
@@ -55,7 +55,7 @@ class Gate:
     @property
     def drops(self) -> int:
         self.node.statistics.refresh()
-        drops: int = self.node.count("spoke", KEY).drops
+        drops: int = self.node.count("announced", KEY).drops
         return drops
 
     def has(self, *messages: tuple[str, int]) -> bool:
@@ -84,7 +84,7 @@ def test_losses_are_exact_for_slow_subscriber(
     gate.open.clear()
     for number in range(messages):
         for name, proxy in news.items():
-            proxy.spoke(name, number)
+            proxy.announced(name, number)
         if number % 100 == 99 or number == messages - 1:
             expected = dict.fromkeys(news, number)
             wait_until(lambda e=expected: gate.arrived == e, "the messages have arrived")
@@ -103,11 +103,11 @@ def test_losses_before_first_and_after_last_message_count(network: Network) -> N
     node = network.node("p")
     at = Endpoint(NEWS, "p", KEY)
     counter = PublisherCounter(raw_session(node), network.domain, at)
-    numbers = counter.counter("spoke")
-    key = f"{keys.port_key(network.domain, 't', at)}/spoke"
+    numbers = counter.counter("announced")
+    key = f"{keys.port_key(network.domain, 't', at)}/announced"
     publisher = raw_session(node).declare_publisher(key)
     wait_until(lambda: publisher.matching_status.matching, "the publisher has a subscriber")
-    encode = NEWS.operation("spoke").encode_request
+    encode = NEWS.operation("announced").encode_request
     for number in range(100):
         attachment = SEQUENCE_FORMAT.pack(counter.id, next(numbers))
         if 40 <= number < 43:  # all others are lost on the way
@@ -122,11 +122,11 @@ def test_losses_of_publisher_that_was_there_first_count_from_its_discovery(
     node = network.node("p")
     news = node.news()
     for number in range(1000):
-        news.spoke("p", number)
+        news.announced("p", number)
     gate = Gate(network.node("s"), depth=10)
     wait_until(news.has_subscribers, "the publisher has a subscriber")
     for number in range(1000, 1005):
-        news.spoke("p", number)
+        news.announced("p", number)
     wait_until(lambda: gate.has(("p", 1004)), "the messages have arrived")
     assert gate.drops == 0
 
@@ -151,12 +151,12 @@ def test_forged_attachments_change_no_losses(network: Network, forgery: str) -> 
     wait_until(news.has_subscribers, "the publisher has a subscriber")
     channel: Any = news._channel
     forger = raw_session(network.node("forger"))
-    key = f"{keys.port_key(network.domain, 't', Endpoint(NEWS, 'p', KEY))}/spoke"
-    payload = NEWS.operation("spoke").encode_request(("forged", 0))
+    key = f"{keys.port_key(network.domain, 't', Endpoint(NEWS, 'p', KEY))}/announced"
+    payload = NEWS.operation("announced").encode_request(("forged", 0))
     publisher = forger.declare_publisher(key)
     wait_until(lambda: publisher.matching_status.matching, "the forger has a subscriber")
     for number in range(30):
-        news.spoke("p", number)
+        news.announced("p", number)
         wait_until(lambda n=number: gate.has(("p", n)), "the message has arrived")
         if number % 10 == 5:
             attachment = FORGERIES[forgery](channel._counter.id, number)
@@ -164,7 +164,7 @@ def test_forged_attachments_change_no_losses(network: Network, forgery: str) -> 
             publisher.put(payload, attachment=attachment)
             wait_until(lambda b=before: len(gate.numbers) > b, "the forged message has arrived")
     for number in range(600):  # beyond what the forger has claimed
-        news.spoke("p", 30 + number)
+        news.announced("p", 30 + number)
     wait_until(lambda: gate.has(("p", 629)), "the messages have arrived")
     assert gate.drops == 0
 

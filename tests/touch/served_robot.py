@@ -31,8 +31,8 @@ TICK = 0.01
 class ServedRobot:
     """The robot `name`; every board is a port of the component `robot`, named as the board.
 
-    `calls` are the operations that boards were asked for; `before` is called in front of one,
-    `after` with its answer; `failing` is what one raises.
+    `calls` are the called operations of boards; `before` is called in front of an operation,
+    `after` with its result; `failing` are the exceptions that operations raise.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class ServedRobot:
         self.connect()
 
     def connect(self) -> None:
-        """Be there for others."""
+        """Serve the boards."""
         self._execution = CallbackGroup()
         self._middleware = open_middleware(
             "inproc", MiddlewareContext("robot", self._domain, self._execution, Statistics())
@@ -91,6 +91,6 @@ class ServedRobot:
 
         return answer
 
-    def away(self) -> None:
-        """Be there no more."""
+    def disconnect(self) -> None:
+        """Stop serving the boards."""
         self._middleware.close()
