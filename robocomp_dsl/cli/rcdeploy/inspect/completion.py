@@ -23,7 +23,13 @@ _MAX_DEPTH = 3
 def component_names(options: Mapping[str, Any]) -> list[str]:
     """The components of the deployment; empty if there is none."""
     try:
-        return list(_place(options).components)
+        place = _place(options)
+        if place.components:
+            return list(place.components)
+        from robocomp_dsl.client import DomainClient  # noqa: PLC0415 - loads numpy
+
+        with DomainClient(place.domain, name="rcdeploy") as client:
+            return client.components(TIMEOUT_S)
     except Exception:  # a shell has no place for an error message
         return []
 
@@ -40,9 +46,9 @@ def complete_target(
         from robocomp_dsl.client import DomainClient  # noqa: PLC0415 - loads numpy
 
         place = _place(options)
-        names = [c for c in place.components if _begins(c, incomplete)]
         with DomainClient(place.domain, name="rcdeploy") as client:
-            found = _describe(client, names or [incomplete.partition(".")[0]])
+            components = place.components or client.components(TIMEOUT_S)
+            found = _describe(client, [c for c in components if _begins(c, incomplete)])
             words = [
                 word for component in found for word in _words(component, incomplete, roles, level)
             ]
@@ -83,7 +89,7 @@ def _words(
         name = f"{component.name}.{port.name}"
         if name.startswith(incomplete) or incomplete.startswith(f"{name}."):
             matching.append((name, port))
-            if name.startswith(incomplete) and (level != "operation" or len(matching) > 0):
+            if name.startswith(incomplete):
                 yield name
     # With a single port, what follows it is offered, too: the shell then appends no space.
     if level != "port" and len(matching) == 1:

@@ -58,6 +58,7 @@ class MessageStream:
         self._queue: queue.Queue[Message] = queue.Queue(MAX_WAITING)
         handlers = {operation.name: self._handler(operation.name) for operation in operations}
         port = target.port
+        self._counts = [client.statistics.of(port.name, each.name) for each in operations]
         client.subscribe(port.interface, target.component, port.name, handlers)
 
     def _handler(self, operation: str) -> Callable[..., None]:
@@ -91,15 +92,24 @@ class MessageStream:
     @property
     def received_bytes(self) -> int:
         """Bytes of all messages so far."""
-        return sum(counts.bytes_in for counts in self._client.statistics.operations.values())
+        return sum(counts.bytes_in for counts in self._counts)
+
+    @property
+    def received(self) -> int:
+        """The number of messages so far, with those that wait."""
+        return sum(counts.calls for counts in self._counts)
 
     @property
     def lost(self) -> int:
-        """Messages that were published and did not arrive."""
-        return sum(counts.drops for counts in self._client.statistics.operations.values())
+        """Messages that were published and did not arrive, as of the latest `refresh`."""
+        return sum(counts.drops for counts in self._counts)
+
+    def refresh(self) -> None:
+        """Bring `lost` up to date."""
+        self._client.statistics.refresh()
 
     def report_lost(self) -> None:
         """Tell on stderr what did not arrive."""
-        self._client.statistics.refresh()
+        self.refresh()
         if self.lost:
             print(f"{self.lost} messages were lost: this program was too slow", file=sys.stderr)

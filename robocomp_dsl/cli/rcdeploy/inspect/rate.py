@@ -31,7 +31,7 @@ class Window:
 
     seconds: float
     messages: int
-    bytes: int
+    mean_bytes: float
     gaps: tuple[float, ...]
     lost: int
 
@@ -51,9 +51,9 @@ class Window:
     def bandwidth(self) -> dict[str, float]:
         """Bytes per second, and bytes per message."""
         return {
-            "bytes_per_s": round(self.bytes / self.seconds, 1),
+            "bytes_per_s": round(self.mean_bytes * self.messages / self.seconds, 1),
             "messages_per_s": round(self.messages / self.seconds, 3),
-            "mean_bytes": round(self.bytes / self.messages, 1) if self.messages else 0.0,
+            "mean_bytes": round(self.mean_bytes, 1),
             "lost": self.lost,
         }
 
@@ -104,7 +104,8 @@ def _measure(
         stream = messages.MessageStream(client, found, operations)
         last: float | None = None
         while True:
-            start, bytes_before = time.monotonic(), stream.received_bytes
+            start = time.monotonic()
+            messages_before, bytes_before = stream.received, stream.received_bytes
             count, gaps = 0, []
             while (left := start + WINDOW_S - time.monotonic()) > 0:
                 message = stream.next(left)
@@ -115,6 +116,8 @@ def _measure(
                     gaps.append(message.clock - last)
                 last = message.clock
             seconds = time.monotonic() - start
-            size = stream.received_bytes - bytes_before
-            if show(Window(seconds, count, size, tuple(gaps), stream.lost)):
+            received = stream.received - messages_before
+            mean_bytes = (stream.received_bytes - bytes_before) / received if received else 0.0
+            stream.refresh()
+            if show(Window(seconds, count, mean_bytes, tuple(gaps), stream.lost)):
                 return

@@ -134,7 +134,7 @@ def _port_problem(description: ComponentDescription, name: str, roles: Sequence[
     listed = ", ".join(f"{description.name}.{port}" for port in usable) or "none"
     if other := next((p for p in description.ports if p.name == name), None):
         return (
-            f"`{description.name}.{name}` is a {ROLE_NAMES[other.role]} port; this command takes"
+            f"the port `{description.name}.{name}` is {ROLE_NAMES[other.role]}; this command takes"
             f" {kinds} ports: {listed}"
         )
     if not name:
