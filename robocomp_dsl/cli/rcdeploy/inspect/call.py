@@ -10,7 +10,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     complete_ports,
     open_client,
-    resolve_place,
+    resolve_domain,
     resolve_port,
     split_operation,
 )
@@ -47,9 +47,9 @@ def command(
     from robocomp_dsl.diagnostics import did_you_mean  # noqa: PLC0415
     from robocomp_dsl.runtime.errors import DeclaredError  # noqa: PLC0415
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
-        found = resolve_port(client, place, target, "implements")
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
+        found = resolve_port(client, domain_target, target, "implements")
         name, rest = split_operation(found)
         port = found.port
         if not name or rest:

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from robocomp_dsl.cli.rcdeploy.inspect.target import Place, resolve_place
+from robocomp_dsl.cli.rcdeploy.inspect.target import DomainTarget, resolve_domain
 
 if TYPE_CHECKING:
     from robocomp_dsl.client import ComponentDescription, DescribedPort, DomainClient
@@ -23,19 +23,19 @@ _MAX_DEPTH = 3
 def component_names(options: Mapping[str, Any]) -> list[str]:
     """The components of the deployment; empty if there is none."""
     try:
-        place = _place(options)
-        if place.components:
-            return list(place.components)
+        domain_target = _domain_of(options)
+        if domain_target.components:
+            return list(domain_target.components)
         from robocomp_dsl.client import DomainClient  # noqa: PLC0415 - loads numpy
 
-        with DomainClient(place.domain, name="rcdeploy") as client:
+        with DomainClient(domain_target.domain, name="rcdeploy") as client:
             return client.components(TIMEOUT_S)
     except Exception:  # a shell has no place for an error message
         return []
 
 
-def _place(options: Mapping[str, Any]) -> Place:
-    return resolve_place(options.get("deployment"), options.get("domain"))
+def _domain_of(options: Mapping[str, Any]) -> DomainTarget:
+    return resolve_domain(options.get("deployment"), options.get("domain"))
 
 
 def complete_target(
@@ -45,9 +45,9 @@ def complete_target(
     try:
         from robocomp_dsl.client import DomainClient  # noqa: PLC0415 - loads numpy
 
-        place = _place(options)
-        with DomainClient(place.domain, name="rcdeploy") as client:
-            components = place.components or client.components(TIMEOUT_S)
+        domain_target = _domain_of(options)
+        with DomainClient(domain_target.domain, name="rcdeploy") as client:
+            components = domain_target.components or client.components(TIMEOUT_S)
             found = _describe(client, [c for c in components if _begins(c, incomplete)])
             words = [
                 word for component in found for word in _words(component, incomplete, roles, level)

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     CALL_TIMEOUT_S,
-    Place,
+    DomainTarget,
     open_client,
-    resolve_place,
+    resolve_domain,
 )
 
 if TYPE_CHECKING:
@@ -27,9 +27,9 @@ def component_proxy(
     name: str, deployment: str | None, domain: str | None
 ) -> Iterator[tuple[ComponentProxy, str]]:
     """The proxy of a component, and its full name. Raises `CliError`."""
-    place = resolve_place(deployment, domain)
-    full_name = place.component(name)
-    with open_client(place) as client:
+    domain_target = resolve_domain(deployment, domain)
+    full_name = domain_target.component(name)
+    with open_client(domain_target) as client:
         from robocomp_dsl.runtime.component.component_interface import Refusal  # noqa: PLC0415
 
         try:
@@ -52,6 +52,6 @@ def connect(
     return proxy
 
 
-def component_names(client: DomainClient, place: Place) -> tuple[str, ...]:
+def component_names(client: DomainClient, domain_target: DomainTarget) -> tuple[str, ...]:
     """The components of the deployment, or those that are seen in the domain."""
-    return place.components or tuple(client.components())
+    return domain_target.components or tuple(client.components())

@@ -8,7 +8,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     complete_ports,
     open_client,
-    resolve_place,
+    resolve_domain,
     resolve_port,
     split_operation,
 )
@@ -38,9 +38,9 @@ def command(
     """Print the messages of a published port, or one field of them, until Ctrl-C."""
     from robocomp_dsl.cli.rcdeploy.inspect import field_paths, messages, text  # noqa: PLC0415 - numpy
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
-        found = resolve_port(client, place, target, "publishes")
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
+        found = resolve_port(client, domain_target, target, "publishes")
         name, path = split_operation(found)
         operations = messages.published_operations(found, name)
         column = len(target) - len(path)

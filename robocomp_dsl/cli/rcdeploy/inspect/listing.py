@@ -16,7 +16,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     complete_ports,
     open_client,
-    resolve_place,
+    resolve_domain,
     resolve_port,
 )
 
@@ -40,21 +40,21 @@ def command(
     """List the ports of components, or operations and types of a port."""
     from robocomp_dsl.cli.rcdeploy.inspect import component_calls, port_details, text  # noqa: PLC0415
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
         names: list[str] = []
         blocks: list[str] = []
         data: list[Any] = []
         for target in targets:
-            name, port = place.split(target)
+            name, port = domain_target.split(target)
             if not port:
                 names.append(name)
                 continue
-            found = resolve_port(client, place, target, *ROLE_NAMES)
+            found = resolve_port(client, domain_target, target, *ROLE_NAMES)
             blocks.append("\n".join(port_details.describe_port(found.description, found.port)))
             data.append(port_details.port_data(found.description, [found.port]))
         if names or not targets:
-            selected = names or component_calls.component_names(client, place)
+            selected = names or component_calls.component_names(client, domain_target)
             described = _describe_all(client, selected)
             blocks.append("\n".join(_table(described)))
             data += [

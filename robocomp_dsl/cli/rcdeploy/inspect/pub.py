@@ -16,7 +16,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     PortTarget,
     complete_ports,
     open_client,
-    resolve_place,
+    resolve_domain,
     resolve_port,
     split_operation,
 )
@@ -55,9 +55,9 @@ def command(
     from robocomp_dsl.cli.rcdeploy.inspect.arguments import parse_arguments  # noqa: PLC0415 - numpy
     from robocomp_dsl.cli.rcdeploy.inspect.messages import published_operations  # noqa: PLC0415
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
-        found = resolve_port(client, place, target, "publishes", "subscribesTo")
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
+        found = resolve_port(client, domain_target, target, "publishes", "subscribesTo")
         name, rest = split_operation(found)
         operations = published_operations(found, name or rest)
         if len(operations) > 1:

@@ -17,7 +17,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     complete_ports,
     open_client,
-    resolve_place,
+    resolve_domain,
     resolve_port,
     split_operation,
 )
@@ -97,9 +97,9 @@ def _measure(
     """Pass windows to `show` until it returns True."""
     from robocomp_dsl.cli.rcdeploy.inspect import messages  # noqa: PLC0415 - loads numpy
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
-        found = resolve_port(client, place, target, "publishes")
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
+        found = resolve_port(client, domain_target, target, "publishes")
         operations = messages.published_operations(found, found.rest and split_operation(found)[0])
         stream = messages.MessageStream(client, found, operations)
         last: float | None = None

@@ -11,7 +11,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     complete_components,
     open_client,
-    resolve_place,
+    resolve_domain,
 )
 
 HEADS = ("OPERATION", "CALLS", "FAILED", "IN", "OUT", "LOST", "BAD", "LATE", "P50", "P99", "MAX")
@@ -33,9 +33,11 @@ def command(
     from robocomp_dsl.cli.rcdeploy.inspect.text import to_json  # noqa: PLC0415
     from robocomp_dsl.client import struct_to_plain  # noqa: PLC0415
 
-    place = resolve_place(deployment, domain)
-    with open_client(place) as client:
-        names = [place.component(name) for name in components] or component_names(client, place)
+    domain_target = resolve_domain(deployment, domain)
+    with open_client(domain_target) as client:
+        names = [domain_target.component(name) for name in components] or component_names(
+            client, domain_target
+        )
         found = {name: struct_to_plain(connect(client, name).getStatistics()) for name in names}
     if as_json:
         print(to_json(found))

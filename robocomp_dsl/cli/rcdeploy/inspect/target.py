@@ -52,7 +52,7 @@ class InspectCommand(click.Command):
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class DomainTarget:
     """A domain; `components` are known if a deployment of rcdeploy runs in it."""
 
     domain: str
@@ -70,24 +70,24 @@ class Place:
         return self.component(name), target[len(name) + 1 :]
 
 
-def resolve_place(deployment: str | None, domain: str | None) -> Place:
-    """The place that the options name. Raises `CliError` and `click.UsageError`."""
+def resolve_domain(deployment: str | None, domain: str | None) -> DomainTarget:
+    """The domain that the options name. Raises `CliError` and `click.UsageError`."""
     if domain is not None:
         if deployment is not None:
             raise click.UsageError("use --deployment or --domain, not both")
-        return Place(domain)
+        return DomainTarget(domain)
     found = running.resolve_deployment(deployment)
-    return Place(found.domain, tuple(running.components(found)))
+    return DomainTarget(found.domain, tuple(running.components(found)))
 
 
 @contextmanager
-def open_client(place: Place) -> Iterator[DomainClient]:
+def open_client(domain_target: DomainTarget) -> Iterator[DomainClient]:
     """A client of the domain; its errors become messages, and Ctrl-C ends the command quietly."""
     from robocomp_dsl.client import DomainClient  # noqa: PLC0415 - loads numpy
     from robocomp_dsl.runtime.errors import MiddlewareError, Timeout  # noqa: PLC0415
 
     try:
-        with DomainClient(place.domain, name="rcdeploy") as client:
+        with DomainClient(domain_target.domain, name="rcdeploy") as client:
             yield client
             sys.stdout.flush()
     except Timeout as error:
@@ -113,9 +113,11 @@ class PortTarget:
     """Column of `rest` in the argument, from 0."""
 
 
-def resolve_port(client: DomainClient, place: Place, target: str, *roles: str) -> PortTarget:
+def resolve_port(
+    client: DomainClient, domain_target: DomainTarget, target: str, *roles: str
+) -> PortTarget:
     """The port of `target` with one of `roles`. Raises `CliError` and `MiddlewareError`."""
-    component, after = place.split(target)
+    component, after = domain_target.split(target)
     description = client.describe(component, CALL_TIMEOUT_S)
     name = after.partition(".")[0].partition("[")[0]
     rest = after[len(name) :].removeprefix(".")
