@@ -1,6 +1,6 @@
-"""What a robot, its arm and its reflex have published, in the order of its coming.
+"""Data published by a robot, its arm and its reflex, in order of arrival.
 
-In: published structs, on any thread. Out: the numbers in them as a recording has them.
+In: published structs, on any thread. Out: their numbers in the form of a recording.
 """
 
 from __future__ import annotations
@@ -14,70 +14,70 @@ from recording import Answer, Floats, Press, Recording, Skin
 
 _FROZEN = "Frozen"
 _BACK_S = 1.0
-"""Nothing is so late; time that goes back further has begun anew."""
+"""Maximum delay of a message; a larger step back in time is a reset."""
 
 
 class TopicBuffer:
-    """`news` is notified of all about `part`. All of it is kept, or the `most` latest of a kind."""
+    """Notifies `changed` about data of `part`; stores all, or the `capacity` latest of each kind."""
 
-    def __init__(self, skin: Skin, part: str, most: int | None = None) -> None:
+    def __init__(self, skin: Skin, part: str, capacity: int | None = None) -> None:
         limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]
-        self.news = threading.Condition()
+        self.changed = threading.Condition()
         self._skin, self.part = skin, part
         self._mine = np.isin(skin.limb, limbs)
-        self._frames: deque[tuple[float, Floats]] = deque(maxlen=most)
-        self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=most)
-        self._fingers: deque[tuple[float, Floats]] = deque(maxlen=most)
-        self._answers: deque[Answer] = deque(maxlen=most)
+        self._frames: deque[tuple[float, Floats]] = deque(maxlen=capacity)
+        self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=capacity)
+        self._fingers: deque[tuple[float, Floats]] = deque(maxlen=capacity)
+        self._answers: deque[Answer] = deque(maxlen=capacity)
         self._frozen = float("-inf")
         self.free_since = float("inf")
-        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+        """Time since which the arm's skin has felt nothing; infinite while it feels something."""
 
-    # Handlers: a middleware calls them.
+    # Handlers of the middleware.
 
     def frame(self, frame: Any) -> None:
-        """`SkinFrame`; frames that are not as long as the skin tell nothing."""
+        """`SkinFrame`; frames of another length are ignored."""
         force = np.array(frame.force, dtype=np.float64)
         if len(force) != len(self._mine):
             return
-        with self.news:
+        with self.changed:
             self._from(float(frame.time))
             self._frames.append((float(frame.time), force))
             if force[self._mine].any():
                 self.free_since = float("inf")
             elif self.free_since == float("inf"):
                 self.free_since = float(frame.time)
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def arm_state(self, state: Any) -> None:
         """`GenericArmState`."""
-        with self.news:
+        with self.changed:
             self._from(float(state.time))
             angles = np.array(state.position, dtype=np.float64)
             self._arm.append((float(state.time), angles, bool(state.moving)))
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def answer(self, event: Any) -> None:
         """`ReflexEvents`."""
-        with self.news:
+        with self.changed:
             response = Answer(float(event.time), event.field, float(event.gain), float(event.force))
             self._answers.append(response)
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def reflex_state(self, state: Any) -> None:
-        """`ReflexEvents`: what the reflex does from now on."""
-        with self.news:
+        """`ReflexEvents`: the new state of the reflex."""
+        with self.changed:
             if state.name == _FROZEN and self._frames:
                 self._frozen = self.now
 
     def finger_at(self, time: float, joints: Floats) -> None:
-        """Where the finger was found."""
-        with self.news:
+        """Store a position of the finger."""
+        with self.changed:
             if not self._fingers or time > self._fingers[-1][0]:
                 self._fingers.append((time, joints))
 
     def _from(self, time: float) -> None:
-        """Where the simulation has begun anew, what was before counts no more but the latest."""
+        """After a reset of the simulation, discard all but the latest data."""
         if not (self._frames and self._arm and time < self.now - _BACK_S):
             return
         self._frames = deque([(time, self._frames[-1][1])], self._frames.maxlen)
@@ -86,11 +86,11 @@ class TopicBuffer:
         self._answers.clear()
         self._frozen = float("-inf")
 
-    # What is known.
+    # Queries.
 
     @property
     def complete(self) -> bool:
-        """Whether skin and arm have been heard."""
+        """Whether data of skin and arm have arrived."""
         return bool(self._frames and self._arm)
 
     @property
@@ -99,8 +99,8 @@ class TopicBuffer:
         return max(self._frames[-1][0], self._arm[-1][0])
 
     def felt_within(self, seconds: float) -> Floats:
-        """The largest force on each taxel within the last seconds, (n,) in N."""
-        with self.news:
+        """The maximum force on each taxel within the last seconds, (n,) in N."""
+        with self.changed:
             since = self._frames[-1][0] - seconds
             latest = [force for time, force in self._frames if time >= since]
         felt: Floats = np.max(latest, axis=0)
@@ -113,29 +113,29 @@ class TopicBuffer:
 
     @property
     def finger_seen(self) -> float:
-        """When the finger was seen last, in s."""
+        """Time of the latest finger position, in s."""
         return self._fingers[-1][0] if self._fingers else float("-inf")
 
     def frozen_since(self, time: float) -> bool:
-        """Whether the reflex has been frozen after that time, blind or without its arm."""
+        """Whether the reflex was frozen after that time."""
         return self._frozen >= time
 
     @property
     def finger(self) -> Floats:
-        """Where the finger was seen last, (3,)."""
+        """The latest position of the finger, (3,)."""
         return self._fingers[-1][1]
 
-    def stands(self, seconds: float, way: float) -> bool:
-        """Whether the arm has moved by at most `way` rad within the last seconds."""
-        with self.news:
+    def is_at_rest(self, seconds: float, way: float) -> bool:
+        """Whether the arm has moved by at capacity `way` rad within the last seconds."""
+        with self.changed:
             latest = [sample for sample in self._arm if sample[0] >= self._arm[-1][0] - seconds]
         if latest[-1][2] or latest[-1][0] - latest[0][0] < 0.5 * seconds:
             return False
         return bool(np.ptp([angles for _, angles, _ in latest], axis=0).max() <= way)
 
     def recording(self, robot: str, presses: list[Press], **others: Any) -> Recording:
-        """All of it; `others` are the rest of a `Recording`."""
-        with self.news:
+        """All data; `others` are the other fields of a `Recording`."""
+        with self.changed:
             frames, arm, fingers = list(self._frames), list(self._arm), list(self._fingers)
             answers = tuple(self._answers)
         return Recording(
@@ -155,7 +155,7 @@ class TopicBuffer:
 
 
 def skin_of(geometry: Any) -> Skin:
-    """The geometry that a skin tells, in arrays."""
+    """The geometry of a skin as arrays."""
     limbs = geometry.limbs
     turns = [[getattr(limb, f"r{i}{j}") for i in range(3) for j in range(3)] for limb in limbs]
     return Skin(

@@ -17,8 +17,9 @@ from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer
-from robocomp_dsl.syntax.grammar.tables import END, load
+from robocomp_dsl.syntax.grammar.tables import load
 
 HOME = Path("/nonexistent/workspace")
 SECONDS = 2.0

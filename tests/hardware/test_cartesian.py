@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.devices.errors import CommandRefused, SceneError
 from robocomp_dsl.hardware.kinematics.cartesian import goal_of, solve, step
 from robocomp_dsl.hardware.kinematics.cartesian_controller import (

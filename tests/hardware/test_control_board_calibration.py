@@ -10,9 +10,9 @@ from robocomp_dsl.hardware.control.errors import (
     BadValue,
     ModeRefused,
 )
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
 from robocomp_dsl.hardware.control.parking import Parking, ParkState
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from tests.hardware.plain_board import plain_board
 from tests.support.simulated_arm import Arm
 

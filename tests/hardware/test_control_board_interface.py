@@ -8,7 +8,7 @@ from robocomp_dsl.check.passes import check_idsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServant
 from robocomp_dsl.model.types import Enum
 
 INTERFACE = Path(__file__).parents[2] / "interfaces" / "ControlBoard.idsl"

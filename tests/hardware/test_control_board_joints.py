@@ -10,8 +10,8 @@ from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import (
     ModeRefused,
 )
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
 from robocomp_dsl.simulation.robots.boards import board_names, robot_board, whole_robot

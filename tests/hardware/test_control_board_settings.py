@@ -9,9 +9,9 @@ from robocomp_dsl.hardware.control.errors import (
     BadValue,
     ControlRefused,
 )
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from tests.hardware.plain_board import plain_board

@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.hardware.control.acceleration import SMOOTHING, AccelerationFilter
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
-from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
-from robocomp_dsl.hardware.control.limits import JointLimits
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.pid import Gains, PidBank
-from robocomp_dsl.hardware.control.velocity import VelocityRamp
+from robocomp_dsl.hardware.control.protection.limits import JointLimits
+from robocomp_dsl.hardware.control.regulators.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.regulators.pid import Gains, PidBank
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK, MinimumJerk
+from robocomp_dsl.hardware.control.trajectories.velocity import VelocityRamp
 
 ONE = np.array([0])
 DT = 0.001

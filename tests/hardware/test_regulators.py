@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.regulators.loops import Loop
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from tests.support.simulated_arm import Arm
 
 ELBOW = 3

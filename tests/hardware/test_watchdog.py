@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from tests.support.simulated_arm import Arm
 

@@ -12,11 +12,11 @@ import pytest
 
 from robocomp_dsl.hardware.conformance.rules import RULES, ConformanceRule, Violation
 from robocomp_dsl.hardware.conformance.trial import MAY_MOVE, on_hardware
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
-from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
+from robocomp_dsl.hardware.control.regulators.loops import Loop
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from robocomp_dsl.hardware.devices.errors import DriverMethodMissing, HardwareError
 from robocomp_dsl.hardware.drivers.driver_host import DriverHost
 from tests.support.waiting import wait_until

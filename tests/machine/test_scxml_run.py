@@ -11,6 +11,7 @@ from typing import NamedTuple
 import pytest
 
 from robocomp_dsl.runtime.machine import Machine, MachineSpec, StateSpec
+from robocomp_dsl.runtime.machine.machine import EndlessTransitions
 from tests.machine.machine_samples import ManualClock, Worker
 
 OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript"'
@@ -189,3 +190,21 @@ def test_scxml_executes_no_code_of_document(name: str) -> None:
     with pytest.raises(Exception, match=r".") as failed:
         machine.start()
     assert not isinstance(failed.value, AssertionError)
+
+
+ENDLESS = {
+    "states": "<state id='b'><transition target='c'/></state>"
+    "<state id='c'><transition target='b'/></state>",
+    "actions": "<state id='b'><transition cond='1 &lt; 2'><raise event='x'/></transition></state>",
+    "raised events": "<state id='b'><onentry><raise event='x'/></onentry>"
+    "<transition event='x' target='b'/></state>",
+}
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_machine_ends_endless_loop_of_transitions(name: str) -> None:
+    body = f"><state id='a'><transition event='e' target='b'/></state>{ENDLESS[name]}"
+    machine = Machine(spec(body, "a b c", "e x"), Worker(), ManualClock(), lambda: None)
+    machine.start()
+    with pytest.raises(EndlessTransitions, match=r"more than 1000 transitions, last from `[bc]`"):
+        machine.send("e")

@@ -65,4 +65,4 @@ def load(tmp_path: Path, text: str, *overrides: str, suffix: str = ".yaml") -> A
 
 
 def error_lines(error: ConfigError) -> list[str]:
-    return [f"{f.place.line}:{f.place.column} {f.message}" for f in error.findings]
+    return [f"{f.location.line}:{f.location.column} {f.message}" for f in error.findings]

@@ -86,7 +86,7 @@ def assert_loads_or_reports(path: Path, overrides: list[str]) -> None:
         assert_sound(found)
         return
     assert found.findings
-    assert all(f.place.line >= 1 and f.place.column >= 1 for f in found.findings)
+    assert all(f.location.line >= 1 and f.location.column >= 1 for f in found.findings)
     assert "error: " in str(found)
 
 

@@ -7,8 +7,7 @@ import pytest
 from robocomp_dsl.runtime import Component, ComponentSpec
 from robocomp_dsl.runtime.main import main
 from robocomp_dsl.runtime.parameters import Parameters
-from robocomp_dsl.runtime.parameters.group import ParameterGroup
-from robocomp_dsl.runtime.parameters.schema import Group, Parameter
+from robocomp_dsl.runtime.parameters.schema import Group, Parameter, ParameterGroup
 
 
 class Limit(ParameterGroup):

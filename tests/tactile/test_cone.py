@@ -144,5 +144,7 @@ def test_position_file_reports_faults_with_position(text, places):
     with pytest.raises(DescriptionError) as caught:
         read_positions(text, Path("f.txt"))
     findings = caught.value.findings
-    assert [(f.line, f.column) for f in findings] == [(line, column) for line, column, _ in places]
+    assert [(f.location.line, f.location.column) for f in findings] == [
+        (line, column) for line, column, _ in places
+    ]
     assert all(messages in f.message for f, (_, _, messages) in zip(findings, places, strict=True))

@@ -224,7 +224,7 @@ def test_description_is_compared_with_joints_and_bodies_of_robot():
         "r.yaml:19:14: the limb `lower` is on `LForeArm`, which the robot does not have "
         "(did you mean `LForearm`?)",
     ]
-    assert [finding.fault for finding in caught.value.findings] == [
+    assert [finding.kind for finding in caught.value.findings] == [
         Fault.JOINT,
         Fault.LIMITS,
         Fault.LIMITS,

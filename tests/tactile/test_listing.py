@@ -64,7 +64,7 @@ def test_listing_reports_duplicate_servo():
     with pytest.raises(DescriptionError) as caught:
         read_part_xml(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
     (error,) = caught.value.findings
-    assert (error.message, error.fault) == (
+    assert (error.message, error.kind) == (
         "the destination servo `2` is used twice",
         Fault.TWICE,
     )

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.serving import DevicePort
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from tests.support.waiting import wait_until
 from tests.touch.arm_client import ARM, DESCRIPTIONS, GOAL, NONE, arm_on, refusal_of
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.time.clock_interface import Tick
 from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from tests.support.simulated_arm import Arm
 
 

@@ -165,7 +165,7 @@ def test_model_file_reports_faults_with_line(
     with pytest.raises(ModelFileError) as error:
         load(tmp_path, text)
     assert message in str(error.value)
-    assert error.value.faults[0].line == line
+    assert error.value.findings[0].location.line == line
 
 
 @pytest.mark.parametrize(
@@ -185,7 +185,7 @@ def test_model_file_reports_assumptions(
     text = inside.replace("@", JOINT.format("revolute", "a", "b", ""))
     found = load(tmp_path, f"<robot name='r'>{text}</robot>").findings
     assert any(
-        (finding.kind, finding.line) == (kind, line) and message in finding.message
+        (finding.kind, finding.location.line) == (kind, line) and message in finding.message
         for finding in found
     ), found
 
@@ -226,7 +226,7 @@ def test_model_file_replaces_unreadable_mesh_by_box(
     if content:
         (tmp_path / file).write_text(content)
     loaded = load(tmp_path, text.format(file))
-    assert [(finding.kind, finding.line) for finding in loaded.findings] == [("mesh", 2)]
+    assert [(finding.kind, finding.location.line) for finding in loaded.findings] == [("mesh", 2)]
     assert message in loaded.findings[0].message
     model = loaded.model
     assert model.geom_type[0] == GEOM.mjGEOM_BOX
@@ -264,7 +264,9 @@ def test_model_file_reports_massless_body_and_missing_texture_of_mjcf(tmp_path: 
         "<geom size='.1' mass='0' material='m'/></body></worldbody></mujoco>"
     )
     loaded = load(tmp_path, text)
-    assert [(finding.kind, finding.subject, finding.line) for finding in loaded.findings] == [
+    assert [
+        (finding.kind, finding.subject, finding.location.line) for finding in loaded.findings
+    ] == [
         ("texture", "t", 2),
         ("mass", "b", 0),
     ]

@@ -13,8 +13,8 @@ import pytest
 pytest.importorskip("viser", reason="needs the extra `view`")
 
 from robocomp_dsl.simulation.view.live import LivePage
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.view.nodes import quaternion
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.world import visual_state
 from tests.simulation.served_worlds import Served, served
 from tests.simulation.view.live_world import WORLD, SimulationPort
