@@ -18,7 +18,7 @@ _BACK_S = 1.0
 
 
 class TopicBuffer:
-    """Notifies `changed` about data of `part`; stores all, or the `capacity` latest of each kind."""
+    """Notifies `changed` about data of `part`; stores all or the `capacity` latest of a kind."""
 
     def __init__(self, skin: Skin, part: str, capacity: int | None = None) -> None:
         limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     CALL_TIMEOUT_S,
     InspectCommand,
-    complete_ports,
     open_client,
     resolve_domain,
     resolve_port,

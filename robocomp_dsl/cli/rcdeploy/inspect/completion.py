@@ -6,8 +6,10 @@ In: what is typed so far. Out: words. Completion never fails: without a deployme
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
+
+import click
 
 from robocomp_dsl.cli.rcdeploy.inspect.target import DomainTarget, resolve_domain
 
@@ -18,6 +20,25 @@ if TYPE_CHECKING:
 TIMEOUT_S = 0.5
 """A component that hangs is left out."""
 _MAX_DEPTH = 3
+
+
+Completer = Callable[[click.Context, click.Parameter, str], list[Any]]
+
+
+def complete_ports(*roles: str, level: str) -> Completer:
+    """Completion of a port with one of `roles`; `level`: port, operation or field."""
+
+    def complete(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
+        del param
+        return complete_target(ctx.params, incomplete, roles, level)
+
+    return complete
+
+
+def complete_components(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
+    """Completion of a component."""
+    del param
+    return [name for name in component_names(ctx.params) if name.startswith(incomplete)]
 
 
 def component_names(options: Mapping[str, Any]) -> list[str]:

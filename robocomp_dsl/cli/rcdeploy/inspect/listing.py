@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     ROLE_NAMES,
     InspectCommand,
-    complete_ports,
     open_client,
     resolve_domain,
     resolve_port,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import click
 
-from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand, complete_components
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_components
+from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand
 
 LEVELS = ("debug", "info", "warning", "error", "critical")
 

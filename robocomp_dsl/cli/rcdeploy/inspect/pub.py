@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
     PortTarget,
-    complete_ports,
     open_client,
     resolve_domain,
     resolve_port,

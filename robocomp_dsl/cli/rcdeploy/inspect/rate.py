@@ -13,9 +13,9 @@ from typing import Any
 
 import click
 
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_ports
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
-    complete_ports,
     open_client,
     resolve_domain,
     resolve_port,

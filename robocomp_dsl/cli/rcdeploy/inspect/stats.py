@@ -7,9 +7,9 @@ from typing import Any
 
 import click
 
+from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_components
 from robocomp_dsl.cli.rcdeploy.inspect.target import (
     InspectCommand,
-    complete_components,
     open_client,
     resolve_domain,
 )

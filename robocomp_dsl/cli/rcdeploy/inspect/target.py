@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -152,26 +152,3 @@ def split_operation(target: PortTarget) -> tuple[str, str]:
     if head in names:
         return head, target.rest[len(head) :].removeprefix(".")
     return "", target.rest
-
-
-Completer = Callable[[click.Context, click.Parameter, str], list[Any]]
-
-
-def complete_ports(*roles: str, level: str) -> Completer:
-    """Completion of a port with one of `roles`; `level`: port, operation or field."""
-
-    def complete(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
-        del param
-        from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_target  # noqa: PLC0415
-
-        return complete_target(ctx.params, incomplete, roles, level)
-
-    return complete
-
-
-def complete_components(ctx: click.Context, param: click.Parameter, incomplete: str) -> list[Any]:
-    """Completion of a component."""
-    del param
-    from robocomp_dsl.cli.rcdeploy.inspect.completion import component_names  # noqa: PLC0415
-
-    return [name for name in component_names(ctx.params) if name.startswith(incomplete)]

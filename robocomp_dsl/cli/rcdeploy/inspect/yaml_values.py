@@ -6,7 +6,7 @@ expected there and an example.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import yaml
@@ -79,7 +79,9 @@ class _Reader:
                 return self._dictionary(type_, node)
         if issubclass(type_, StructArray):
             return type_([self.value(type_._element_, item) for item in self._items(type_, node)])
-        return self._enum(type_, node) if issubclass(type_, Enum) else self._struct(type_, node)
+        if issubclass(type_, Enum):
+            return self._enum(type_, node)
+        return self._struct(cast("type[Struct]", type_), node)
 
     def _items(self, type_: Type, node: yaml.Node) -> list[yaml.Node]:
         if isinstance(node, yaml.SequenceNode):
