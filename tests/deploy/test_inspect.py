@@ -75,7 +75,7 @@ def test_echo_prints_yaml_json_and_csv(arm: InspectedArm) -> None:
         "is_valid": True,
     }
     documents = list(yaml.safe_load_all(run("echo", "arm.Feed.pose", "-n", "2")))
-    assert documents[1]["serial"] == documents[0]["serial"] + 1
+    assert documents[1]["serial"] > documents[0]["serial"]
     line = json.loads(run("echo", "arm.Feed", "--json", "--once"))
     assert line["points"][1] == {"x": None, "y": 0.1}
     rows = list(csv.DictReader(io.StringIO(run("echo", "arm.Feed", "--csv", "-n", "2"))))

@@ -6,7 +6,7 @@ expected there and an example.
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import yaml
@@ -77,11 +77,14 @@ class _Reader:
                 return [self.value(type_.element, item) for item in self._items(type_, node)]
             case Dictionary():
                 return self._dictionary(type_, node)
+        return self._declared(type_, node)
+
+    def _declared(self, type_: type[Any], node: yaml.Node) -> Any:
         if issubclass(type_, StructArray):
             return type_([self.value(type_._element_, item) for item in self._items(type_, node)])
         if issubclass(type_, Enum):
             return self._enum(type_, node)
-        return self._struct(cast("type[Struct]", type_), node)
+        return self._struct(type_, node)
 
     def _items(self, type_: Type, node: yaml.Node) -> list[yaml.Node]:
         if isinstance(node, yaml.SequenceNode):
