@@ -26,6 +26,7 @@ import zenoh
 from robocomp_dsl.runtime.errors import MiddlewareError
 
 _LOCK = "lock"
+_WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"
 MAX_SOCKET_PATH = 100
 """A socket path is limited to 108 bytes, and zenoh appends `.lock`."""
 
@@ -51,8 +52,10 @@ class DomainSession:
                 folder.rmdir()
 
 
-def open_session(domain: str, port: int = 0) -> DomainSession:
+def open_session(domain: str, port: int = 0, *, hold_s: float = 0.0) -> DomainSession:
     """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
+
+    `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default of zenoh.
 
     Raises `MiddlewareError` if the folder or the port cannot be used.
     """
@@ -65,7 +68,10 @@ def open_session(domain: str, port: int = 0) -> DomainSession:
             _check_port_free(port)
             listen.append(f"tcp/127.0.0.1:{port}")
         try:
-            return DomainSession(zenoh.open(_config(listen, others)), mine)
+            config = _config(listen, others)
+            if hold_s:
+                config.insert_json5(_WAIT_BEFORE_DROP_US, str(round(hold_s * 1e6)))
+            return DomainSession(zenoh.open(config), mine)
         except zenoh.ZError as error:
             raise MiddlewareError(f"zenoh cannot listen at {', '.join(listen)}: {error}") from None
 
