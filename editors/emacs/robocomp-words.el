@@ -54,6 +54,7 @@
      "threads"
      "useQt"
      "visual"
+     "watchdog"
      "worker")
     (pdsl t
      "ComponentParams"
@@ -107,6 +108,7 @@
      "to"
      "true"
      "user"
+     "watchdog"
      "within")
     (smdsl t
      "after"

@@ -1,6 +1,6 @@
 """Queries running components through their interface `Component`.
 
-In: a domain, names of components. Out: proxies, or the `ComponentInfo` of each component.
+In: a domain, names of components. Out: proxies, or the `ComponentState` of each component.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.runtime.client import DomainClient
@@ -36,8 +37,18 @@ def component_proxies(domain: str, timeout_s: float) -> Iterator[ProxyFactory]:
         yield proxy_of
 
 
-def fetch_infos(domain: str, names: Iterable[str], timeout_s: float) -> Mapping[str, ComponentInfo]:
-    """The `ComponentInfo` of each component; components that do not reply in time are left out.
+@dataclass(frozen=True, slots=True)
+class ComponentState:
+    """What a running component says about itself."""
+
+    info: ComponentInfo
+    overruns: int
+
+
+def fetch_states(
+    domain: str, names: Iterable[str], timeout_s: float
+) -> Mapping[str, ComponentState]:
+    """The state of each component; components that do not reply in time are left out.
 
     It takes at most about `timeout_s` seconds for all of them.
     """
@@ -50,17 +61,17 @@ def fetch_infos(domain: str, names: Iterable[str], timeout_s: float) -> Mapping[
             component_proxies(domain, timeout_s) as proxy_of,
             ThreadPoolExecutor(min(len(requested), _MAX_PARALLEL)) as pool,
         ):
-            replies = pool.map(lambda name: _fetch_info(proxy_of(name), deadline), requested)
-            return {name: info for name, info in zip(requested, replies, strict=True) if info}
+            replies = pool.map(lambda name: _fetch_state(proxy_of(name), deadline), requested)
+            return {name: state for name, state in zip(requested, replies, strict=True) if state}
     except MiddlewareError:
         return {}
 
 
-def _fetch_info(proxy: ComponentProxy, deadline: float) -> ComponentInfo | None:
+def _fetch_state(proxy: ComponentProxy, deadline: float) -> ComponentState | None:
     try:
         if not proxy.wait_for_server(max(deadline - time.monotonic(), 0.0)):
             return None
         proxy.set_timeout(max(deadline - time.monotonic(), MIN_CALL_TIMEOUT_S))
-        return proxy.getInfo()
+        return ComponentState(proxy.getInfo(), proxy.getStatistics().overruns)
     except MiddlewareError:
         return None

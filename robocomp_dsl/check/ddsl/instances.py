@@ -19,6 +19,7 @@ from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
+from robocomp_dsl.check.watchdog import watchdog_of
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -57,6 +58,7 @@ def resolve_instance(
     executable = _executable(tree.executable, report)
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
+    watchdog = watchdog_of(tree.watchdog, codes.DEPLOYMENT_NUMBER, report)
     environment = unique_by_name(tree.environment, "environment variable", report)
     devices = resolve_devices(tree, report)
     if component is None:
@@ -78,6 +80,7 @@ def resolve_instance(
         after=tuple(dict.fromkeys(node.text for node in tree.after)),
         restart=restart,
         start_timeout_s=ready,
+        watchdog_s=watchdog,
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,

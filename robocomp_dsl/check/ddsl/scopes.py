@@ -151,6 +151,7 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 (*own, *waits),
                 tree.restart,
                 tree.ready,
+                tree.watchdog,
                 tree.doc,
             )
             resolved.append((renamed, nested.path))

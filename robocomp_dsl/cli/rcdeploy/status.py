@@ -20,7 +20,7 @@ from robocomp_dsl.cli.rcdeploy import running
 from robocomp_dsl.deploy import control, instances, status
 
 if TYPE_CHECKING:
-    from robocomp_dsl.runtime.component.component_interface import ComponentInfo
+    from robocomp_dsl.deploy.component_queries import ComponentState
 
 CALL_TIMEOUT_S = 0.5
 """For all components together; a running component replies within milliseconds."""
@@ -39,7 +39,7 @@ def command(which: str | None, output_format: str) -> None:
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
     rows = _with_component_state(
-        deployment, [status.ProcessStatus(**row | {"machine": ()}) for row in answer["rows"]]
+        deployment, [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
     )
     if output_format == "json":
         print(json.dumps(_data(deployment, rows) | {"clock": answer["clock"]}, indent=1))
@@ -50,7 +50,8 @@ def command(which: str | None, output_format: str) -> None:
         if answer["clock"]:
             print(status.SimulatedTime(**answer["clock"]).format())
         width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
-        print("\n".join(status.format_table(rows, width, colours=options.use_colours(sys.stdout))))
+        table = status.format_table(rows, width, colours=options.use_colours(sys.stdout))
+        print("\n".join([*table, *status.format_hangs(rows, time.time())]))
     if any(row.state not in (status.READY, status.EXITED) for row in rows):
         raise CliError(EXIT_FINDINGS)
 
@@ -61,18 +62,24 @@ def _with_component_state(
     """`rows` with the information of the components themselves."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
-    infos = component_queries.fetch_infos(
+    states = component_queries.fetch_states(
         deployment.domain, [row.name for row in rows if row.life], CALL_TIMEOUT_S
     )
-    return [_row(row, infos.get(row.name)) for row in rows]
+    return [_row(row, states.get(row.name)) for row in rows]
 
 
-def _row(row: status.ProcessStatus, info: ComponentInfo | None) -> status.ProcessStatus:
-    if info is None:
+def _row(row: status.ProcessStatus, state: ComponentState | None) -> status.ProcessStatus:
+    if state is None:
         silent = f"does not answer within {CALL_TIMEOUT_S:g} s"
         return replace(row, note=row.note or silent) if row.life else row
-    life, machine = info.state.name.lower(), tuple(info.states)
-    return replace(row, life=life, machine=machine, note=row.note or info.reason)
+    info = state.info
+    return replace(
+        row,
+        life=info.state.name.lower(),
+        machine=tuple(info.states),
+        overruns=state.overruns,
+        note=row.note or info.reason,
+    )
 
 
 def _data(

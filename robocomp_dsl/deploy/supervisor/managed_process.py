@@ -16,7 +16,10 @@ from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor import lifecycle_monitor
 from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
+from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
+from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
+from robocomp_dsl.runtime.component.hang_report import HangReport
 
 CLEAN_EXIT_CODES = (0, -signal.SIGTERM, 128 + signal.SIGTERM)
 """Exit codes of a process that exited as requested."""
@@ -65,13 +68,22 @@ class ManagedProcess:
         self._started = False
         self._was_ready = False
         self._killed = False
+        self._starts_without_ready = 0
+        self._hung_child: ChildProcess | None = None
+        self._load_errors = LoadErrors()
+        self._end_hung: asyncio.Task[None] | None = None
+        self.hang: HangReport | None = None
 
     def status(self) -> ProcessStatus:
         """The current status."""
         child = self.child
         if child is None:
             return ProcessStatus(
-                self.name, self._state, restarts=len(self.restart_times), note=self._note
+                self.name,
+                self._state,
+                restarts=len(self.restart_times),
+                note=self._note,
+                hang=self.hang,
             )
         child.usage.sample()
         return ProcessStatus(
@@ -84,6 +96,7 @@ class ManagedProcess:
             child.usage.memory,
             self._note,
             self._lifecycle_state,
+            hang=self.hang,
         )
 
     def on_state_changed(self, pid: int, state: str) -> None:
@@ -92,6 +105,8 @@ class ManagedProcess:
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
         self._lifecycle_state = state
+        if child is self._hung_child or child.has_exited:
+            return
         if state in lifecycle_monitor.READY_STATES:
             self.ready.set()
         if self.ready.is_set():
@@ -133,7 +148,7 @@ class ManagedProcess:
                 self._on_stopped(code)
                 return
             decision = self._decide_restart(code)
-            if decision.delay_s is None or (self._killed and not self._was_ready):
+            if decision.delay_s is None:
                 self._on_final_exit(code, decision.reason)
                 return
             message = f"{self.name}: {self._note}, restarting in {decision.delay_s:g} s"
@@ -145,15 +160,31 @@ class ManagedProcess:
 
     def _decide_restart(self, code: int) -> RestartDecision:
         now, policy = time.monotonic(), self.process.restart
+        if code and not self._was_ready and self._load_errors.error:
+            self._note = self._load_errors.error
+            return RestartDecision(None, "a restart does not help")
+        # Starts that time out may be further apart than the window of the policy.
+        if self._starts_without_ready > policy.max:
+            limit = f"not ready in {self._starts_without_ready} starts"
+            return RestartDecision(None, limit)
         return decide_restart(policy, self.restart_times, now, failed=code != 0)
 
     async def _run_once(self) -> int:
         """Start the process and wait for its exit; returns the exit code."""
         self.ready.clear()
         self._killed = False
+        self._load_errors = LoadErrors()
+        hang_watch = HangWatch(self._on_hang)
+
+        def emit(record: LogRecord) -> None:
+            hang_watch.observe(record)
+            self._load_errors.observe(record)
+            self.context.emit(record)
+
         try:
-            self.child = ChildProcess(self.process, self.context.token, self.context.emit)
+            self.child = ChildProcess(self.process, self.context.token, emit, hang_watch)
         except OSError as error:
+            hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"
             return EXIT_NOT_FOUND
         self._started = True
@@ -161,14 +192,17 @@ class ManagedProcess:
         self._transition_to(status.STARTING, "")
         child = self.child
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
-        if self.ready.is_set():
-            self._was_ready = True
+        if self.ready.is_set() and not child.has_exited:
+            self._was_ready, self._starts_without_ready = True, 0
             up = time.monotonic() - child.started
             self.context.log(f"{self.name} is ready after {up:.2f} s (pid {child.pid})")
-        elif not child.exited.is_set() and not self.context.stopping.is_set():
+        elif not child.has_exited and not self.context.stopping.is_set():
             await self._on_start_timeout()
         await child.exited.wait()
         self.child = None
+        if child is self._hung_child and self.hang:
+            self._note = self.hang.summary()
+            return child.code or EXIT_TIMEOUT
         if self._killed:
             return EXIT_TIMEOUT
         self._note = describe_exit(child.code)
@@ -180,8 +214,28 @@ class ManagedProcess:
         reason = f"not ready within {self.process.start_timeout_s:g} s{state}"
         self.context.log(f"{self.name}: {reason}", "ERROR")
         self._killed = True
+        self._starts_without_ready += 1
         await self.terminate(self.context.grace_s)
         self._note = reason
+
+    def _on_hang(self, report: HangReport, ends_itself: bool) -> None:
+        """The process hangs: let it finalize, then kill it; its policy decides on a restart."""
+        child = self.child
+        if child is None or child.has_exited or self._state == status.STOPPING:
+            return
+        self.hang, self._hung_child = report, child
+        self._transition_to(status.HUNG, report.summary())
+        if not ends_itself:
+            stack = "".join(f"\n{line}" for line in report.stack)
+            self.context.log(f"{self.name}: {report.summary()}{stack}", "ERROR")
+            child.signal(signal.SIGTERM)
+            child.signal(signal.SIGCONT)
+        self._end_hung = asyncio.get_running_loop().create_task(self._kill_after_grace(child))
+
+    async def _kill_after_grace(self, child: ChildProcess) -> None:
+        await wait_any(child.exited, timeout=self.context.grace_s)
+        if not child.exited.is_set():
+            child.signal(signal.SIGKILL)
 
     async def terminate(self, grace_s: float, kill_now: asyncio.Event | None = None) -> bool:
         """Send SIGTERM, and SIGKILL after `grace_s` seconds or when `kill_now` is set.
@@ -193,7 +247,7 @@ class ManagedProcess:
         child = self.child
         self._transition_to(status.STOPPING, self._note)
         child.signal(signal.SIGTERM)
-        child.signal(signal.SIGCONT)  # a stopped process handles the signal, too
+        child.signal(signal.SIGCONT)  # a stopped process can finalize, too
         await wait_any(child.exited, *filter(None, [kill_now]), timeout=grace_s)
         if child.exited.is_set():
             return True

@@ -87,6 +87,7 @@ class Instance(Node):
     after: tuple[Name, ...] = ()
     restart: Restart | None = None
     ready: Duration | None = None
+    watchdog: Duration | None = None
     doc: str = ""
 
 

@@ -28,6 +28,7 @@ CONNECT_WAIT_MS = 250
 """The start waits this long for peers to respond; usually all do within 5 ms."""
 HANDSHAKE_TIMEOUT_MS = 3000
 """Deadline of one attempt to connect, at both ends; the next attempt follows."""
+_WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,11 +53,16 @@ class DomainSession:
         self.membership.leave()
 
 
-def open_session(domain: str, port: int = 0, name: str = "") -> DomainSession:
+def open_session(
+    domain: str, port: int = 0, name: str = "", *, hold_s: float = 0.0
+) -> DomainSession:
     """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
 
     With `name`, the session is that of a component, which no other component of the domain may be
-    called. Raises `MiddlewareError` if the name is taken, or the folder or the port cannot be used.
+    called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
+    of zenoh.
+
+    Raises `MiddlewareError` if the name is taken, or the folder or the port cannot be used.
     """
     try:
         lock = claim_component(domain, name) if name else None
@@ -65,7 +71,7 @@ def open_session(domain: str, port: int = 0, name: str = "") -> DomainSession:
     membership: Membership | None = None
     try:
         membership, others = join(domain)
-        session = _open(membership.socket, others, port)
+        session = _open(membership.socket, others, port, hold_s)
     except (UnsafeFolder, MiddlewareError) as error:
         if lock:
             lock.release(delete=True)
@@ -75,12 +81,14 @@ def open_session(domain: str, port: int = 0, name: str = "") -> DomainSession:
     return DomainSession(session, membership, lock, port)
 
 
-def _open(own: Path, others: list[Path], port: int) -> zenoh.Session:
+def _open(own: Path, others: list[Path], port: int, hold_s: float) -> zenoh.Session:
     listen = [f"unixsock-stream/{own}"]
     if port:
         _check_port_free(port)
         listen.append(f"tcp/127.0.0.1:{port}")
     config = _config(listen, [f"unixsock-stream/{path}" for path in others], own.parent.parent)
+    if hold_s:
+        config.insert_json5(_WAIT_BEFORE_DROP_US, str(round(hold_s * 1e6)))
     try:
         return zenoh.open(config)
     except zenoh.ZError as error:
