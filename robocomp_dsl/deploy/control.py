@@ -1,7 +1,9 @@
 """Control protocol of a running deployment: JSON lines over a Unix socket.
 
-The server runs in the event loop of the supervisor and answers `status`, `logs` and `stop`. The
-client blocks and yields the replies. The reply to `stop` is sent when all processes have exited.
+The server runs in the event loop of the supervisor and answers `status`, `logs`, `stop`, `start`
+and `restart`. The client blocks and yields the replies. The reply to a `stop` of the whole
+deployment is sent when all processes have exited. Requests about components have several replies:
+`{"text": …}` lines, and at last `{"code": 0}`, or 1 if a component is not as requested.
 """
 
 from __future__ import annotations
@@ -11,7 +13,7 @@ import contextlib
 import json
 import socket
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -23,6 +25,10 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
+RequestHandler: TypeAlias = Callable[
+    [str, list[str], Callable[[str], Awaitable[None]]], Awaitable[bool]
+]
+"""Handles a verb with names of components; sends lines of text and returns its success."""
 
 
 class LogJournal:
@@ -65,11 +71,13 @@ class ControlServer:
         statuses: Callable[[], list[ProcessStatus]],
         stop: Callable[[str], None],
         time: Callable[[], SimulatedTime | None],
+        handle_request: RequestHandler,
     ) -> None:
         self._journal = journal
         self._statuses = statuses
         self._stop = stop
         self._time = time
+        self._handle_request = handle_request
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -114,10 +122,28 @@ class ControlServer:
                 await _send(writer, {"rows": rows, "clock": clock})
             case "logs":
                 await self._logs(request, reader, writer)
+            case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:
+                await self._change_components(verb, request.get("components"), writer)
             case "stop":
                 self._stop("requested by `rcdeploy stop`")
                 assert self._outcome is not None  # noqa: S101 - set by `open`
                 await _send(writer, await asyncio.shield(self._outcome))
+
+    async def _change_components(
+        self, verb: str, names: object, writer: asyncio.StreamWriter
+    ) -> None:
+        """Handle a request about components; it is completed even if the client disconnects."""
+
+        async def notify(text: str) -> None:
+            with contextlib.suppress(OSError):
+                await _send(writer, {"text": text})
+
+        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+            await notify("`components` must be a list of names")
+            await _send(writer, {"code": 1})
+            return
+        succeeded = await self._handle_request(verb, names, notify)
+        await _send(writer, {"code": 0 if succeeded else 1})
 
     async def _logs(
         self, request: dict[str, Any], reader: asyncio.StreamReader, writer: asyncio.StreamWriter

@@ -25,6 +25,7 @@ from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 
 _SIGNALS = {
@@ -55,8 +56,12 @@ def run(
     monitor: LifecycleMonitor,
     display: Display,
     options: Options,
+    replan: Replan | None = None,
 ) -> Outcome:
-    """Run `plan` in the foreground until it ends or is stopped."""
+    """Run `plan` in the foreground until it ends or is stopped.
+
+    `replan` reads the description again for components that are started on request.
+    """
     journal = LogJournal()
 
     def emit(record: LogRecord) -> None:
@@ -68,17 +73,24 @@ def run(
         plan, token, monitor, emit=emit, changed=display.changed, options=options
     )
     with _reaper_process(token, options.grace_s):
-        return asyncio.run(_run(supervisor, journal, lock, display))
+        return asyncio.run(_run(supervisor, journal, lock, display, replan))
 
 
 async def _run(
-    supervisor: Supervisor, journal: LogJournal, lock: instances.InstanceLock, display: Display
+    supervisor: Supervisor,
+    journal: LogJournal,
+    lock: instances.InstanceLock,
+    display: Display,
+    replan: Replan | None,
 ) -> Outcome:
     loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
         loop.add_signal_handler(number, supervisor.stop, reason)
     plan = supervisor.plan
-    server = ControlServer(journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time)
+    requests = ComponentRequests(supervisor, replan)
+    server = ControlServer(
+        journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time, requests.handle
+    )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())
     lock.publish(

@@ -20,7 +20,9 @@ TABLE = {
     "status": ("rcdeploy.status", "Show the components of a running deployment."),
     "logs": ("rcdeploy.logs", "Show the logs of a running deployment."),
     "param": ("rcdeploy.param", "Read and change parameters of running components."),
-    "stop": ("rcdeploy.stop", "Stop a running deployment and wait until it has exited."),
+    "stop": ("rcdeploy.stop", "Stop a running deployment, or components of it."),
+    "start": ("rcdeploy.start", "Start components of a running deployment."),
+    "restart": ("rcdeploy.restart", "Restart components of a running deployment."),
 }
 
 program = LazyGroup(

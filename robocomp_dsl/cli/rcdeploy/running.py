@@ -26,6 +26,16 @@ def resolve_deployment(which: str | None) -> instances.RunningDeployment:
     return matches[0]
 
 
+def is_deployment(word: str) -> bool:
+    """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
+    if word.lower().endswith(".ddsl"):
+        return True
+    try:
+        return any(_matches(deployment, word) for deployment in instances.running())
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+
+
 def _selection_problem(
     which: str | None,
     matches: list[instances.RunningDeployment],

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy import instances, session
 from robocomp_dsl.deploy.plan import Plan
+from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsupported_reason
 
 
@@ -82,16 +85,33 @@ def command(
     except instances.Unavailable as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
     try:
-        outcome = _run(checked.plan, claim, **how)
+        replan = partial(_replan, checked.plan, app, folders, name, group)
+        outcome = _run(checked.plan, claim, replan, **how)
     finally:
         claim.release()
     if outcome.code:
         raise CliError(EXIT_FINDINGS, outcome.reason)
 
 
+def _replan(
+    running: Plan, app: Path, folders: tuple[Path, ...], name: str | None, group: str | None
+) -> tuple[Plan, str]:
+    """The plan of the file as it is now, in the same domain. Raises `PlanRejected`."""
+    try:
+        checked = rcdeploy_app.check(app, folders, name, running.domain, group)
+    except click.UsageError as error:
+        raise PlanRejected(error.message) from None
+    text = io.StringIO()
+    options.print_findings(checked.findings, "full", text)
+    if checked.plan is None or not checked.ready:
+        raise PlanRejected(f"{text.getvalue()}{app} has errors; nothing was changed")
+    return checked.plan, text.getvalue().rstrip()
+
+
 def _run(
     plan: Plan,
     claim: instances.InstanceLock,
+    replan: Replan,
     *,
     output_format: str,
     live: bool | None,
@@ -116,6 +136,6 @@ def _run(
     )
     how = Options(grace_s=grace, duration_s=duration, keep_going=keep_going)
     try:
-        return session.run(plan, claim, watch, terminal, how)
+        return session.run(plan, claim, watch, terminal, how, replan)
     finally:
         terminal.close()

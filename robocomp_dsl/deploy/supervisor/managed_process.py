@@ -32,7 +32,6 @@ class SupervisorContext(Protocol):
 
     token: str
     grace_s: float
-    stopping: asyncio.Event
 
     def log(self, text: str, level: str = "INFO") -> None:
         """Log a message of rcdeploy."""
@@ -48,22 +47,27 @@ class ManagedProcess:
     """The process of one component.
 
     `done` is set when it will not run again; `failed` is then true after a permanent failure.
+    `on_request`: it was started by a request, while the deployment was running.
     """
 
-    def __init__(self, process: Process, context: SupervisorContext) -> None:
+    def __init__(
+        self, process: Process, context: SupervisorContext, *, on_request: bool = False
+    ) -> None:
         self.process = process
+        self.on_request = on_request
         self.name = process.name
         self.context = context
         self.child: ChildProcess | None = None
         self.ready = asyncio.Event()
         self.done = asyncio.Event()
+        self.stop_requested = asyncio.Event()
         self.failed = False
         self.restart_times: list[float] = []
         self._state = status.WAITING
         self._note = ""
         self._lifecycle_state = ""
         self._started = False
-        self._was_ready = False
+        self.was_ready = False
         self._killed = False
 
     def status(self) -> ProcessStatus:
@@ -112,34 +116,36 @@ class ManagedProcess:
     async def _wait_for_dependencies(self, dependencies: list[ManagedProcess]) -> bool:
         for dependency in dependencies:
             self._transition_to(status.WAITING, f"for {dependency.name}")
-            await wait_any(dependency.ready, dependency.done, self.context.stopping)
+            await wait_any(dependency.ready, dependency.done, self.stop_requested)
             available = dependency.is_available and not dependency.failed
-            if self.context.stopping.is_set() or not available:
+            if self.stop_requested.is_set() or not available:
                 reason = f"not started: {dependency.name} was not ready"
                 self._transition_to(status.EXITED, reason)
                 return False
-        return not self.context.stopping.is_set()
+        return not self.stop_requested.is_set()
 
     @property
     def is_available(self) -> bool:
         """Whether dependents can start: it is ready, or has exited successfully."""
+        if self.done.is_set() and self.stop_requested.is_set():
+            return False
         return self.ready.is_set() or (self.done.is_set() and self._started and not self.failed)
 
     async def _restart_loop(self) -> None:
         """Run the process and restart it as its policy requires."""
-        while not self.context.stopping.is_set():
+        while not self.stop_requested.is_set():
             code = await self._run_once()
-            if self.context.stopping.is_set():
+            if self.stop_requested.is_set():
                 self._on_stopped(code)
                 return
             decision = self._decide_restart(code)
-            if decision.delay_s is None or (self._killed and not self._was_ready):
+            if decision.delay_s is None or (self._killed and not self.was_ready):
                 self._on_final_exit(code, decision.reason)
                 return
             message = f"{self.name}: {self._note}, restarting in {decision.delay_s:g} s"
             self.context.log(message, "WARNING")
             self._transition_to(status.BACKOFF, self._note)
-            await wait_any(self.context.stopping, timeout=decision.delay_s)
+            await wait_any(self.stop_requested, timeout=decision.delay_s)
             self.restart_times.append(time.monotonic())
         self._transition_to(status.EXITED, self._note)
 
@@ -162,10 +168,10 @@ class ManagedProcess:
         child = self.child
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
         if self.ready.is_set():
-            self._was_ready = True
+            self.was_ready = True
             up = time.monotonic() - child.started
             self.context.log(f"{self.name} is ready after {up:.2f} s (pid {child.pid})")
-        elif not child.exited.is_set() and not self.context.stopping.is_set():
+        elif not child.exited.is_set() and not self.stop_requested.is_set():
             await self._on_start_timeout()
         await child.exited.wait()
         self.child = None
