@@ -210,6 +210,12 @@ ORDERS = [
     (["status", "app"], ["status", "app"]),
     (["--help"], ["--help"]),
     (["app.ddsl", "sttus"], ["sttus", "app.ddsl"]),
+    (["app.ddsl", "stop", "arm"], ["stop", "app.ddsl", "arm"]),
+    (["restart", "arm"], ["restart", "arm"]),
+    (["app.ddsl", "param", "set", "arm", "x=1"], ["param", "set", "app.ddsl", "arm", "x=1"]),
+    (["param", "app.ddsl", "list"], ["param", "list", "app.ddsl"]),
+    (["param", "list", "app.ddsl"], ["param", "list", "app.ddsl"]),
+    (["param", "app.ddsl"], ["param", "app.ddsl"]),
 ]
 
 
@@ -231,7 +237,10 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = rcdeploy("app.ddsl", "plan")
     assert (shown.returncode, shown.stderr) == (0, "")
     assert "2. eye (eye) after arm\n" in shown.stdout
-    assert f"cd arm && MODE='a b' {sys.executable} main.py --name arm --domain" in shown.stdout
+    assert (
+        f"(cd {folder}/arm && MODE='a b' {sys.executable} main.py --name arm --domain"
+        in shown.stdout
+    )
     assert shown.stdout.endswith("stops: eye, then arm\n")
     data = json.loads(rcdeploy("plan", "app.ddsl", "--format", "json", "--domain", "d").stdout)
     assert data["domain"] == "d"
@@ -246,7 +255,7 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = rcdeploy("plan", "app.ddsl")
     assert shown.returncode == 1
     assert "program not found: `nothing`" in shown.stderr
-    assert "cd arm && nothing --name arm" in shown.stdout
+    assert f"cd {folder}/arm && nothing --name arm" in shown.stdout
     started = rcdeploy("app.ddsl")
     assert started.returncode == 1
     assert "nothing was started (1 error)" in started.stderr

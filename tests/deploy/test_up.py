@@ -154,6 +154,43 @@ def test_parameters_of_running_components(folder: Path) -> None:
         assert app.end() == 0
 
 
+def test_components_are_stopped_and_started_by_name_and_by_hand(folder: Path) -> None:
+    with up() as app:
+        first = pid_in(app.until("eye sees a new arm"))
+        worker = folder / "arm" / "specificworker.py"
+        worker.write_text(worker.read_text().replace("arm begins", "new arm begins"))
+        (folder / "app.ddsl").write_text(APP.replace("rate = 20", "rate = 30"))
+        done = rcdeploy("app.ddsl", "restart", "arm")
+        assert (done.returncode, done.stderr) == (0, "")
+        second = status()["components"][0]["pid"]
+        assert done.stdout == f"arm: stopped\narm: ready (pid {second})\n"
+        app.until("new arm begins with abc 30.0 fast")
+        assert pid_in(app.until("eye sees a new arm")) == second != first
+
+        stopped = rcdeploy("stop", "arm")
+        assert stopped.stdout == "arm: stopped\nstill running without it: eye\n"
+        (shown,) = json.loads(rcdeploy("status", "--format", "json").stdout)
+        assert [c["state"] for c in shown["components"]] == ["exited", "ready"]
+        lines = rcdeploy("plan", "app.ddsl").stdout.splitlines()
+        (line,) = [line for line in lines if "--name arm" in line]
+        with Running("sh", "-c", line, where=Path("/")) as by_hand:
+            by_hand.until("new arm begins with abc 30.0 fast")
+            third = pid_in(app.until("eye sees a new arm"))
+            assert third not in (first, second)
+            os.kill(third, signal.SIGTERM)
+            assert by_hand.end() == 0
+
+        (folder / "app.ddsl").write_text(APP.replace("rate = 20", "raet = 20"))
+        refused = rcdeploy("start", "app", "arm")
+        assert refused.returncode == 1
+        assert "app.ddsl has errors; nothing was changed" in refused.stdout
+        (folder / "app.ddsl").write_text(APP)
+        assert rcdeploy("start").returncode == 0
+        app.until("new arm begins with abc 20.0 fast")
+        app.process.terminate()
+        assert app.end() == 0
+
+
 def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:
     with up() as app:
         first = pid_in(app.until("eye sees a new arm"))

@@ -16,7 +16,6 @@ from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy.plan import Plan, Process, batches
-from robocomp_dsl.deploy.preflight import short_path
 
 
 @click.command()
@@ -38,6 +37,7 @@ def command(
 ) -> None:
     """Show the processes that `up` would start, their order and connections; start nothing.
 
+    The command lines can be pasted into a shell. If the deployment is running, they join it.
     Exit code 1: it cannot be started now; standard error has the reasons.
     """
     checked = rcdeploy_app.check(app, folders, name, domain, group)
@@ -112,6 +112,6 @@ def _described(process: Process, wave: int) -> Iterator[str]:
         f"   {'devices' if not i else '       '} {line}" for i, line in enumerate(process.devices)
     )
     variables = [f"{key}={shlex.quote(value)}" for key, value in process.env]
-    yield f"   cd {shlex.quote(short_path(process.cwd))} && " + " ".join(
-        [*variables, shlex.join(process.argv)]
-    )
+    # In a subshell with an absolute path, so that the lines can be pasted one after the other.
+    command = " ".join([*variables, shlex.join(process.argv)])
+    yield f"   (cd {shlex.quote(str(process.cwd.resolve()))} && {command})"

@@ -26,6 +26,17 @@ def resolve_deployment(which: str | None) -> instances.RunningDeployment:
     return matches[0]
 
 
+def all_deployments() -> list[instances.RunningDeployment]:
+    """All running deployments of this user. Raises `CliError` if there is none."""
+    try:
+        known = instances.running()
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    if not known:
+        raise CliError(EXIT_FINDINGS, _selection_problem(None, [], []))
+    return known
+
+
 def is_deployment(word: str) -> bool:
     """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
     if word.lower().endswith(".ddsl"):
