@@ -28,6 +28,8 @@ from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 
+EXIT_BROKEN_PIPE = 141
+"""As in a shell: 128 + SIGPIPE."""
 _SIGNALS = {
     signal.SIGINT: "Ctrl-C",
     signal.SIGTERM: "SIGTERM",
@@ -42,9 +44,15 @@ class Display:
         """Show a line of output."""
 
     def attach(
-        self, statuses: Callable[[], list[ProcessStatus]], stop: Callable[[str], object]
+        self,
+        statuses: Callable[[], list[ProcessStatus]],
+        abort: Callable[[str], object],
+        log: Callable[[str], object],
     ) -> None:
-        """Receive functions that get the status and stop the run; callable from any thread."""
+        """Receive functions to get the status, to stop the run as failed, and to log a warning.
+
+        They can be called from any thread.
+        """
 
     def changed(self) -> None:
         """A status has changed."""
@@ -97,10 +105,13 @@ async def _run(
         instances.RunningDeployment(plan.name, path, plan.domain, os.getpid(), time.time())
     )
 
-    def stop(reason: str) -> None:
-        loop.call_soon_threadsafe(partial(supervisor.stop, reason))
+    def abort(reason: str) -> None:
+        loop.call_soon_threadsafe(partial(supervisor.stop, reason, EXIT_BROKEN_PIPE))
 
-    display.attach(supervisor.statuses, stop)
+    def log(text: str) -> None:
+        loop.call_soon_threadsafe(partial(supervisor.log, text, "WARNING"))
+
+    display.attach(supervisor.statuses, abort, log)
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
         outcome = await supervisor.run()

@@ -18,6 +18,7 @@ import pytest
 from robocomp_dsl.deploy.supervisor import reaper
 from tests.deploy.deploy_process import Running, runtime_folder
 from tests.deploy.deploy_robot import build
+from tests.support.waiting import wait_until
 
 PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 ARM = """
@@ -189,6 +190,27 @@ def test_components_are_stopped_and_started_by_name_and_by_hand(folder: Path) ->
         app.until("new arm begins with abc 20.0 fast")
         app.process.terminate()
         assert app.end() == 0
+
+
+def test_up_runs_on_a_full_disk_and_ends_with_its_reader(folder: Path) -> None:
+    command = [sys.executable, "-c", PROGRAM, "app.ddsl"]
+    with Path("/dev/full").open("w") as full:
+        process = subprocess.Popen(command, stdout=full, stderr=full, start_new_session=True)
+    try:
+        wait_until(lambda: "all 2 components are ready" in rcdeploy("logs").stdout)
+        assert "standard output refuses log lines (No space left" in rcdeploy("logs").stdout
+        assert [row["state"] for row in status()["components"]] == ["ready", "ready"]
+        process.terminate()
+        assert process.wait(60) == 0
+    finally:
+        process.kill()
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer) as pipe:
+        closed = subprocess.run(
+            command, stdout=pipe, stderr=subprocess.PIPE, text=True, check=False, timeout=60
+        )
+    assert (closed.returncode, closed.stderr) == (141, "error: output closed (broken pipe)\n")
 
 
 def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:

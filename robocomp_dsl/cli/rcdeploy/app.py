@@ -45,7 +45,7 @@ def check(
     """Judge a deployment: first the text and all it imports, then what this machine has.
 
     With `group` it is about that group alone; raises `click.BadParameter` where there is none.
-    Without `domain` the plan has the domain of the deployment if it is running, otherwise a new one.
+    Without `domain` the plan has the domain of the deployment if it runs, otherwise a new one.
     """
     from robocomp_dsl.check.passes import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415

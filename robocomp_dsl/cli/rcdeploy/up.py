@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import sys
 from functools import partial
@@ -70,10 +71,11 @@ def command(
     """Check the deployment, start its components in order, and supervise them.
 
     The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
-    findings or a failed component.
+    findings or a failed component, 141 if the reader of its output has gone.
     """
     checked = rcdeploy_app.check(app, folders, name, domain, group)
-    options.print_findings(checked.findings, "full", sys.stderr)
+    with contextlib.suppress(OSError):  # a full disk does not keep a robot from running
+        options.print_findings(checked.findings, "full", sys.stderr)
     if checked.plan is None or not checked.ready:
         raise CliError(
             EXIT_FINDINGS, f"{app}: nothing was started ({options.summary(checked.findings)})"
@@ -90,7 +92,7 @@ def command(
     finally:
         claim.release()
     if outcome.code:
-        raise CliError(EXIT_FINDINGS, outcome.reason)
+        raise CliError(outcome.code, outcome.reason)
 
 
 def _replan(

@@ -40,7 +40,11 @@ class Options:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """How a run ended. `code` 0: stopped on request, or all exited successfully; 1: a failure."""
+    """How a run ended, with its exit code.
+
+    0: stopped on request, or all exited successfully; 1: a component failed; 141: nobody reads the
+    output any more.
+    """
 
     code: int
     reason: str
@@ -76,7 +80,7 @@ class Supervisor:
         self.grace_s = options.grace_s
         self.stopping = asyncio.Event()
         self._kill_now = asyncio.Event()
-        self._reason = ""
+        self._reason, self._code = "", 0
         self._monitor = monitor
         self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -94,14 +98,17 @@ class Supervisor:
         """Emit a log record of rcdeploy."""
         self.emit(LogRecord(time.time(), RCDEPLOY, level, text))
 
-    def stop(self, reason: str) -> None:
-        """Stop all processes in order; a second call kills the remaining processes."""
+    def stop(self, reason: str, code: int = 0) -> None:
+        """Stop all processes in order; a second call kills the remaining processes.
+
+        `code` is that of the outcome if no component fails.
+        """
         if self.stopping.is_set():
             if not self._kill_now.is_set():
                 self.log("second stop request: killing the remaining processes", "WARNING")
             self._kill_now.set()
             return
-        self._reason = reason
+        self._reason, self._code = reason, code
         self.log(f"stopping: {reason}")
         self.stopping.set()
         for process in self._processes.values():
@@ -252,7 +259,7 @@ class Supervisor:
         failed = [process.name for process in self._processes.values() if process.failed]
         if failed:
             return Outcome(1, f"failed: {', '.join(failed)}")
-        return Outcome(0, self._reason or "all components exited")
+        return Outcome(self._code, self._reason or "all components exited")
 
 
 def _may_be_started(process: ManagedProcess) -> bool:
