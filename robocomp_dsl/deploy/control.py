@@ -14,7 +14,7 @@ import json
 import socket
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -37,14 +37,18 @@ class LogJournal:
     def __init__(self) -> None:
         self._records: deque[LogRecord] = deque(maxlen=JOURNAL_SIZE)
         self._followers: set[asyncio.Queue[LogRecord]] = set()
+        self._count = 0
 
-    def add(self, record: LogRecord) -> None:
-        """Store `record` and pass it to all followers."""
+    def add(self, record: LogRecord) -> LogRecord:
+        """Number `record`, store it and pass it to all followers; returns the numbered record."""
+        self._count += 1
+        record = replace(record, sequence=self._count)
         self._records.append(record)
         for queue in self._followers:
             if queue.full():
                 queue.get_nowait()
             queue.put_nowait(record)
+        return record
 
     def last(self, count: int, matches: RecordFilter) -> list[LogRecord]:
         """The latest `count` records that match, oldest first."""
@@ -148,10 +152,10 @@ class ControlServer:
     async def _logs(
         self, request: dict[str, Any], reader: asyncio.StreamReader, writer: asyncio.StreamWriter
     ) -> None:
-        names = request.get("components")
+        names, after = request.get("components"), int(request.get("after", 0))
 
         def matches(record: LogRecord) -> bool:
-            return not names or record.component in names
+            return record.sequence > after and (not names or record.component in names)
 
         async def send(record: LogRecord) -> None:
             if matches(record):

@@ -20,6 +20,7 @@ from pathlib import Path
 
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.control import ControlServer, LogJournal
+from robocomp_dsl.deploy.log_store import LogStore
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus
@@ -65,23 +66,33 @@ def run(
     display: Display,
     options: Options,
     replan: Replan | None = None,
+    store: LogStore | None = None,
 ) -> Outcome:
     """Run `plan` in the foreground until it ends or is stopped.
 
-    `replan` reads the description again for components that are started on request.
+    `store` keeps the logs. `replan` reads the description again for components that are started on
+    request.
     """
     journal = LogJournal()
 
     def emit(record: LogRecord) -> None:
-        journal.add(record)
+        record = journal.add(record)
         display.record(record)
+        if store:
+            store.record(record)
 
     token = f"{plan.domain}.{os.getpid()}"
     supervisor = Supervisor(
         plan, token, monitor, emit=emit, changed=display.changed, options=options
     )
-    with _reaper_process(token, options.grace_s):
-        return asyncio.run(_run(supervisor, journal, lock, display, replan))
+    outcome = Outcome(1, "rcdeploy itself failed")
+    try:
+        with _reaper_process(token, options.grace_s):
+            outcome = asyncio.run(_run(supervisor, journal, lock, display, replan, store))
+    finally:
+        if store:
+            store.close(outcome.code, outcome.reason)
+    return outcome
 
 
 async def _run(
@@ -90,6 +101,7 @@ async def _run(
     lock: instances.InstanceLock,
     display: Display,
     replan: Replan | None,
+    store: LogStore | None,
 ) -> Outcome:
     loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
@@ -106,12 +118,16 @@ async def _run(
     )
 
     def abort(reason: str) -> None:
-        loop.call_soon_threadsafe(partial(supervisor.stop, reason, EXIT_BROKEN_PIPE))
+        with contextlib.suppress(RuntimeError):  # the loop is closed: it has ended already
+            loop.call_soon_threadsafe(partial(supervisor.stop, reason, EXIT_BROKEN_PIPE))
 
     def log(text: str) -> None:
-        loop.call_soon_threadsafe(partial(supervisor.log, text, "WARNING"))
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(partial(supervisor.log, text, "WARNING"))
 
     display.attach(supervisor.statuses, abort, log)
+    if store:
+        store.attach(log)
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
         outcome = await supervisor.run()

@@ -57,6 +57,7 @@ Deployment app
 def sockets(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Where the processes of the test find each other."""
     with runtime_folder(monkeypatch) as path:
+        monkeypatch.setenv("XDG_STATE_HOME", str(path.parent / "state"))
         yield path
 
 
@@ -81,7 +82,9 @@ def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
 
 
 def status(name: str = "app") -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(rcdeploy("status", name, "--format", "json").stdout)
+    answer = rcdeploy("status", name, "--format", "json")
+    assert answer.stdout, answer.stderr
+    found: dict[str, Any] = json.loads(answer.stdout)
     return found
 
 
@@ -211,6 +214,48 @@ def test_up_runs_on_a_full_disk_and_ends_with_its_reader(folder: Path) -> None:
             command, stdout=pipe, stderr=subprocess.PIPE, text=True, check=False, timeout=60
         )
     assert (closed.returncode, closed.stderr) == (141, "error: output closed (broken pipe)\n")
+
+
+def test_logs_are_kept_after_the_end_and_after_a_crash(folder: Path) -> None:
+    with up() as app:
+        app.until("eye sees a new arm")
+        with Running(sys.executable, "-c", PROGRAM, "logs", "-f", "--json") as follower:
+            follower.until("eye sees a new arm")
+            app.process.terminate()
+            assert app.end() == 0
+            assert follower.end() == 0
+    followed = [json.loads(line) for line in follower.lines]
+    assert [r["sequence"] for r in followed] == list(range(1, len(followed) + 1))
+    assert [r["text"] for r in followed[-2:]] == ["eye finalizes", "arm finalizes"]
+    with up() as app:
+        app.until("all 2 components are ready")
+        wait_until(lambda: "components are ready" in rcdeploy("logs").stdout)
+        app.process.kill()
+        app.end()
+        killed_pids = [int(x) for x in re.findall(r"pid (\d+)", "\n".join(app.lines))]
+        reaper._wait_for_exit(killed_pids, 60)
+    crashed = rcdeploy("logs", "app.ddsl")
+    assert (crashed.returncode, crashed.stderr) == (0, "")
+    assert "all 2 components are ready" in crashed.stdout
+    assert "finalizes" not in crashed.stdout
+    before = rcdeploy("logs", "--run", "-1", "--json").stdout.splitlines()
+    assert [json.loads(line) for line in before] == followed
+    assert rcdeploy("logs", "--run", "1", "--json").stdout.splitlines() == before
+    matched = rcdeploy("logs", "app", "--run", "-1", "--grep", "final.zes", "-c", "arm").stdout
+    assert [line.partition("| ")[2] for line in matched.splitlines()] == ["arm finalizes"]
+    assert rcdeploy("logs", "--level", "error", "--since", "1 h").stdout == ""
+    runs = rcdeploy("logs", "--runs").stdout.splitlines()
+    assert runs[0].endswith("exit code 0: SIGTERM")
+    assert runs[1].endswith("killed: rcdeploy could not end it")
+    for wrong, code, message in (
+        (("--run", "-2"), 1, "there is no run -2 of `app`"),
+        (("--grep", "("), 2, "`(` is not a regular expression"),
+        (("--since", "soon"), 2, "`soon` is no time"),
+        (("-c", "amr"), 1, "there is no component `amr`"),
+        (("other",), 1, "`other` is not running and has no stored logs; stored: app"),
+    ):
+        result = rcdeploy("logs", *wrong)
+        assert (result.returncode, message in result.stderr) == (code, True), result.stderr
 
 
 def test_a_killed_component_comes_back_and_its_client_goes_on(folder: Path) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import sys
+import time
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -15,9 +17,13 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy import instances, session
+from robocomp_dsl.deploy.log_runs import LogRun
+from robocomp_dsl.deploy.log_store import DAY_S, LogLimits, LogStore
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsupported_reason
+
+MEGABYTE = 1_000_000
 
 
 @click.command()
@@ -59,6 +65,22 @@ from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsuppor
     "live",
     default=None,
     help="Show the status table below the log; default: on a terminal.",
+)
+@click.option(
+    "--log-size",
+    type=click.IntRange(min=1),
+    default=LogLimits().size // MEGABYTE,
+    show_default=True,
+    metavar="MB",
+    help="Limit of the stored logs of all runs together.",
+)
+@click.option(
+    "--log-days",
+    type=click.FloatRange(min=0),
+    default=LogLimits().age_s / DAY_S,
+    show_default=True,
+    metavar="DAYS",
+    help="Older logs are deleted.",
 )
 def command(
     app: Path,
@@ -120,6 +142,8 @@ def _run(
     duration: float | None,
     grace: float,
     keep_going: bool,
+    log_size: int,
+    log_days: float,
 ) -> Outcome:
     from robocomp_dsl.cli.rcdeploy.terminal import Terminal  # noqa: PLC0415 - not for --help
     from robocomp_dsl.deploy.supervisor.zenoh_monitor import ZenohMonitor  # noqa: PLC0415
@@ -137,7 +161,21 @@ def _run(
         as_json=output_format == "json",
     )
     how = Options(grace_s=grace, duration_s=duration, keep_going=keep_going)
+    store = _open_log_store(plan, LogLimits(log_size * MEGABYTE, log_days * DAY_S))
     try:
-        return session.run(plan, claim, watch, terminal, how, replan)
+        return session.run(plan, claim, watch, terminal, how, replan, store)
     finally:
         terminal.close()
+
+
+def _open_log_store(plan: Plan, limits: LogLimits) -> LogStore | None:
+    """Where the logs of this run are stored; None, and a warning, where they cannot be."""
+    components = tuple(process.name for process in plan.processes)
+    path = str(plan.path.resolve())
+    run = LogRun(plan.name, path, plan.domain, os.getpid(), time.time(), components)
+    try:
+        return LogStore(run, limits)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            print(f"warning: logs are not stored: {error}", file=sys.stderr)
+        return None
