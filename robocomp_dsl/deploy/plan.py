@@ -22,6 +22,8 @@ from robocomp_dsl.model.deployment import (
     Host,
     Instance,
     Qos,
+    Readiness,
+    ResourceLimits,
     Restart,
 )
 from robocomp_dsl.model.types import Literal
@@ -53,6 +55,8 @@ class Process:
     stops_after: tuple[str, ...] = ()
     restart: Restart = field(default_factory=Restart)
     start_timeout_s: float = START_TIMEOUT_S
+    readiness: Readiness = field(default_factory=Readiness)
+    limits: ResourceLimits = field(default_factory=ResourceLimits)
     port: int = 0
     config: Path | None = None
     context: str = ""
@@ -136,6 +140,8 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         env=(*instance.environment, *devices_environment(instance.devices)),
         restart=Restart("never") if stops_all else instance.restart,
         start_timeout_s=instance.start_timeout_s,
+        readiness=instance.readiness,
+        limits=instance.limits,
         port=instance.port,
         config=instance.config,
         context=instance.context,

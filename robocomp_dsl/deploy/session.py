@@ -10,13 +10,10 @@ import asyncio
 import contextlib
 import os
 import signal
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from pathlib import Path
 
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.control import ControlServer, LogJournal
@@ -24,8 +21,8 @@ from robocomp_dsl.deploy.log_store import LogStore
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus
-from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.reaper_process import ReaperProcess
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 
@@ -87,8 +84,13 @@ def run(
     )
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
-        with _reaper_process(token, options.grace_s):
-            outcome = asyncio.run(_run(supervisor, journal, lock, display, replan, store))
+        reaper = ReaperProcess(token, options.grace_s)
+        try:
+            outcome = asyncio.run(_run(supervisor, journal, lock, display, replan, store, reaper))
+        except BaseException:
+            reaper.close(clean=False)
+            raise
+        reaper.close(clean=True)
     finally:
         if store:
             store.close(outcome.code, outcome.reason)
@@ -102,6 +104,7 @@ async def _run(
     display: Display,
     replan: Replan | None,
     store: LogStore | None,
+    reaper: ReaperProcess,
 ) -> Outcome:
     loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
@@ -128,25 +131,12 @@ async def _run(
     display.attach(supervisor.statuses, abort, log)
     if store:
         store.attach(log)
+    supervisor.receive_notifications(lock.folder)
+    watch = loop.create_task(reaper.watch(supervisor.log))
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
         outcome = await supervisor.run()
     finally:
+        watch.cancel()
         await server.close(asdict(outcome))
     return outcome
-
-
-@contextlib.contextmanager
-def _reaper_process(token: str, grace_s: float) -> Iterator[None]:
-    """Run the reaper, which terminates the components if this process is killed."""
-    script = Path(reaper.__file__)
-    command = [sys.executable, "-I", "-S", str(script), token, str(grace_s)]
-    process = subprocess.Popen(  # noqa: S603 - our own script
-        command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
-    )
-    try:
-        yield
-    except BaseException:
-        process.communicate()
-        raise
-    process.communicate(reaper.CLEAN_SHUTDOWN)

@@ -32,6 +32,26 @@ class Restart(ValueRecord):
     window_s: float = 60.0
 
 
+class Readiness(ValueRecord):
+    """When a program without lifecycle is ready; at most one is set.
+
+    `pattern`: a line of its output matches this regular expression; `port`: this TCP port of
+    loopback accepts connections; `delay_s`: it has run so long. The default: its lifecycle, or
+    `READY=1` of sd_notify(3).
+    """
+
+    pattern: str = ""
+    port: int = 0
+    delay_s: float = 0.0
+
+
+class ResourceLimits(ValueRecord):
+    """Limits of a process and its children; 0: none. `cpu` 1.0 is one core."""
+
+    memory_bytes: int = 0
+    cpu: float = 0.0
+
+
 THIS_MACHINE = "localhost"
 """The implicitly declared host."""
 
@@ -83,6 +103,8 @@ class Instance(Record):
     after: tuple[str, ...] = ()
     restart: Restart = Restart()
     start_timeout_s: float = START_TIMEOUT_S
+    readiness: Readiness = Readiness()
+    limits: ResourceLimits = ResourceLimits()
     doc: str = ""
     group: str = ""
     host_span: Span | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
@@ -15,6 +16,7 @@ import pytest
 
 from robocomp_dsl.deploy import control, instances
 from robocomp_dsl.deploy.supervisor import reaper
+from robocomp_dsl.deploy.supervisor.resource_limits import process_tree
 from tests.deploy.deploy_actors import STEADY
 from tests.deploy.deploy_process import DEADLINE_S, Running, runtime_folder
 
@@ -114,6 +116,41 @@ print("daemon", child.pid); tell("compute"); wait()
     assert note.exists()
     assert instances.running() == []
     begin(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
+
+
+def reaper_of(pid: int) -> int:
+    """The pid of the reaper of the rcdeploy `pid`; 0 if it has none."""
+    for child in process_tree(pid)[1:]:
+        with contextlib.suppress(OSError):
+            if "reaper.py" in Path(f"/proc/{child}/cmdline").read_text():
+                return child
+    return 0
+
+
+def test_a_reaper_that_dies_is_replaced(tmp_path: Path, sessions: ExitStack) -> None:
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    first = reaper_of(session.process.pid)
+    os.kill(first, signal.SIGKILL)
+    line = session.until(f"the reaper (pid {first})")
+    assert "died (killed by SIGKILL); started a new one" in line
+    second = reaper_of(session.process.pid)
+    assert second not in (0, first)
+    running = pids("demo")
+    assert all(map(is_alive, running))
+    session.process.kill()
+    session.end()
+    wait_for_end([*running, second])
+
+
+def test_a_reaper_that_died_last_does_not_hinder_the_end(
+    tmp_path: Path, sessions: ExitStack
+) -> None:
+    session = begin(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    os.kill(reaper_of(session.process.pid), signal.SIGKILL)
+    session.process.terminate()
+    assert session.end() == 0
 
 
 def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: ExitStack) -> None:

@@ -15,6 +15,7 @@ from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
 from robocomp_dsl.check.ddsl.devices import resolve_devices
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
+from robocomp_dsl.check.ddsl.readiness import limits_of, readiness_of
 from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
@@ -57,6 +58,7 @@ def resolve_instance(
     executable = _executable(tree.executable, report)
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
+    readiness, limits = readiness_of(tree.ready_when, report), limits_of(tree, report)
     environment = unique_by_name(tree.environment, "environment variable", report)
     devices = resolve_devices(tree, report)
     if component is None:
@@ -78,6 +80,8 @@ def resolve_instance(
         after=tuple(dict.fromkeys(node.text for node in tree.after)),
         restart=restart,
         start_timeout_s=ready,
+        readiness=readiness,
+        limits=limits,
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,

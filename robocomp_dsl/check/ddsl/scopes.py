@@ -151,6 +151,9 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 (*own, *waits),
                 tree.restart,
                 tree.ready,
+                tree.ready_when,
+                tree.memory,
+                tree.cpu,
                 tree.doc,
             )
             resolved.append((renamed, nested.path))

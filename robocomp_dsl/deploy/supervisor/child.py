@@ -12,11 +12,12 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import IO
 
 from robocomp_dsl.deploy.logs import LineSplitter, LogRecord
 from robocomp_dsl.deploy.plan import Process
+from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
 
@@ -29,12 +30,19 @@ class ChildProcess:
     A code of -N means that signal N terminated it. Raises `OSError` if it cannot be started.
     """
 
-    def __init__(self, process: Process, token: str, emit: Callable[[LogRecord], None]) -> None:
+    def __init__(
+        self,
+        process: Process,
+        token: str,
+        emit: Callable[[LogRecord], None],
+        variables: Mapping[str, str],
+    ) -> None:
         self._emit = emit
         self._loop = asyncio.get_running_loop()
         environment = {
             "PYTHONUNBUFFERED": "1",
-            **os.environ,
+            **{k: v for k, v in os.environ.items() if k not in FOREIGN_VARIABLES},
+            **variables,
             **dict(process.env),
             DEPLOYMENT_VARIABLE: token,
         }

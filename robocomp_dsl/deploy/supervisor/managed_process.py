@@ -17,6 +17,7 @@ from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor import lifecycle_monitor
 from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
+from robocomp_dsl.model.deployment import Readiness
 
 CLEAN_EXIT_CODES = (0, -signal.SIGTERM, 128 + signal.SIGTERM)
 """Exit codes of a process that exited as requested."""
@@ -31,6 +32,7 @@ class SupervisorContext(Protocol):
     """What a managed process needs from the supervisor."""
 
     token: str
+    environment: dict[str, str]
     grace_s: float
 
     def log(self, text: str, level: str = "INFO") -> None:
@@ -41,6 +43,9 @@ class SupervisorContext(Protocol):
 
     def changed(self) -> None:
         """A status has changed."""
+
+    def on_started(self, managed: ManagedProcess, child: ChildProcess) -> None:
+        """A process was started."""
 
 
 class ManagedProcess:
@@ -69,6 +74,7 @@ class ManagedProcess:
         self._started = False
         self.was_ready = False
         self._killed = False
+        self._failure = ""
 
     def status(self) -> ProcessStatus:
         """The current status."""
@@ -96,12 +102,36 @@ class ManagedProcess:
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
         self._lifecycle_state = state
-        if state in lifecycle_monitor.READY_STATES:
+        own_condition = self.process.readiness != Readiness()
+        if state in lifecycle_monitor.READY_STATES and not own_condition:
             self.ready.set()
         if self.ready.is_set():
             self._transition_to(status.READY if state else status.UNKNOWN, "")
         else:
             self._transition_to(status.STARTING, "")
+
+    def mark_ready(self) -> None:
+        """The process has shown that it is ready, by another sign than its lifecycle."""
+        if self.child is not None and self._state == status.STARTING:
+            self.ready.set()
+            self._transition_to(status.READY, self._note)
+
+    def set_status_text(self, text: str) -> None:
+        """Show what the process says of itself."""
+        if self.child is not None and self._state in (status.STARTING, status.READY):
+            self._transition_to(self._state, text)
+
+    def warn(self, text: str) -> None:
+        """Log a warning about the process."""
+        self.context.log(f"{self.name} {text}", "WARNING")
+
+    async def fail(self, reason: str) -> None:
+        """End the process as failed; its policy decides on a restart."""
+        if self.child is None or self._state == status.STOPPING:
+            return
+        self._killed, self._failure = True, reason
+        self.context.log(f"{self.name} {reason}", "ERROR")
+        await self.terminate(self.context.grace_s)
 
     async def run(self, dependencies: list[ManagedProcess]) -> None:
         """Run until it will not run again. All `dependencies` must be ready before it starts."""
@@ -156,9 +186,11 @@ class ManagedProcess:
     async def _run_once(self) -> int:
         """Start the process and wait for its exit; returns the exit code."""
         self.ready.clear()
-        self._killed = False
+        self._killed, self._failure = False, ""
         try:
-            self.child = ChildProcess(self.process, self.context.token, self.context.emit)
+            self.child = ChildProcess(
+                self.process, self.context.token, self.context.emit, self.context.environment
+            )
         except OSError as error:
             self._note = f"cannot be started: {error.strerror or error}"
             return EXIT_NOT_FOUND
@@ -166,6 +198,7 @@ class ManagedProcess:
         self._lifecycle_state = ""
         self._transition_to(status.STARTING, "")
         child = self.child
+        self.context.on_started(self, child)
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
         if self.ready.is_set():
             self.was_ready = True
@@ -176,6 +209,7 @@ class ManagedProcess:
         await child.exited.wait()
         self.child = None
         if self._killed:
+            self._note = self._failure or self._note
             return EXIT_TIMEOUT
         self._note = describe_exit(child.code)
         return child.code

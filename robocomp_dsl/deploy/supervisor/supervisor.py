@@ -8,19 +8,22 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import os
 import time
 from asyncio import FIRST_COMPLETED
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.deploy.logs import RCDEPLOY, LogRecord
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 from robocomp_dsl.deploy.supervisor import reaper
+from robocomp_dsl.deploy.supervisor.child import ChildProcess
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess, wait_any
+from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
+from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,15 +53,6 @@ class Outcome:
     reason: str
 
 
-def unsupported_reason() -> str:
-    """Why this system cannot supervise processes; empty if it can."""
-    try:
-        os.close(os.pidfd_open(os.getpid()))
-    except (AttributeError, OSError):
-        return "rcdeploy requires Linux 5.3 or newer (system call pidfd_open)"
-    return ""
-
-
 class Supervisor:
     """Supervises one plan."""
 
@@ -74,17 +68,40 @@ class Supervisor:
     ) -> None:
         self.plan = plan
         self.token = token
-        self.emit = emit
+        self._emit = emit
         self.changed = changed
         self.options = options
         self.grace_s = options.grace_s
+        self.environment: dict[str, str] = {}
         self.stopping = asyncio.Event()
         self._kill_now = asyncio.Event()
         self._reason, self._code = "", 0
         self._monitor = monitor
+        self._notify: NotifySocket | None = None
+        self._watches: dict[str, ProcessWatch] = {}
         self._processes = {p.name: ManagedProcess(p, self) for p in plan.processes}
         self._tasks: set[asyncio.Task[None]] = set()
         self._requests = 0
+
+    def emit(self, record: LogRecord) -> None:
+        """Emit a log record; a line of a component may show that it is ready."""
+        self._emit(record)
+        if watch := self._watches.get(record.component):
+            watch.observe(record.text)
+
+    def on_started(self, managed: ManagedProcess, child: ChildProcess) -> None:
+        """Watch a process that was started."""
+        self._watches[managed.name] = ProcessWatch(managed, child)
+
+    def receive_notifications(self, folder: Path) -> None:
+        """Listen for sd_notify messages at a socket in `folder`, before `run`."""
+        self._notify = NotifySocket(folder, self._on_notification)
+        self.environment = {SOCKET_VARIABLE: self._notify.address}
+
+    def _on_notification(self, pid: int, assignments: Mapping[str, str]) -> None:
+        for name, process in self._processes.items():
+            if process.child is not None and process.child.owns(pid):
+                self._watches[name].on_message(assignments)
 
     def statuses(self) -> list[ProcessStatus]:
         """The status of all components."""
@@ -133,6 +150,8 @@ class Supervisor:
             for task in (duration, stopping, *self._tasks):
                 task.cancel()
             self._monitor.close()
+            if self._notify:
+                self._notify.close()
             await asyncio.to_thread(self._kill_leftovers)
         return self._outcome()
 

@@ -37,6 +37,24 @@ class Restart(Node):
     window: Duration | None = None
 
 
+class ReadyWhen(Node):
+    """`ready when log matches "listening";`, `ready when port 8080 answers;`, `ready after 2 s;`.
+
+    Exactly one of the three is set.
+    """
+
+    pattern: Text | None = None
+    port: Number | None = None
+    delay: Duration | None = None
+
+
+class Memory(Node):
+    """`memory 500 MB;`."""
+
+    amount: Number
+    unit: Name
+
+
 class Device(Node):
     """`device arm : control_board { set part = LArm; };`."""
 
@@ -87,6 +105,9 @@ class Instance(Node):
     after: tuple[Name, ...] = ()
     restart: Restart | None = None
     ready: Duration | None = None
+    ready_when: ReadyWhen | None = None
+    memory: Memory | None = None
+    cpu: Number | None = None
     doc: str = ""
 
 

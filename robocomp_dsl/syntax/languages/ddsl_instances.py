@@ -15,6 +15,7 @@ from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
 from robocomp_dsl.syntax.languages.ddsl_devices import DevicesBuilder
 
 POLICIES = ("on-failure", "always", "never")
+MEMORY_UNITS = ("kB", "MB", "GB", "KiB", "MiB", "GiB")
 TIME_UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
 
 
@@ -111,6 +112,27 @@ class InstancesBuilder(DevicesBuilder):
     def ready(self, span: Span, within: Duration) -> BlockSetting:
         """`ready within 10 s;`."""
         return BlockSetting(span, "ready", within)
+
+    def ready_log(self, span: Span, pattern: Text) -> BlockSetting:
+        """`ready when log matches "…";`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, pattern))
+
+    def ready_port(self, span: Span, port: Number) -> BlockSetting:
+        """`ready when port 8080 answers;`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, None, port))
+
+    def ready_after(self, span: Span, delay: Duration) -> BlockSetting:
+        """`ready after 2 s;`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, None, None, delay))
+
+    def memory(self, span: Span, amount: Number, unit: Name) -> BlockSetting:
+        """`memory 500 MB;`."""
+        self.check_choice(unit, MEMORY_UNITS, "unit of memory")
+        return BlockSetting(span, "memory", ast.Memory(span, amount, unit))
+
+    def cpu(self, span: Span, share: Number) -> BlockSetting:
+        """`cpu 80 %;`."""
+        return BlockSetting(span, "cpu", share)
 
     def duration(self, span: Span, value: Number, unit: Name) -> Duration:
         """`10 s`."""
