@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.introspection import Introspection
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle, LifecycleState
+from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
@@ -65,6 +66,7 @@ class Runner:
             settings.clock.with_prefix(settings.prefix), owner, self.middleware
         )
         self._failed = False
+        self.notifier = SystemdNotifier()
         self.worker = self._create_worker(component, clock or self._clock_binding.clock)
         self.lifecycle = Lifecycle(
             self.worker,
@@ -72,7 +74,7 @@ class Runner:
             self.worker.clock,
             self.callback_group,
             self.statistics,
-            lambda state: self.middleware.publish_state(state.value),
+            self._publish_state,
         )
         if self.spec.machine:
             self.worker.machine = self.lifecycle.machine = Machine(
@@ -81,6 +83,11 @@ class Runner:
         self._stop_requests: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
         self._succeeded = False
+
+    def _publish_state(self, state: LifecycleState) -> None:
+        self.middleware.publish_state(state.value)
+        in_emergency = state is LifecycleState.EMERGENCY
+        self.notifier.state_changed(state.value, self.lifecycle.reason if in_emergency else "")
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
         """The user's object, with the attributes that `Component` declares."""
