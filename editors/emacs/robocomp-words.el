@@ -54,6 +54,7 @@
      "threads"
      "useQt"
      "visual"
+     "watchdog"
      "worker")
     (pdsl t
      "ComponentParams"
@@ -112,6 +113,7 @@
      "to"
      "true"
      "user"
+     "watchdog"
      "when"
      "within")
     (smdsl t

@@ -19,8 +19,9 @@ from robocomp_dsl.check.workspace.workspace import MIDDLEWARES
 from robocomp_dsl.model.types import PRIMITIVES
 from robocomp_dsl.syntax.grammar.build_tables import LANGUAGES as NAMES
 from robocomp_dsl.syntax.grammar.build_tables import build_tables, lark_parser
+from robocomp_dsl.syntax.languages.builder import TIME_UNITS
 from robocomp_dsl.syntax.languages.cdsl_settings import LANGUAGES, OPTIONS, WIDGETS
-from robocomp_dsl.syntax.languages.ddsl_instances import POLICIES, TIME_UNITS
+from robocomp_dsl.syntax.languages.ddsl_instances import POLICIES
 from robocomp_dsl.syntax.languages.idsl_operations import PATTERNS
 
 VALUES = {

@@ -1,6 +1,6 @@
 """Queries running components through their interface `Component`.
 
-In: a domain, names of components. Out: proxies, or the `ComponentInfo` of each component.
+In: a domain, names of components. Out: proxies, or the `ComponentState` of each component.
 """
 
 from __future__ import annotations
@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from robocomp_dsl.runtime.client import DomainClient
@@ -34,8 +35,18 @@ def component_proxies(domain: str, timeout_s: float) -> Iterator[ProxyFactory]:
         yield proxy_of
 
 
-def fetch_infos(domain: str, names: Iterable[str], timeout_s: float) -> Mapping[str, ComponentInfo]:
-    """The `ComponentInfo` of each component; components that do not reply in time are left out."""
+@dataclass(frozen=True, slots=True)
+class ComponentState:
+    """What a running component says about itself."""
+
+    info: ComponentInfo
+    overruns: int
+
+
+def fetch_states(
+    domain: str, names: Iterable[str], timeout_s: float
+) -> Mapping[str, ComponentState]:
+    """The state of each component; components that do not reply in time are left out."""
     requested = list(names)
     if not requested:
         return {}
@@ -44,14 +55,16 @@ def fetch_infos(domain: str, names: Iterable[str], timeout_s: float) -> Mapping[
             component_proxies(domain, timeout_s) as proxy_of,
             ThreadPoolExecutor(_MAX_PARALLEL) as pool,
         ):
-            replies = pool.map(lambda name: _fetch_info(proxy_of(name), timeout_s), requested)
-            return {name: info for name, info in zip(requested, replies, strict=True) if info}
+            replies = pool.map(lambda name: _fetch_state(proxy_of(name), timeout_s), requested)
+            return {name: state for name, state in zip(requested, replies, strict=True) if state}
     except MiddlewareError:
         return {}
 
 
-def _fetch_info(proxy: ComponentProxy, timeout_s: float) -> ComponentInfo | None:
+def _fetch_state(proxy: ComponentProxy, timeout_s: float) -> ComponentState | None:
     try:
-        return proxy.getInfo() if proxy.wait_for_server(timeout_s) else None
+        if not proxy.wait_for_server(timeout_s):
+            return None
+        return ComponentState(proxy.getInfo(), proxy.getStatistics().overruns)
     except MiddlewareError:
         return None

@@ -168,9 +168,14 @@ def _command_line(
     argv += ["--config-name", instance.config_name] if instance.config_name else []
     argv += [word for setting in format_settings(instance) for word in ("--set", setting)]
     argv += ["--listen-port", str(instance.port)] if instance.port else []
+    argv += _watchdog_flags(instance)
     if deployment.clock.source:
         argv += ["--clock", format_clock(deployment.clock, instance, deployment.instances)]
     return argv + _connection_flags(instance, deployment.connections)
+
+
+def _watchdog_flags(instance: Instance) -> list[str]:
+    return [] if instance.watchdog_s is None else ["--watchdog", f"{instance.watchdog_s:g}"]
 
 
 def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
+
+from robocomp_dsl.runtime.component.hang_report import HangReport
 
 WAITING = "waiting"
 STARTING = "starting"
@@ -14,10 +16,23 @@ BACKOFF = "restarting"
 STOPPING = "stopping"
 EXITED = "exited"
 FAILED = "failed"
+HUNG = "hung"
 
-_COLOURS = {READY: "32", FAILED: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
-_COLUMNS = ("NAME", "STATE", "LIFE", "MACHINE", "PID", "UP", "RESTARTS", "CPU", "MEMORY", "")
-_OPTIONAL_COLUMNS = ("MACHINE",)
+_COLOURS = {READY: "32", FAILED: "1;31", HUNG: "1;31", BACKOFF: "33", UNKNOWN: "33", STARTING: "36"}
+_COLUMNS = (
+    "NAME",
+    "STATE",
+    "LIFE",
+    "MACHINE",
+    "PID",
+    "UP",
+    "RESTARTS",
+    "CPU",
+    "MEMORY",
+    "OVERRUNS",
+    "",
+)
+_OPTIONAL_COLUMNS = ("MACHINE", "OVERRUNS")
 """Columns that are left out if all their cells are empty."""
 _EMPTY = "-"
 
@@ -28,7 +43,8 @@ class ProcessStatus:
 
     `up_s`: seconds since its start; `cpu`: 1.0 is one core; `memory` in bytes. `life` is the
     lifecycle state; `machine` are the active states of the state machine, outer ones first, if they
-    were queried. `note` is the reason for the state.
+    were queried. `note` is the reason for the state. `overruns` counts cycles that exceeded the
+    period; `hang` is the latest hang, also of an earlier process of the component.
     """
 
     name: str
@@ -41,6 +57,14 @@ class ProcessStatus:
     note: str = ""
     life: str = ""
     machine: tuple[str, ...] = ()
+    overruns: int = 0
+    hang: HangReport | None = None
+
+    @staticmethod
+    def from_dict(fields: Mapping[str, Any]) -> ProcessStatus:
+        """The inverse of `as_dict`."""
+        hang = HangReport.from_fields(fields["hang"]) if fields.get("hang") else None
+        return ProcessStatus(**{**fields, "machine": tuple(fields["machine"]), "hang": hang})
 
     def as_dict(self) -> dict[str, Any]:
         """The fields as a dictionary, for JSON."""
@@ -94,7 +118,8 @@ def _has_values(cells: Sequence[tuple[str, ...]], column: int) -> bool:
 def _cells(row: ProcessStatus) -> tuple[str, ...]:
     states = (row.name, row.state, row.life or _EMPTY, ", ".join(row.machine) or _EMPTY)
     if not row.pid:
-        return (*states, _EMPTY, _EMPTY, str(row.restarts), _EMPTY, _EMPTY, row.note)
+        empty = (_EMPTY, _EMPTY, str(row.restarts), _EMPTY, _EMPTY, _EMPTY)
+        return (*states, *empty, row.note)
     return (
         *states,
         str(row.pid),
@@ -102,8 +127,19 @@ def _cells(row: ProcessStatus) -> tuple[str, ...]:
         str(row.restarts),
         f"{row.cpu * 100:.0f} %",
         f"{row.memory / 1e6:.0f} MB",
+        str(row.overruns or _EMPTY),
         row.note,
     )
+
+
+def format_hangs(rows: Sequence[ProcessStatus], now: float) -> list[str]:
+    """The latest hang of each component, with its Python stack, as text lines."""
+    lines = []
+    for row in rows:
+        if row.hang:
+            ago = format_duration(max(now - row.hang.at, 0.0))
+            lines += ["", f"{row.name}, {ago} ago: {row.hang.summary()}", *row.hang.stack]
+    return lines
 
 
 def format_duration(seconds: float) -> str:

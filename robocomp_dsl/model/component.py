@@ -61,8 +61,8 @@ class Component(Record):
     """One CDSL file.
 
     `language` is as written (`Python`, `Cpp`, `Cpp11`) at `language_span`; `period` in ms, 0: no
-    periodic calls; `threads` 1: serialised execution. `modules` are the imported IDSL modules
-    (direct imports).
+    periodic calls; `threads` 1: serialised execution; `watchdog_s` 0: no watchdog. `modules` are
+    the imported IDSL modules (direct imports).
     """
 
     name: str
@@ -76,6 +76,7 @@ class Component(Record):
     middleware: str = "zenoh"
     period: int = 100
     threads: int = 1
+    watchdog_s: float = 0.0
     gui: str = ""
     options: tuple[str, ...] = ()
     doc: str = ""

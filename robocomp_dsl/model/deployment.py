@@ -84,7 +84,7 @@ class Instance(Record):
     running component is `full_name`: `left/arm-motor`. `config` is None if the component uses its
     own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
     starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
-    the component's folder; `port` 0: any free port.
+    the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component.
     """
 
     name: str
@@ -105,6 +105,7 @@ class Instance(Record):
     start_timeout_s: float = START_TIMEOUT_S
     readiness: Readiness = Readiness()
     limits: ResourceLimits = ResourceLimits()
+    watchdog_s: float | None = None
     doc: str = ""
     group: str = ""
     host_span: Span | None = None

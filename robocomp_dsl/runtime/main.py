@@ -13,8 +13,10 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import NoReturn
 
 from robocomp_dsl import __version__
 from robocomp_dsl.runtime.component import logs
@@ -36,6 +38,7 @@ from robocomp_dsl.runtime.parameters.shown import describe_parameters
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings, parse_clock
 
 CONFIG = Path("etc/config.yaml")
+MAX_WATCHDOG_S = 86_400.0
 log = logging.getLogger("robocomp")
 
 
@@ -105,7 +108,19 @@ def _run(component: type[Component], params: Parameters, settings: RunSettings) 
         return 1
     _on_signals(runner.stop)
     runner.start()
-    return 0 if runner.wait() else 1
+    succeeded = runner.wait()
+    if runner.abandoned:
+        _exit_now()
+    return 0 if succeeded else 1
+
+
+def _exit_now() -> NoReturn:
+    """Exit as failed without waiting for threads: one of them hangs."""
+    logging.shutdown()
+    with suppress(OSError, ValueError):
+        sys.stdout.flush()
+        sys.stderr.flush()
+    os._exit(1)
 
 
 def _on_signals(stop: Callable[[], None]) -> None:
@@ -179,6 +194,13 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         help="also listen on this TCP port of loopback",
     )
     add(
+        "--watchdog",
+        metavar="S",
+        type=float,
+        help=f"end as failed if compute or a handler hangs for S seconds; 0: off"
+        f" ({spec.watchdog:g})",
+    )
+    add(
         "--log-level",
         choices=logs.LEVELS,
         default=_default_log_level(),
@@ -216,6 +238,8 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         )
     if not 0 <= options.listen_port <= 65535:
         raise InvalidSetting(f"{options.listen_port} is not a port number (0 to 65535)")
+    if options.watchdog is not None and not 0 <= options.watchdog <= MAX_WATCHDOG_S:
+        raise InvalidSetting(f"--watchdog {options.watchdog:g} is not a time from 0 to a day, in s")
     return RunSettings(
         name=parse_name(options.name, "name") if options.name else "",
         prefix=parse_prefix(options.prefix),
@@ -228,6 +252,7 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         remaps=remaps,
         listen_port=options.listen_port,
         clock=options.clock,
+        watchdog=options.watchdog,
     )
 
 

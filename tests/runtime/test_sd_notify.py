@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
+import threading
 import uuid
 from collections.abc import Iterator
 from pathlib import Path
@@ -77,6 +78,38 @@ def test_sd_notify_needs_an_address(supervisor: socket.socket) -> None:
     with pytest.raises(BlockingIOError):
         supervisor.recv(4096)
     assert sd_notify.DEPLOYMENT_VARIABLE == reaper.DEPLOYMENT_VARIABLE
+
+
+def test_sd_notify_pings_until_a_hang(
+    supervisor: socket.socket, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Hanging(Arm):
+        hangs = threading.Event()
+        end = threading.Event()
+
+        def compute(self) -> None:
+            if self.hangs.is_set():
+                while not self.end.wait(0.01):
+                    pass
+
+    monkeypatch.setenv("WATCHDOG_USEC", "400000")
+    runner = Runner(
+        Hanging, Parameters(), RunSettings(domain=uuid.uuid4().hex, middleware="inproc")
+    )
+    runner.start()
+    pings = 0
+    while pings < 3:
+        pings += supervisor.recv(4096) == b"WATCHDOG=1"
+    Hanging.hangs.set()
+    assert not runner.wait()
+    Hanging.end.set()
+    assert runner.hang is not None
+    assert runner.hang.seconds < 0.4
+    supervisor.setblocking(False)
+    with pytest.raises(BlockingIOError):
+        while True:
+            last = supervisor.recv(4096)
+    assert last != b"WATCHDOG=1"
 
 
 @pytest.mark.parametrize(

@@ -132,6 +132,11 @@ hi def link cdsl_useQt_value cdslValue
 hi def link cdsl_useQt_name cdslName
 hi def link cdsl_useQt_field cdslField
 syn region cdsl_useQt matchgroup=cdslLegacy start=/\<useQt\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_useQt_inner,cdsl_useQt_value,cdsl_useQt_name,cdsl_useQt_field
+hi def link cdsl_watchdog_inner cdslModifier
+hi def link cdsl_watchdog_value cdslValue
+hi def link cdsl_watchdog_name cdslName
+hi def link cdsl_watchdog_field cdslField
+syn region cdsl_watchdog matchgroup=cdslKeyword start=/\<watchdog\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@cdslAny,cdslComment,cdslDoc,cdsl_watchdog_inner,cdsl_watchdog_value,cdsl_watchdog_name,cdsl_watchdog_field
 hi def link cdsl_worker_inner cdslModifier
 hi def link cdsl_worker_value cdslValue
 hi def link cdsl_worker_name cdslName

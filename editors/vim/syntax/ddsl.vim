@@ -214,6 +214,11 @@ hi def link ddsl_user_value ddslValue
 hi def link ddsl_user_name ddslName
 hi def link ddsl_user_field ddslField
 syn region ddsl_user matchgroup=ddslKeyword start=/\<user\>\%(\s*\%("\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_user_inner,ddsl_user_value,ddsl_user_name,ddsl_user_field
+hi def link ddsl_watchdog_inner ddslModifier
+hi def link ddsl_watchdog_value ddslValue
+hi def link ddsl_watchdog_name ddslName
+hi def link ddsl_watchdog_field ddslField
+syn region ddsl_watchdog matchgroup=ddslKeyword start=/\<watchdog\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_watchdog_inner,ddsl_watchdog_value,ddsl_watchdog_name,ddsl_watchdog_field
 syn match ddslComment ,//.*,
 syn match ddslComment /#.*/
 syn match ddslDoc ,///[/<]\@!.*,

@@ -15,6 +15,7 @@ from robocomp_dsl.check.codes import names as codes
 from robocomp_dsl.check.literals import TypeMismatch, as_int
 from robocomp_dsl.check.names.import_scope import ImportScope
 from robocomp_dsl.check.names.interface_names import find_interface
+from robocomp_dsl.check.watchdog import watchdog_of
 from robocomp_dsl.check.workspace.loaded import transitive_errors
 from robocomp_dsl.check.workspace.referenced_files import parameters_of, state_machine_of
 from robocomp_dsl.check.workspace.source_cache import Parsed
@@ -60,6 +61,7 @@ def resolve_cdsl(
         middleware=component_middleware(tree.middleware, workspace.middlewares, report),
         period=_whole(tree.period, "period", report, 0, _LONGEST_PERIOD, default=DEFAULT_PERIOD),
         threads=_whole(tree.threads, "threads", report, 1, _MOST_THREADS, default=1),
+        watchdog_s=watchdog_of(tree.watchdog, codes.COMPONENT_NUMBER, report) or 0.0,
         gui=tree.gui.widget.text if tree.gui else "",
         options=tuple(option.text for option in tree.options),
         doc=tree.doc,

@@ -329,21 +329,24 @@ Right:
 COMPONENT_NUMBER = Code(
     "RC219",
     Severity.ERROR,
-    "`period` or `threads` is out of range",
+    "`period`, `threads` or `watchdog` is out of range",
     """\
 `period` is the time between two calls of `compute`, in whole milliseconds up to a day; with 0
 `compute` is not called. `threads` is the number of handlers that may run concurrently, from 1 (no
-concurrency, so the code needs no locks) to 1024.
+concurrency, so the code needs no locks) to 1024. `watchdog` is the time after which a callback that
+has not returned hangs, from 100 ms to a day; `0 s` is no watchdog.
 
 Wrong:
 
     period 0.5;
     threads 0;
+    watchdog 1 ms;
 
 Right:
 
     period 1;
     threads 1;
+    watchdog 2 s;
 """,
 )
 

@@ -20,6 +20,7 @@ from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
 from robocomp_dsl.check.names.duplicates import unique_by_name
+from robocomp_dsl.check.watchdog import watchdog_of
 from robocomp_dsl.check.workspace.imports import replace_fix
 from robocomp_dsl.check.workspace.referenced_files import find_referenced_file
 from robocomp_dsl.check.workspace.workspace import Workspace
@@ -59,6 +60,7 @@ def resolve_instance(
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
     readiness, limits = readiness_of(tree.ready_when, report), limits_of(tree, report)
+    watchdog = watchdog_of(tree.watchdog, codes.DEPLOYMENT_NUMBER, report)
     environment = unique_by_name(tree.environment, "environment variable", report)
     devices = resolve_devices(tree, report)
     if component is None:
@@ -82,6 +84,7 @@ def resolve_instance(
         start_timeout_s=ready,
         readiness=readiness,
         limits=limits,
+        watchdog_s=watchdog,
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,

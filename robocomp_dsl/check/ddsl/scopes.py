@@ -154,6 +154,7 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.ready_when,
                 tree.memory,
                 tree.cpu,
+                tree.watchdog,
                 tree.doc,
             )
             resolved.append((renamed, nested.path))

@@ -20,7 +20,7 @@ from robocomp_dsl.cli.rcdeploy import running
 from robocomp_dsl.deploy import control, instances, status
 
 if TYPE_CHECKING:
-    from robocomp_dsl.runtime.component.component_interface import ComponentInfo
+    from robocomp_dsl.deploy.component_queries import ComponentState
 
 CALL_TIMEOUT_S = 1.0
 """A component answers within a millisecond, whatever its code does; one that is stopped never."""
@@ -68,7 +68,8 @@ class DeploymentReport:
         process = f"pid {deployment.pid}, domain {deployment.domain}, up {since}"
         lines = [f"{deployment.name}: {deployment.path}, {process}"]
         lines += [status.SimulatedTime(**self.clock).format()] if self.clock else []
-        return lines + status.format_table(self.rows, width, colours=colours)
+        lines += status.format_table(self.rows, width, colours=colours)
+        return lines + status.format_hangs(self.rows, time.time())
 
 
 def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
@@ -78,7 +79,7 @@ def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
         raise CliError(
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
-    rows = [status.ProcessStatus(**row | {"machine": ()}) for row in answer["rows"]]
+    rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
     return DeploymentReport(deployment, _with_component_state(deployment, rows), answer["clock"])
 
 
@@ -88,15 +89,21 @@ def _with_component_state(
     """`rows` with what the components tell of themselves."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
-    infos = component_queries.fetch_infos(
+    states = component_queries.fetch_states(
         deployment.domain, [row.name for row in rows if row.life], CALL_TIMEOUT_S
     )
-    return [_row(row, infos.get(row.name)) for row in rows]
+    return [_row(row, states.get(row.name)) for row in rows]
 
 
-def _row(row: status.ProcessStatus, info: ComponentInfo | None) -> status.ProcessStatus:
-    if info is None:
+def _row(row: status.ProcessStatus, state: ComponentState | None) -> status.ProcessStatus:
+    if state is None:
         silent = f"does not answer within {CALL_TIMEOUT_S:g} s"
         return replace(row, note=row.note or silent) if row.life else row
-    life, machine = info.state.name.lower(), tuple(info.states)
-    return replace(row, life=life, machine=machine, note=row.note or info.reason)
+    info = state.info
+    return replace(
+        row,
+        life=info.state.name.lower(),
+        machine=tuple(info.states),
+        overruns=state.overruns,
+        note=row.note or info.reason,
+    )

@@ -17,9 +17,11 @@ from typing import IO
 
 from robocomp_dsl.deploy.logs import LineSplitter, LogRecord
 from robocomp_dsl.deploy.plan import Process
+from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
+from robocomp_dsl.runtime.component.supervisor_pipe import HEARTBEAT_VARIABLE
 
 _CHUNK = 64 * 1024
 
@@ -36,6 +38,7 @@ class ChildProcess:
         token: str,
         emit: Callable[[LogRecord], None],
         variables: Mapping[str, str],
+        hang_watch: HangWatch,
     ) -> None:
         self._emit = emit
         self._loop = asyncio.get_running_loop()
@@ -45,7 +48,9 @@ class ChildProcess:
             **variables,
             **dict(process.env),
             DEPLOYMENT_VARIABLE: token,
+            HEARTBEAT_VARIABLE: str(hang_watch.write_end),
         }
+        self._hang_watch = hang_watch
         self._popen = subprocess.Popen(  # noqa: S603 - the command line is the user's own
             process.argv,
             cwd=process.cwd,
@@ -54,7 +59,9 @@ class ChildProcess:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             start_new_session=True,
+            pass_fds=(hang_watch.write_end,),
         )
+        hang_watch.watch(self._popen.pid)
         self.pid = self._popen.pid
         self.started = time.monotonic()
         self.usage = ResourceUsage(self.pid)
@@ -73,6 +80,17 @@ class ChildProcess:
         """Send the signal to the process and its children."""
         with contextlib.suppress(ProcessLookupError):
             os.killpg(self.pid, number)
+
+    @property
+    def has_exited(self) -> bool:
+        """Whether the process has exited, also if the event loop does not know it yet."""
+        if self.exited.is_set():
+            return True
+        flags = os.WEXITED | os.WNOHANG | os.WNOWAIT
+        try:
+            return os.waitid(os.P_PID, self.pid, flags) is not None
+        except ChildProcessError:
+            return True
 
     def owns(self, pid: int) -> bool:
         """Whether `pid` is this process or one of its children."""
@@ -101,6 +119,7 @@ class ChildProcess:
         # The process is still a zombie, so its group id cannot be reused yet.
         self._loop.remove_reader(self._handle)
         os.close(self._handle)
+        self._hang_watch.close()
         self.signal(signal.SIGKILL)
         self.code = self._popen.wait()
         for descriptor in list(self._open):

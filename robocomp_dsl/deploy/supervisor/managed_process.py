@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 import signal
 import time
-from typing import Protocol
 
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.logs import LogRecord
@@ -16,8 +15,13 @@ from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.status import ProcessStatus
 from robocomp_dsl.deploy.supervisor import lifecycle_monitor
 from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
+from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
+from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
+from robocomp_dsl.deploy.supervisor.supervisor_context import SupervisorContext
+from robocomp_dsl.deploy.supervisor.waiting import wait_any
 from robocomp_dsl.model.deployment import Readiness
+from robocomp_dsl.runtime.component.hang_report import HangReport
 
 CLEAN_EXIT_CODES = (0, -signal.SIGTERM, 128 + signal.SIGTERM)
 """Exit codes of a process that exited as requested."""
@@ -26,26 +30,6 @@ EXIT_TIMEOUT = 124
 """Exit codes as in a shell: the program cannot be started; it was not ready in time."""
 KILL_TIMEOUT_S = 5.0
 """Wait at most this long for a process to exit after SIGKILL (it may hang in a driver)."""
-
-
-class SupervisorContext(Protocol):
-    """What a managed process needs from the supervisor."""
-
-    token: str
-    environment: dict[str, str]
-    grace_s: float
-
-    def log(self, text: str, level: str = "INFO") -> None:
-        """Log a message of rcdeploy."""
-
-    def emit(self, record: LogRecord) -> None:
-        """Emit a log record of a component."""
-
-    def changed(self) -> None:
-        """A status has changed."""
-
-    def on_started(self, managed: ManagedProcess, child: ChildProcess) -> None:
-        """A process was started."""
 
 
 class ManagedProcess:
@@ -75,13 +59,22 @@ class ManagedProcess:
         self.was_ready = False
         self._killed = False
         self._failure = ""
+        self._starts_without_ready = 0
+        self._hung_child: ChildProcess | None = None
+        self._load_errors = LoadErrors()
+        self._end_hung: asyncio.Task[None] | None = None
+        self.hang: HangReport | None = None
 
     def status(self) -> ProcessStatus:
         """The current status."""
         child = self.child
         if child is None:
             return ProcessStatus(
-                self.name, self._state, restarts=len(self.restart_times), note=self._note
+                self.name,
+                self._state,
+                restarts=len(self.restart_times),
+                note=self._note,
+                hang=self.hang,
             )
         child.usage.sample()
         return ProcessStatus(
@@ -94,6 +87,7 @@ class ManagedProcess:
             child.usage.memory,
             self._note,
             self._lifecycle_state,
+            hang=self.hang,
         )
 
     def on_state_changed(self, pid: int, state: str) -> None:
@@ -102,6 +96,8 @@ class ManagedProcess:
         if child is None or self._state == status.STOPPING or not child.owns(pid):
             return
         self._lifecycle_state = state
+        if child is self._hung_child or child.has_exited:
+            return
         own_condition = self.process.readiness != Readiness()
         if state in lifecycle_monitor.READY_STATES and not own_condition:
             self.ready.set()
@@ -112,7 +108,8 @@ class ManagedProcess:
 
     def mark_ready(self) -> None:
         """The process has shown that it is ready, by another sign than its lifecycle."""
-        if self.child is not None and self._state == status.STARTING:
+        child = self.child
+        if child is not None and not child.has_exited and self._state == status.STARTING:
             self.ready.set()
             self._transition_to(status.READY, self._note)
 
@@ -169,7 +166,7 @@ class ManagedProcess:
                 self._on_stopped(code)
                 return
             decision = self._decide_restart(code)
-            if decision.delay_s is None or (self._killed and not self.was_ready):
+            if decision.delay_s is None:
                 self._on_final_exit(code, decision.reason)
                 return
             message = f"{self.name}: {self._note}, restarting in {decision.delay_s:g} s"
@@ -181,17 +178,33 @@ class ManagedProcess:
 
     def _decide_restart(self, code: int) -> RestartDecision:
         now, policy = time.monotonic(), self.process.restart
+        if code and not self.was_ready and self._load_errors.error:
+            self._note = self._load_errors.error
+            return RestartDecision(None, "a restart does not help")
+        # Starts that time out may be further apart than the window of the policy.
+        if self._starts_without_ready > policy.max:
+            limit = f"not ready in {self._starts_without_ready} starts"
+            return RestartDecision(None, limit)
         return decide_restart(policy, self.restart_times, now, failed=code != 0)
 
     async def _run_once(self) -> int:
         """Start the process and wait for its exit; returns the exit code."""
         self.ready.clear()
         self._killed, self._failure = False, ""
+        self._load_errors = LoadErrors()
+        hang_watch = HangWatch(self._on_hang)
+
+        def emit(record: LogRecord) -> None:
+            hang_watch.observe(record)
+            self._load_errors.observe(record)
+            self.context.emit(record)
+
         try:
             self.child = ChildProcess(
-                self.process, self.context.token, self.context.emit, self.context.environment
+                self.process, self.context.token, emit, self.context.environment, hang_watch
             )
         except OSError as error:
+            hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"
             return EXIT_NOT_FOUND
         self._started = True
@@ -200,14 +213,17 @@ class ManagedProcess:
         child = self.child
         self.context.on_started(self, child)
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
-        if self.ready.is_set():
-            self.was_ready = True
+        if self.ready.is_set() and not child.has_exited:
+            self.was_ready, self._starts_without_ready = True, 0
             up = time.monotonic() - child.started
             self.context.log(f"{self.name} is ready after {up:.2f} s (pid {child.pid})")
-        elif not child.exited.is_set() and not self.stop_requested.is_set():
+        elif not child.has_exited and not self.stop_requested.is_set():
             await self._on_start_timeout()
         await child.exited.wait()
         self.child = None
+        if child is self._hung_child and self.hang:
+            self._note = self.hang.summary()
+            return child.code or EXIT_TIMEOUT
         if self._killed:
             self._note = self._failure or self._note
             return EXIT_TIMEOUT
@@ -220,8 +236,28 @@ class ManagedProcess:
         reason = f"not ready within {self.process.start_timeout_s:g} s{state}"
         self.context.log(f"{self.name}: {reason}", "ERROR")
         self._killed = True
+        self._starts_without_ready += 1
         await self.terminate(self.context.grace_s)
         self._note = reason
+
+    def _on_hang(self, report: HangReport, ends_itself: bool) -> None:
+        """The process hangs: let it finalize, then kill it; its policy decides on a restart."""
+        child = self.child
+        if child is None or child.has_exited or self._state == status.STOPPING:
+            return
+        self.hang, self._hung_child = report, child
+        self._transition_to(status.HUNG, report.summary())
+        if not ends_itself:
+            stack = "".join(f"\n{line}" for line in report.stack)
+            self.context.log(f"{self.name}: {report.summary()}{stack}", "ERROR")
+            child.signal(signal.SIGTERM)
+            child.signal(signal.SIGCONT)
+        self._end_hung = asyncio.get_running_loop().create_task(self._kill_after_grace(child))
+
+    async def _kill_after_grace(self, child: ChildProcess) -> None:
+        await wait_any(child.exited, timeout=self.context.grace_s)
+        if not child.exited.is_set():
+            child.signal(signal.SIGKILL)
 
     async def terminate(self, grace_s: float, kill_now: asyncio.Event | None = None) -> bool:
         """Send SIGTERM, and SIGKILL after `grace_s` seconds or when `kill_now` is set.
@@ -233,6 +269,7 @@ class ManagedProcess:
         child = self.child
         self._transition_to(status.STOPPING, self._note)
         child.signal(signal.SIGTERM)
+        child.signal(signal.SIGCONT)  # a stopped process can finalize, too
         await wait_any(child.exited, *filter(None, [kill_now]), timeout=grace_s)
         if child.exited.is_set():
             return True
@@ -261,13 +298,3 @@ class ManagedProcess:
     def _transition_to(self, state: str, reason: str) -> None:
         self._state, self._note = state, reason
         self.context.changed()
-
-
-async def wait_any(*events: asyncio.Event, timeout: float | None = None) -> None:
-    """Wait until one of `events` is set, at most `timeout` seconds."""
-    tasks = [asyncio.ensure_future(event.wait()) for event in events]
-    try:
-        await asyncio.wait(tasks, timeout=timeout, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        for task in tasks:
-            task.cancel()

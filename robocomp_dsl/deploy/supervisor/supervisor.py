@@ -21,9 +21,10 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.child import ChildProcess
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
-from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess, wait_any
+from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
 from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch
+from robocomp_dsl.deploy.supervisor.waiting import wait_any
 
 
 @dataclass(frozen=True, slots=True)

@@ -97,6 +97,8 @@ def _facts(component: Component, site: DocumentationSite) -> Iterator[tuple[str,
     yield "Computes", plain_text(period)
     if component.threads != 1:
         yield "Threads", plain_text(str(component.threads))
+    if component.watchdog_s:
+        yield "Watchdog", plain_text(f"{component.watchdog_s:g} s")
     if component.gui:
         yield "Window", inline_code(component.gui)
     if component.statemachine:

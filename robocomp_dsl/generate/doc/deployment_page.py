@@ -107,10 +107,11 @@ def _start(instance: Instance) -> Inlines:
 
 
 def _restart(instance: Instance) -> Inlines:
+    watchdog = f", watchdog {instance.watchdog_s:g}\u00a0s" if instance.watchdog_s else ""
     if instance.restart.policy == "never":
-        return plain_text("never")
+        return plain_text(f"never{watchdog}")
     most = f" (≤\u00a0{instance.restart.max} in {instance.restart.window_s:g}\u00a0s)"
-    return plain_text(f"{instance.restart.policy.replace('-', ' ')}{most}")
+    return plain_text(f"{instance.restart.policy.replace('-', ' ')}{most}{watchdog}")
 
 
 def _connection(connection: Connection, site: DocumentationSite) -> tuple[Inlines, ...]:

@@ -71,7 +71,7 @@ class WorkerCode(ValueRecord):
     """Both classes and what is said of the component as a whole.
 
     `ports` are lists by keyword of `ComponentSpec`, `called` the attributes of proxies with their
-    classes; `about` and `rows` are for the README.
+    classes; `watchdog` is a literal in s, empty for none; `about` and `rows` are for the README.
     """
 
     title: str
@@ -80,6 +80,7 @@ class WorkerCode(ValueRecord):
     doc: str
     period: int
     threads: int
+    watchdog: str
     middleware: str
     ports: tuple[tuple[str, tuple[PortCode, ...]], ...]
     params: str
@@ -108,6 +109,7 @@ def worker_code(component: Component, py_names: PythonNames, middleware: str) ->
         doc=literals.docstring(component.doc, INNER, f"The component {component.name}."),
         period=component.period,
         threads=component.threads,
+        watchdog=f"{component.watchdog_s:g}" if component.watchdog_s else "",
         middleware=middleware,
         ports=tuple((key, own) for key, own in ports.items() if own),
         params=py_names.params,

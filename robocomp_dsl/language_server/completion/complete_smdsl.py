@@ -11,7 +11,7 @@ from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.syntax.ast import smdsl as ast
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.languages.ddsl_instances import TIME_UNITS
+from robocomp_dsl.syntax.languages.builder import TIME_UNITS
 
 _DECLARING = ("STATES", "INITIAL_STATE", "END_STATE")
 _TRANSITIONS = ("TRANSITIONS", "OLD_TRANSITIONS")

@@ -53,6 +53,7 @@ def _range(parameter: Parameter) -> str:
 def _component(component: Component) -> str:
     lines = [_port(port) for port in component.ports]
     lines += [f"period {component.period};", f"middleware {component.middleware};"]
+    lines += [f"watchdog {component.watchdog_s:g} s;"] if component.watchdog_s else []
     return format_block(f"Component {component.name}", lines)
 
 

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import partial
 from queue import Empty, SimpleQueue
 from threading import get_ident
+from time import perf_counter_ns
 from typing import Self
 
 
@@ -39,16 +40,19 @@ class CallbackGroup:
     """Mutually exclusive callback group of one component.
 
     `acquire`, `release`, `holders` and `handoffs` are public for the middlewares: they inline the
-    methods of this class for every message, because a call would double the cost.
+    methods of this class for every message, because a call would double the cost. `holders` are the
+    threads that run a callback now, with the time at which it began (`perf_counter_ns`); the
+    watchdog reads it. A thread that waits for a slot or for a remote reply is not among them.
     """
 
-    __slots__ = ("acquire", "handoffs", "holders", "release")
+    __slots__ = ("_paused", "acquire", "handoffs", "holders", "release")
 
     def __init__(self, threads: int = 1) -> None:
         lock = threading.Lock() if threads == 1 else _Semaphore(threads)
         self.acquire: Callable[..., bool] = lock.acquire
         self.release: Callable[[], None] = lock.release
-        self.holders: set[int] = set()
+        self.holders: dict[int, int] = {}
+        self._paused: dict[int, int] = {}
         self.handoffs: dict[int, Callable[[], None]] = {}
 
     def enter(self, timeout: float | None = None) -> bool:
@@ -57,12 +61,12 @@ class CallbackGroup:
             self.acquire()
         elif not self.acquire(True, timeout):
             return False
-        self.holders.add(get_ident())
+        self.holders[get_ident()] = perf_counter_ns()
         return True
 
     def leave(self) -> None:
         """Release the slot."""
-        self.holders.discard(get_ident())
+        self.holders.pop(get_ident(), None)
         self.release()
 
     def __enter__(self) -> Self:
@@ -80,9 +84,10 @@ class CallbackGroup:
     def pause(self) -> bool:
         """Release the slot before waiting for a remote reply; returns whether to `resume`."""
         me = get_ident()
-        if me not in self.holders:
+        began = self.holders.pop(me, None)
+        if began is None:
             return False
-        self.holders.remove(me)
+        self._paused[me] = began
         self.release()
         handoff = self.handoffs.get(me)
         if handoff:
@@ -92,7 +97,8 @@ class CallbackGroup:
     def resume(self) -> None:
         """Take the slot again after a `pause` that returned True."""
         self.acquire()
-        self.holders.add(get_ident())
+        me = get_ident()
+        self.holders[me] = self._paused.pop(me)
 
     def on_release(self, handoff: Callable[[], None] | None) -> None:
         """Set the function to call when this thread pauses; None: no function."""

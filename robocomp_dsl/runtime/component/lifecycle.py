@@ -4,7 +4,8 @@ In: the hooks of the user's class, a clock, the callback group. Out: calls of th
 until it is stopped. A `compute` that raises brings the component into Emergency. There, once per
 period, `emergency`, `restore` and `compute` are called; when all succeed the component is back in
 Compute. An emergency that the user's code declared lasts until `end_emergency`. A stale simulated
-clock is an emergency, too; it lasts until the clock source is back.
+clock is an emergency, too; it lasts until the clock source is back. An exception that is no
+`Exception`, such as `SystemExit`, leaves `loop`: the runner ends the component as failed.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from typing import Protocol
 from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, WakeEvent
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.parameters import ConfigError
@@ -26,6 +28,9 @@ from robocomp_dsl.runtime.parameters import ConfigError
 log = logging.getLogger("robocomp")
 RETRY_MS = 500
 """Period of the attempts to leave an emergency, for components without a period."""
+OVERRUN = "compute exceeded its period of %g ms by %.1f ms; overruns since the start: %d"
+SLOT_TIMEOUT_S = 1.0
+"""Time that `finalize` waits for a callback that is running."""
 
 
 class LifecycleState(StrEnum):
@@ -81,7 +86,10 @@ class Lifecycle:
         self.state = LifecycleState.INITIALIZE
         self.reason = ""
         self._declared = False
-        self._logged_at: dict[str, float] = {}
+        self._finalize_lock = threading.Lock()
+        self.finalized = threading.Event()
+        self._throttle = Throttle()
+        self._overrun_throttle = Throttle()
 
     def initialize(self) -> bool:
         """Initialize; returns whether it succeeded."""
@@ -99,10 +107,19 @@ class Lifecycle:
             )
             self._loop()
 
-    def finalize(self) -> bool:
-        """Finalize; returns whether it succeeded."""
-        self._transition_to(LifecycleState.FINALIZE)
-        return self._call_hook(self._hooks.finalize, "finalize")
+    def finalize(self, slot_timeout_s: float = SLOT_TIMEOUT_S) -> bool:
+        """Finalize; returns whether it succeeded. Only the first call has an effect.
+
+        A callback that hangs may hold the callback group for ever: after `slot_timeout_s` the hook
+        runs without it. `finalized` is set at the end.
+        """
+        if not self._finalize_lock.acquire(blocking=False):
+            return True
+        try:
+            self._transition_to(LifecycleState.FINALIZE)
+            return self._call_hook(self._hooks.finalize, "finalize", slot_timeout_s)
+        finally:
+            self.finalized.set()
 
     def stop(self) -> None:
         """Stop after the current hook."""
@@ -187,6 +204,8 @@ class Lifecycle:
         due += period
         if due < now:
             self._statistics.overruns += 1
+            if self._overrun_throttle.allows("overrun"):
+                log.warning(OVERRUN, 1000 * period, 1000 * (now - due), self._statistics.overruns)
             # Keep the phase, so that a slow cycle does not shift the following ones.
             due += ((now - due) // period) * period
         return round(due, TIME_DIGITS)
@@ -229,16 +248,18 @@ class Lifecycle:
         self._compute()
         log.info("recovered from emergency: %s", self.reason)
         self.reason = ""
-        self._logged_at.clear()
+        self._throttle.clear()
         self._transition_to(LifecycleState.COMPUTE)
 
     def _run_guarded(self, action: Callable[[], None]) -> None:
         try:
             with self._callback_group:
                 action()
-        except Exception as error:
+        except BaseException as error:
             if self._stopping.is_set():
                 return
+            if not isinstance(error, Exception):
+                raise
             self._statistics.failures += 1
             self._log_throttled(error)
             self._enter_emergency(describe_error(error))
@@ -257,23 +278,26 @@ class Lifecycle:
             self.state = LifecycleState.EMERGENCY
 
     def _log_throttled(self, error: Exception) -> None:
-        """Log an error at most every ten seconds."""
-        message, now = describe_error(error), time.monotonic()
-        if now - self._logged_at.get(message, -100.0) > 10.0:
-            self._logged_at[message] = now
+        message = describe_error(error)
+        if self._throttle.allows(message):
             log.error("compute failed, retrying: %s", message)
             log.debug("traceback", exc_info=error)
 
-    def _call_hook(self, hook: Callable[[], None], name: str) -> bool:
+    def _call_hook(
+        self, hook: Callable[[], None], name: str, slot_timeout_s: float | None = None
+    ) -> bool:
+        entered = self._callback_group.enter(slot_timeout_s)
         try:
-            with self._callback_group:
-                hook()
+            hook()
         except ConfigError as error:
             # The findings contain their locations; the traceback adds nothing.
             log.error("%s", str(error).removeprefix("error: "))  # noqa: TRY400
             return False
-        except Exception as error:
+        except BaseException as error:
             log.error("%s failed: %s", name, describe_error(error))  # noqa: TRY400 - traceback below
             log.debug("traceback", exc_info=error)
             return False
+        finally:
+            if entered:
+                self._callback_group.leave()
         return True

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.middleware.calling import describe_error
 
 
 class QueueClosed(Exception):
@@ -21,7 +22,9 @@ class QueueClosed(Exception):
 class LeaderFollowerQueue:
     """Threads that handle the jobs that `take` returns.
 
-    `take` blocks, and raises `closed_error` when the queue is closed. `handle` must not raise.
+    `take` blocks, and raises `closed_error` when the queue is closed. Errors of user code are
+    handled by `handle`. Anything that it or `take` raises nevertheless is a fault of the runtime:
+    it goes to `fail`, which ends the component; no other thread waits for the one that died.
     """
 
     def __init__(
@@ -30,6 +33,7 @@ class LeaderFollowerQueue:
         take: Callable[[], Any],
         handle: Callable[[Any], None],
         execution: CallbackGroup,
+        fail: Callable[[str], None],
         closed_error: type[Exception] = QueueClosed,
     ) -> None:
         self._closed_error = closed_error
@@ -37,6 +41,7 @@ class LeaderFollowerQueue:
         self._take = take
         self._handle = handle
         self._execution = execution
+        self._fail = fail
         self._leader_lock = threading.Lock()
         self._lock = threading.Lock()
         self._leader = 0
@@ -53,6 +58,17 @@ class LeaderFollowerQueue:
     def _run(self) -> None:
         me = threading.get_ident()
         self._execution.on_release(self._hand_off)
+        try:
+            self._handle_jobs(me)
+        except BaseException as error:
+            self._closed = True
+            if self._leader == me:
+                self._leader = 0
+                self._leader_lock.release()
+            self._fail(f"the thread {self._name} died: {describe_error(error)}")
+        self._execution.on_release(None)
+
+    def _handle_jobs(self, me: int) -> None:
         handle, take = self._handle, self._take
         while self._leader == me or self._become_leader(me):
             try:
@@ -65,7 +81,6 @@ class LeaderFollowerQueue:
                 handle(job)
                 # Dropped before the next wait; otherwise a query would stay open until then.
                 del job
-        self._execution.on_release(None)
 
     def _become_leader(self, me: int) -> bool:
         """Become the leader; False if the queue is closed."""

@@ -8,6 +8,7 @@ until `stop`. The lifecycle runs in its own thread, so the main thread can handl
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -18,23 +19,38 @@ from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.component.component_interface import COMPONENT
+from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.introspection import Introspection
-from robocomp_dsl.runtime.component.lifecycle import Lifecycle, LifecycleState
+from robocomp_dsl.runtime.component.lifecycle import (
+    SLOT_TIMEOUT_S,
+    Lifecycle,
+    LifecycleState,
+)
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
+from robocomp_dsl.runtime.component.watchdog import Watchdog
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
+from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
 
-INTERRUPT_TIMEOUT_S = 1.5
+INTERRUPT_TIMEOUT_S = 1.0
 """Time after a stop request before waiting calls are interrupted."""
 SHUTDOWN_TIMEOUT_S = 2.0
-"""Further time before the process exits without waiting for the current hook."""
+"""Further time for the current hook to return."""
+FINALIZE_TIMEOUT_S = 1.5
+"""Time for `finalize` beside a hook that did not return. The sum of the three is below the grace
+period of rcdeploy."""
+PING_MARGIN = 0.75
+"""A hang is found after this share of the interval in which the supervisor expects a ping."""
+HANG_TIMEOUT_S = 0.3
+"""Time for the current hook to return after the watchdog has found a hang."""
 
 log = logging.getLogger("robocomp")
 
@@ -56,8 +72,18 @@ class Runner:
         self.statistics = Statistics()
         self.callback_group = CallbackGroup(self.spec.threads)
         self.started = time.time()
+        self.abandoned = False
+        self.hang: HangReport | None = None
+        self._failed = False
+        self._stop_requests: SimpleQueue[None] = SimpleQueue()
+        self._ended = threading.Event()
         host = MiddlewareContext(
-            self.name, settings.domain, self.callback_group, self.statistics, settings.listen_port
+            self.name,
+            settings.domain,
+            self.callback_group,
+            self.statistics,
+            settings.listen_port,
+            self.fail,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
@@ -65,7 +91,6 @@ class Runner:
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.middleware
         )
-        self._failed = False
         self.notifier = SystemdNotifier()
         self.worker = self._create_worker(component, clock or self._clock_binding.clock)
         self.lifecycle = Lifecycle(
@@ -80,14 +105,38 @@ class Runner:
             self.worker.machine = self.lifecycle.machine = Machine(
                 self.spec.machine, self.worker, self.worker.clock, self.lifecycle.wake
             )
-        self._stop_requests: SimpleQueue[None] = SimpleQueue()
-        self._ended = threading.Event()
         self._succeeded = False
+        self._thread = threading.Thread(
+            target=self._run, name=f"{self.name}.lifecycle", daemon=True
+        )
+        self._supervisor_pipe = SupervisorPipe()
+        limit = self._watchdog_limit()
+        group = self.callback_group
+        self.watchdog = (
+            Watchdog(limit, group, self._activity_of, self._on_hang, self._on_beat)
+            if limit
+            else None
+        )
+
+    def _watchdog_limit(self) -> float:
+        """The time in s that a callback may take; 0.0: no limit.
+
+        A supervisor that expects pings more often than that sets a lower one.
+        """
+        configured = self.settings.watchdog
+        limit = self.spec.watchdog if configured is None else configured
+        if not self.notifier.watchdog_s:
+            return limit
+        return min(limit or math.inf, self.notifier.watchdog_s * PING_MARGIN)
+
+    def _on_beat(self, seconds: float) -> None:
+        self._supervisor_pipe.beat(seconds)
+        if seconds:
+            self.notifier.ping()
 
     def _publish_state(self, state: LifecycleState) -> None:
         self.middleware.publish_state(state.value)
-        in_emergency = state is LifecycleState.EMERGENCY
-        self.notifier.state_changed(state.value, self.lifecycle.reason if in_emergency else "")
+        self.notifier.state_changed(state.value, self.lifecycle.reason)
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
         """The user's object, with the attributes that `Component` declares."""
@@ -141,21 +190,40 @@ class Runner:
         introspection = Introspection(self)
         at = self._endpoint("Component", COMPONENT)
         self.middleware.serve(at, introspection.handlers(), introspection.callback_group)
-        threading.Thread(target=self._run, name=f"{self.name}.lifecycle", daemon=True).start()
+        self._thread.start()
+        if self.watchdog:
+            self.watchdog.start()
 
     def _run(self) -> None:
+        """The thread of the lifecycle: whatever ends it, `finalize` runs and the component ends."""
         life = self.lifecycle
         try:
-            self._succeeded = life.initialize()
-            if self._succeeded:
-                self._open()
-                self._log_started()
-                life.loop()
-            self._succeeded &= life.finalize()
+            try:
+                self._succeeded = life.initialize()
+                if self._succeeded:
+                    self._open()
+                    self._log_started()
+                    life.loop()
+            except BaseException as error:
+                self._on_fatal_error(error)
+            if self.watchdog:
+                self.watchdog.stop()
+            self._succeeded &= life.finalize(0.0 if self.hang else SLOT_TIMEOUT_S)
             self._clock_binding.close()
+        except BaseException as error:
+            self._on_fatal_error(error)
         finally:
             self._ended.set()
             self.stop()
+
+    def _on_fatal_error(self, error: BaseException) -> None:
+        """End the component as failed: an error that is no emergency left the lifecycle."""
+        hint = "; to end a component normally, call self.quit()"
+        self.fail(
+            f"{self.lifecycle.state.value} failed for good: {describe_error(error)}"
+            f"{hint if isinstance(error, SystemExit) else ''}"
+        )
+        log.debug("traceback", exc_info=error)
 
     def _log_started(self) -> None:
         period = f"every {self.spec.period} ms" if self.spec.period else "on events"
@@ -177,18 +245,50 @@ class Runner:
         return bool(self.spec.machine) or not self.lifecycle.period_ms
 
     def wait(self) -> bool:
-        """Wait for the end; returns whether it stopped normally. Signals are handled meanwhile."""
+        """Wait for the end; returns whether it stopped normally. Signals are handled meanwhile.
+
+        `abandoned` is set if a hook did not return; its thread still runs.
+        """
         self._stop_requests.get()
         self.lifecycle.stop()
-        if not self._ended.wait(INTERRUPT_TIMEOUT_S):
+        if self.hang or not self._ended.wait(INTERRUPT_TIMEOUT_S):
             self.middleware.interrupt()
-        ended = self._ended.wait(SHUTDOWN_TIMEOUT_S)
-        if not ended:
-            state, timeout = self.lifecycle.state.value, SHUTDOWN_TIMEOUT_S
-            log.error("%s did not return within %g s; exiting anyway", state, timeout)
+        timeout = HANG_TIMEOUT_S if self.hang else SHUTDOWN_TIMEOUT_S
+        if not self._ended.wait(timeout):
+            self._abandon_hook(timeout)
+        if self.watchdog:
+            self.watchdog.stop()
         self.middleware.publish_state("")
         self.middleware.close()
-        return ended and self._succeeded and not self._failed
+        return not self.abandoned and self._succeeded and not self._failed
+
+    def _abandon_hook(self, timeout: float) -> None:
+        """Call `finalize` beside the hook that did not return within `timeout` s."""
+        self.abandoned = True
+        life = self.lifecycle
+        log.error("%s did not return within %g s; exiting anyway", life.state.value, timeout)
+        threading.Thread(
+            target=life.finalize, args=(0.0,), name=f"{self.name}.finalize", daemon=True
+        ).start()
+        if not life.finalized.wait(FINALIZE_TIMEOUT_S):
+            log.error("finalize did not return within %g s", FINALIZE_TIMEOUT_S)
+
+    def _activity_of(self, thread: int) -> str:
+        """What a thread in the callback group does; "" for a hook that is exempt."""
+        if thread == self._thread.ident:
+            state = self.lifecycle.state
+            watched = state not in (LifecycleState.INITIALIZE, LifecycleState.FINALIZE)
+            return state.value if watched else ""
+        name = next((t.name for t in threading.enumerate() if t.ident == thread), "")
+        own, _, port = name.rpartition(".")
+        return f"a handler of {port}" if own == self.name else f"a call in thread {name or thread}"
+
+    def _on_hang(self, report: HangReport) -> None:
+        """End the component; `finalize` runs beside the thread that hangs."""
+        self.hang, self.abandoned = report, True
+        self._supervisor_pipe.report(report)
+        stack = "\n".join(report.stack)
+        self.fail(f"watchdog: {report.summary()}\n{stack}")
 
     @property
     def state(self) -> LifecycleState:

@@ -31,6 +31,7 @@ class RunSettings:
 
     `prefix` is the namespace of the component and its peers (see `naming.resolve_name`); `remaps`
     renames ports: a served port is visible under the new name, any other port looks for it.
+    `watchdog` in s: see `ComponentSpec`; None: as there.
     """
 
     name: str = ""
@@ -43,6 +44,7 @@ class RunSettings:
     qos: dict[str, Qos] = field(default_factory=dict)
     remaps: dict[str, str] = field(default_factory=dict)
     listen_port: int = 0
+    watchdog: float | None = None
     clock: ClockSettings = field(default_factory=ClockSettings)
 
     def full_name(self, component: str) -> str:

@@ -33,7 +33,10 @@ class CalledPort:
 
 @dataclass(frozen=True, slots=True)
 class ComponentSpec:
-    """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time."""
+    """One component. `period` in ms, 0: `compute` is not called; `threads` run at a time.
+
+    `watchdog`: after so many seconds a callback that has not returned hangs; 0: no watchdog.
+    """
 
     name: str
     period: int = 100
@@ -46,3 +49,4 @@ class ComponentSpec:
     parameters: type[Parameters] = Parameters
     version: str = ""
     machine: MachineSpec | None = None
+    watchdog: float = 0.0

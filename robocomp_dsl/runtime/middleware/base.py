@@ -7,6 +7,7 @@ distribution: a function from a `MiddlewareContext` to a `Middleware`. The confo
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeAlias
@@ -16,6 +17,7 @@ from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.statistics import Statistics
 
 OperationCallable: TypeAlias = Callable[..., Any]
+log = logging.getLogger("robocomp")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +53,8 @@ class Endpoint:
 class MiddlewareContext:
     """The component that a middleware serves. Components of other domains are invisible.
 
-    `listen_port` 0: chosen by the middleware.
+    `listen_port` 0: chosen by the middleware. `fail` ends the component as failed, with a reason; a
+    middleware calls it when one of its threads dies.
     """
 
     component: str
@@ -59,6 +62,7 @@ class MiddlewareContext:
     callback_group: CallbackGroup
     statistics: Statistics
     listen_port: int = 0
+    fail: Callable[[str], None] = log.error
 
 
 class Channel(Protocol):

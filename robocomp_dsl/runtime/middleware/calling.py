@@ -6,6 +6,7 @@ In: endpoints and candidates. Out: one peer, or the error that says why there is
 from __future__ import annotations
 
 import logging
+import os
 import time
 import traceback
 from collections.abc import Callable, Iterable, Sequence
@@ -23,6 +24,7 @@ DISCOVERY_TIMEOUT_S = 1.0
 log = logging.getLogger("robocomp")
 _T = TypeVar("_T")
 _RUNTIME = str(Path(__file__).parents[1])
+_STANDARD_LIBRARY = str(Path(os.__file__).parent)
 
 
 def matches(at: Endpoint, component: str, port: str) -> bool:
@@ -88,7 +90,7 @@ def with_deadline_check(
     return watch
 
 
-def log_failure(what: str, error: Exception) -> None:
+def log_failure(what: str, error: BaseException) -> None:
     """Log an exception of user code with its location; the traceback at level debug."""
     log.error("%s failed: %s", what, describe_error(error))
     log.debug("traceback of the failure of %s", what, exc_info=error)
@@ -96,12 +98,28 @@ def log_failure(what: str, error: Exception) -> None:
 
 def describe_error(error: BaseException) -> str:
     """`Type: message (file:line)`, with the innermost location in user code."""
-    frames = traceback.extract_tb(error.__traceback__)
-    own = [f for f in frames if not _is_library_code(f.filename)] or frames
-    text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return f"{text} ({own[-1].filename}:{own[-1].lineno})" if own else text
+    location = user_location(traceback.extract_tb(error.__traceback__))
+    message = message_of(error)
+    text = f"{type(error).__name__}: {message}" if message else type(error).__name__
+    return f"{text} ({location})" if location else text
 
 
-def _is_library_code(file: str) -> bool:
-    """Whether a file is not user code: the runtime, compiled codecs, generated code."""
+def user_location(frames: traceback.StackSummary) -> str:
+    """`file:line` of the innermost frame in user code, or else of the innermost; "" without any."""
+    own = [frame for frame in frames if not is_library_code(frame.filename)] or frames
+    return f"{own[-1].filename}:{own[-1].lineno}" if own else ""
+
+
+def message_of(error: BaseException) -> str:
+    """`str(error)`; a `__str__` of user code that raises itself counts as no message."""
+    try:
+        return str(error)
+    except Exception:
+        return ""
+
+
+def is_library_code(file: str) -> bool:
+    """Whether a file is not user code: Python, the runtime, compiled codecs, generated code."""
+    if file.startswith(_STANDARD_LIBRARY) and "site-packages" not in file:
+        return True
     return file.startswith((_RUNTIME, "<")) or Path(file).parent.name.endswith("_generated")

@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from queue import SimpleQueue
 from threading import get_ident
+from time import perf_counter_ns
 from typing import Any
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
@@ -35,6 +36,7 @@ from robocomp_dsl.runtime.middleware.calling import (
     eligible_servers,
     log_failure,
     matches,
+    message_of,
     select_server,
     with_deadline_check,
 )
@@ -46,7 +48,13 @@ DEPTH = 1000
 class _Mailbox:
     """The receive queue of one port, and the thread that drains it."""
 
-    def __init__(self, at: Endpoint, execution: CallbackGroup, count: Callable[[str], Any]) -> None:
+    def __init__(
+        self,
+        at: Endpoint,
+        execution: CallbackGroup,
+        count: Callable[[str], Any],
+        fail: Callable[[str], None],
+    ) -> None:
         self._jobs: deque[tuple[str, OperationCallable, tuple[Any, ...]]] = deque(
             maxlen=at.qos.depth or DEPTH
         )
@@ -54,7 +62,7 @@ class _Mailbox:
         self._count = count
         self._execution = execution
         self._receiver = LeaderFollowerQueue(
-            f"{at.component}.{at.port}", self._take, self._run, execution
+            f"{at.component}.{at.port}", self._take, self._run, execution, fail
         )
 
     def put(self, operation: str, handler: OperationCallable, arguments: tuple[Any, ...]) -> None:
@@ -78,7 +86,7 @@ class _Mailbox:
         try:
             with self._execution:
                 handler(*arguments)
-        except Exception as error:
+        except BaseException as error:
             counts.failures += 1
             log_failure(operation, error)
 
@@ -163,7 +171,8 @@ class InprocMiddleware:
         def counts(operation: str) -> OperationCounts:
             return self._host.statistics.of(at.port, operation)
 
-        port = _Port(at, handlers, execution, _Mailbox(at, execution, counts), counts)
+        mailbox = _Mailbox(at, execution, counts, self._host.fail)
+        port = _Port(at, handlers, execution, mailbox, counts)
         self._ports.append(port)
         with self._domain.changed:
             among.append(port)
@@ -257,21 +266,21 @@ class InprocServiceChannel:
             counts.calls += 1
             theirs.calls += 1
             me = get_ident()
-            paused = me in my_holders
-            if paused:
-                my_holders.remove(me)
+            began = my_holders.pop(me, None)
+            if began is not None:
                 my_release()
                 relief = relieve(me)
                 if relief:
                     relief()
             if not acquire(True, self.timeout):
-                if paused:
-                    mine.resume()
+                if began is not None:
+                    my_acquire()
+                    my_holders[me] = began
                 raise Timeout(f"{served.name} was busy for {self.timeout:g} s")
-            holders.add(me)
+            holders[me] = perf_counter_ns()
             try:
                 return handler(*arguments)
-            except Exception as error:
+            except BaseException as error:
                 counts.failures += 1
                 theirs.failures += 1
                 if declared := _as_declared(
@@ -281,11 +290,11 @@ class InprocServiceChannel:
                 log_failure(name, error)
                 raise RemoteError(_failure_message(served, name, error)) from error
             finally:
-                holders.discard(me)
+                holders.pop(me, None)
                 release()
-                if paused:
+                if began is not None:
                     my_acquire()
-                    my_holders.add(me)
+                    my_holders[me] = began
 
         return query
 
@@ -394,7 +403,7 @@ class InprocTopicChannel:
 
 
 def _as_declared(
-    error: Exception, operation: Operation, throws: tuple[type[DeclaredError], ...]
+    error: BaseException, operation: Operation, throws: tuple[type[DeclaredError], ...]
 ) -> DeclaredError | None:
     """The exception as the caller declares it: two generated packages have classes of their own.
 
@@ -409,5 +418,5 @@ def _as_declared(
     return throws[operation.throws.index(type(error))](*error._astuple())
 
 
-def _failure_message(server: _Port, operation: str, error: Exception) -> str:
-    return f"{server.name}.{operation} failed: {type(error).__name__}: {error}"
+def _failure_message(server: _Port, operation: str, error: BaseException) -> str:
+    return f"{server.name}.{operation} failed: {type(error).__name__}: {message_of(error)}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-from robocomp_dsl.syntax.ast.base import Import, Name, Node, Number, QualifiedName, Text
+from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Node, Number, QualifiedName, Text
 
 Role: TypeAlias = Literal["implements", "requires", "subscribesTo", "publishes"]
 
@@ -53,6 +53,7 @@ class Component(Node):
     parameters: Text | None = None
     period: Number | None = None
     threads: Number | None = None
+    watchdog: Duration | None = None
     middleware: Name | None = None
     doc: str = ""
 

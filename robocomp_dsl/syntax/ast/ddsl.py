@@ -108,6 +108,7 @@ class Instance(Node):
     ready_when: ReadyWhen | None = None
     memory: Memory | None = None
     cpu: Number | None = None
+    watchdog: Duration | None = None
     doc: str = ""
 
 

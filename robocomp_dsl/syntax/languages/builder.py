@@ -11,7 +11,7 @@ from typing import Any, ClassVar, TypeVar
 
 from robocomp_dsl.diagnostics import Code, Fix, Note, did_you_mean, nearest
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax.ast.base import Import, Name, Node, Number, Text, Unit
+from robocomp_dsl.syntax.ast.base import Duration, Import, Name, Node, Number, Text, Unit
 from robocomp_dsl.syntax.codes import file as file_codes
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
@@ -19,6 +19,7 @@ from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
 from robocomp_dsl.syntax.grammar.lexer import Token
 
 NodeT = TypeVar("NodeT", bound=Node)
+TIME_UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
 _ESCAPE = re.compile(r"\\(.)")
 _ESCAPED = {"n": "\n", "t": "\t", '"': '"', "\\": "\\"}
 
@@ -115,6 +116,11 @@ class Builder:
                 fix=self.replace_fix("delete it", span),
             )
         return items
+
+    def duration(self, span: Span, value: Number, unit: Name) -> Duration:
+        """`10 s`."""
+        known = self.check_choice(unit, TIME_UNITS, "unit of time")
+        return Duration(span, value.value * (TIME_UNITS[unit.text.lower()] if known else 1.0))
 
     def check_choice(self, word: Name, choices: Iterable[str], noun: str) -> bool:
         """Whether `word` is one of the `choices`, ignoring case; reports it otherwise."""

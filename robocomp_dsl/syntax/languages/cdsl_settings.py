@@ -9,7 +9,7 @@ import re
 from typing import Any
 
 from robocomp_dsl.source import Span
-from robocomp_dsl.syntax.ast.base import Name, Number, Text
+from robocomp_dsl.syntax.ast.base import Duration, Name, Number, Text
 from robocomp_dsl.syntax.ast.cdsl import Gui, StateMachine
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
@@ -112,6 +112,10 @@ class SettingsBuilder(Builder):
     def threads(self, span: Span, value: Number) -> BlockSetting:
         """`threads 2;`."""
         return BlockSetting(span, "threads", value)
+
+    def watchdog(self, span: Span, limit: Duration) -> BlockSetting:
+        """`watchdog 2 s;`."""
+        return BlockSetting(span, "watchdog", limit)
 
     def middleware(self, span: Span, name: Name) -> BlockSetting:
         """`middleware zenoh;`."""

@@ -16,7 +16,6 @@ from robocomp_dsl.syntax.languages.ddsl_devices import DevicesBuilder
 
 POLICIES = ("on-failure", "always", "never")
 MEMORY_UNITS = ("kB", "MB", "GB", "KiB", "MiB", "GiB")
-TIME_UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0}
 
 
 class InstancesBuilder(DevicesBuilder):
@@ -134,10 +133,9 @@ class InstancesBuilder(DevicesBuilder):
         """`cpu 80 %;`."""
         return BlockSetting(span, "cpu", share)
 
-    def duration(self, span: Span, value: Number, unit: Name) -> Duration:
-        """`10 s`."""
-        known = self.check_choice(unit, TIME_UNITS, "unit of time")
-        return Duration(span, value.value * (TIME_UNITS[unit.text.lower()] if known else 1.0))
+    def watchdog(self, span: Span, limit: Duration) -> BlockSetting:
+        """`watchdog 2 s;`."""
+        return BlockSetting(span, "watchdog", limit)
 
     def connection(
         self, span: Span, source: ast.PortRef, target: ast.PortRef, qos: ast.Qos | None

@@ -13,8 +13,7 @@ from robocomp_dsl.syntax.ast import smdsl as ast
 from robocomp_dsl.syntax.ast.base import Duration, Name, Number
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
-from robocomp_dsl.syntax.languages.builder import BlockSetting, Builder, of_kind
-from robocomp_dsl.syntax.languages.ddsl_instances import TIME_UNITS
+from robocomp_dsl.syntax.languages.builder import TIME_UNITS, BlockSetting, Builder, of_kind
 from robocomp_dsl.syntax.languages.parse_source import parse_source
 
 

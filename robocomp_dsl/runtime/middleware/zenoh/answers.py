@@ -15,13 +15,13 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
     Timeout,
 )
-from robocomp_dsl.runtime.middleware.calling import describe_error
+from robocomp_dsl.runtime.middleware.calling import describe_error, message_of
 
 _DECLARED = b"RCD"
 _TEXTS = {InterfaceMismatch: b"RCI", MalformedMessage: b"RCM", RemoteError: b"RCR"}
 
 
-def encode_failure(operation: Operation, error: Exception) -> bytes:
+def encode_failure(operation: Operation, error: BaseException) -> bytes:
     """`error`, raised in or before a handler of `operation`, as bytes of an error reply."""
     if isinstance(error, DeclaredError) and isinstance(error, operation.throws):
         try:
@@ -30,8 +30,8 @@ def encode_failure(operation: Operation, error: Exception) -> bytes:
             error = wrong
     kind = _TEXTS.get(type(error))
     if kind:
-        return kind + str(error).encode()
-    return _TEXTS[RemoteError] + describe_error(error).encode()
+        return kind + message_of(error).encode(errors="replace")
+    return _TEXTS[RemoteError] + describe_error(error).encode(errors="replace")
 
 
 def decode_failure(operation: Operation, server: str, data: bytes, timeout: float) -> Exception:

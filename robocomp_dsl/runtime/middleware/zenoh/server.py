@@ -108,7 +108,9 @@ class ServedZenohPort:
         name = f"{self.at.component}.{self.at.port}"
         receive = declared.handler.recv
         self._queues.append(
-            LeaderFollowerQueue(name, receive, handle, self._execution, zenoh.ZError)
+            LeaderFollowerQueue(
+                name, receive, handle, self._execution, self._host.fail, zenoh.ZError
+            )
         )
 
     def _dispatch_queries(self) -> Callable[[zenoh.Query], None]:
@@ -158,16 +160,16 @@ class ServedZenohPort:
                 counts.bytes_in += len(data)
                 arguments = decode(data)
                 acquire()
-                holders.add(get_ident())
+                holders[get_ident()] = perf_counter_ns()
                 try:
                     result = handler(*arguments)
                 finally:
-                    holders.discard(get_ident())
+                    holders.pop(get_ident(), None)
                     release()
                 reply = encode(result)
                 counts.bytes_out += len(reply)
                 query.reply(key, reply)
-            except Exception as error:
+            except BaseException as error:
                 self._reply_error(query, operation, error, counts)
             if start:
                 counts.durations.add(perf_counter_ns() - start)
@@ -195,13 +197,13 @@ class ServedZenohPort:
                 counts.bytes_in += len(data)
                 arguments = decode(data)
                 acquire()
-                holders.add(get_ident())
+                holders[get_ident()] = perf_counter_ns()
                 try:
                     handler(*arguments)
                 finally:
-                    holders.discard(get_ident())
+                    holders.pop(get_ident(), None)
                     release()
-            except Exception as error:
+            except BaseException as error:
                 self._report_failure(operation, error, counts)
             if start:
                 counts.durations.add(perf_counter_ns() - start)
@@ -209,7 +211,11 @@ class ServedZenohPort:
         return handle_sample
 
     def _reply_error(
-        self, query: zenoh.Query, operation: Operation, error: Exception, counts: OperationCounts
+        self,
+        query: zenoh.Query,
+        operation: Operation,
+        error: BaseException,
+        counts: OperationCounts,
     ) -> None:
         if isinstance(error, operation.throws):
             counts.failures += 1
@@ -218,7 +224,7 @@ class ServedZenohPort:
         query.reply_err(encode_failure(operation, error))
 
     def _report_failure(
-        self, operation: Operation, error: Exception, counts: OperationCounts
+        self, operation: Operation, error: BaseException, counts: OperationCounts
     ) -> None:
         """Count and log the failure of a message."""
         counts.failures += 1
