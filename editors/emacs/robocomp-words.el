@@ -106,6 +106,7 @@
      "port"
      "prefix"
      "priority"
+     "program"
      "ready"
      "reliable"
      "restart"

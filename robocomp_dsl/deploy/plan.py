@@ -134,10 +134,14 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
     stops_all = clock.stop_on_timeout and clock.source is instance
     return Process(
         name=instance.full_name,
-        component=instance.component.name,
+        component="program" if instance.is_program else instance.component.name,
         argv=tuple(_command_line(deployment, instance, domain, interpreter)),
         cwd=instance.component.path.parent,
-        env=(*instance.environment, *devices_environment(instance.devices)),
+        env=(
+            *instance.environment,
+            *devices_environment(instance.devices),
+            *_watchdog_environment(instance),
+        ),
         restart=Restart("never") if stops_all else instance.restart,
         start_timeout_s=instance.start_timeout_s,
         readiness=instance.readiness,
@@ -153,12 +157,37 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
     )
 
 
+def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:
+    """How a program that speaks sd_notify(3) learns its watchdog interval."""
+    if not (instance.is_program and instance.watchdog_s):
+        return ()
+    return (("WATCHDOG_USEC", str(round(instance.watchdog_s * 1e6))),)
+
+
+def format_readiness(readiness: Readiness) -> str:
+    """When a program is ready: `when port 8080 answers`; empty if its lifecycle tells."""
+    if readiness.pattern:
+        return f'when log matches "{readiness.pattern}"'
+    if readiness.port:
+        return f"when port {readiness.port} answers"
+    return f"after {readiness.delay_s:g} s" if readiness.delay_s else ""
+
+
+def format_limits(limits: ResourceLimits) -> str:
+    """`memory 500 MB, cpu 80 %`; empty without limits."""
+    parts = [f"memory {limits.memory_bytes / 1e6:g} MB"] if limits.memory_bytes else []
+    parts += [f"cpu {limits.cpu * 100:g} %"] if limits.cpu else []
+    return ", ".join(parts)
+
+
 def _command_line(
     deployment: Deployment, instance: Instance, domain: str, interpreter: str
 ) -> list[str]:
     command = shlex.split(instance.executable)
     if command and command[0] in PYTHON_PROGRAMS:
         command[0] = interpreter
+    if instance.is_program:
+        return command
     argv = [*command, "--name", instance.name]
     argv += ["--prefix", instance.prefix] if instance.prefix else []
     argv += ["--domain", domain]
@@ -181,7 +210,11 @@ def _watchdog_flags(instance: Instance) -> list[str]:
 def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]) -> str:
     """The value of `--clock` for `instance`; only the clock source gets the list of members."""
     assert clock.source is not None  # noqa: S101 - a wall clock needs no flag
-    others = [_name_for(instance, other) for other in instances if other is not clock.source]
+    others = [
+        _name_for(instance, other)
+        for other in instances
+        if other is not clock.source and not other.is_program
+    ]
     settings = ClockSettings(
         LOCKSTEP if clock.lockstep else SIM,
         _name_for(instance, clock.source),

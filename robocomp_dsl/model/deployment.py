@@ -85,6 +85,8 @@ class Instance(Record):
     own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
     starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
     the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component.
+    `is_program`: a program that is no component; its `component` has no ports, and the path of the
+    DDSL file.
     """
 
     name: str
@@ -109,6 +111,7 @@ class Instance(Record):
     doc: str = ""
     group: str = ""
     host_span: Span | None = None
+    is_program: bool = False
 
     @property
     def full_name(self) -> str:

@@ -104,7 +104,6 @@ def test_sd_notify_pings_until_a_hang(
     assert not runner.wait()
     Hanging.end.set()
     assert runner.hang is not None
-    assert runner.hang.seconds < 0.4
     supervisor.setblocking(False)
     with pytest.raises(BlockingIOError):
         while True:

@@ -178,6 +178,13 @@ hi def link ddsl_priority_value ddslValue
 hi def link ddsl_priority_name ddslName
 hi def link ddsl_priority_field ddslField
 syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
+syn match ddsl_program_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_program_name contained /\%(\<program\s\+\)\@<=\h\w*/
+hi def link ddsl_program_inner ddslModifier
+hi def link ddsl_program_value ddslValue
+hi def link ddsl_program_name ddslName
+hi def link ddsl_program_field ddslField
+syn region ddsl_program matchgroup=ddslDeclaration start=/\<program\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_program_inner,ddsl_program_value,ddsl_program_name,ddsl_program_field
 syn match ddsl_ready_inner contained /\.\@<!\<after\>\.\@!\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<answers\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<log\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/

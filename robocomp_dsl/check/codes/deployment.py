@@ -462,3 +462,21 @@ Right:
     ready when log matches "listening on port [0-9]+";
 """,
 )
+
+PROGRAM = Code(
+    "RC526",
+    Severity.ERROR,
+    "invalid setting of a program",
+    """\
+A `program` is a process that knows nothing of components. It has a command line, and no ports,
+parameters, devices, configuration or prefix. It gets no other arguments than those written.
+
+Wrong:
+
+    program camera { set rate = 20; };
+
+Right:
+
+    program camera { executable "camera_server --rate 20"; ready when port 8080 answers; };
+""",
+)

@@ -15,6 +15,7 @@ from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
 from robocomp_dsl.check.ddsl.devices import resolve_devices
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
+from robocomp_dsl.check.ddsl.programs import program_component
 from robocomp_dsl.check.ddsl.readiness import limits_of, readiness_of
 from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
@@ -51,7 +52,11 @@ def resolve_instance(
     tree: ast.Instance, group: str, around: InstanceContext, report: Report
 ) -> Instance | None:
     """Resolve the instance of `tree`; None if its component is unknown."""
-    component = _component(tree.component or tree.name, around, report)
+    component = (
+        program_component(tree, around.path, report)
+        if tree.is_program
+        else _component(tree.component or tree.name, around, report)
+    )
     host = _host(tree.host, around, report)
     config = _config(tree.config, around, report)
     context, searched = config_search_of(tree, report)
@@ -74,7 +79,7 @@ def resolve_instance(
         context=context,
         config_name=searched,
         prefix=prefix,
-        settings=settings_of(tree.settings, component, report),
+        settings=() if tree.is_program else settings_of(tree.settings, component, report),
         devices=devices,
         environment=tuple((node.name.text, node.value.value) for node in environment),
         executable=executable,
@@ -88,6 +93,7 @@ def resolve_instance(
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,
+        is_program=tree.is_program,
     )
 
 

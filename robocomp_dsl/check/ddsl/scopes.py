@@ -156,6 +156,7 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.cpu,
                 tree.watchdog,
                 tree.doc,
+                tree.is_program,
             )
             resolved.append((renamed, nested.path))
     return resolved

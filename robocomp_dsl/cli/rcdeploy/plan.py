@@ -15,7 +15,7 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
-from robocomp_dsl.deploy.plan import Plan, Process, batches
+from robocomp_dsl.deploy.plan import Plan, Process, batches, format_limits, format_readiness
 
 
 @click.command()
@@ -81,6 +81,8 @@ def _process(process: Process) -> dict[str, Any]:
             "window_s": process.restart.window_s,
         },
         "start_timeout_s": process.start_timeout_s,
+        "ready": format_readiness(process.readiness),
+        "limits": {"memory_bytes": process.limits.memory_bytes, "cpu": process.limits.cpu},
         "port": process.port,
         "devices": list(process.devices),
     }
@@ -107,7 +109,10 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     place = f" on {process.host}" if process.host else ""
     group = f" in group {process.group}" if process.group else ""
     yield f"{wave}. {process.name} ({process.component}){group}{place}{after}"
-    yield f"   ready within {process.start_timeout_s:g} s, restart {restart}"
+    ready = " ".join(filter(None, ["ready", format_readiness(process.readiness)]))
+    yield f"   {ready} within {process.start_timeout_s:g} s, restart {restart}"
+    if limits := format_limits(process.limits):
+        yield f"   {limits}"
     yield from (
         f"   {'devices' if not i else '       '} {line}" for i, line in enumerate(process.devices)
     )

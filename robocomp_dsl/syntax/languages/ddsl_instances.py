@@ -25,6 +25,18 @@ class InstancesBuilder(DevicesBuilder):
         self, span: Span, name: Name, kind: Name | None, host: Name | None, body: Any
     ) -> ast.Instance:
         """`component name : kind on host { … };`."""
+        return self._instance_node(span, name, kind, host, body)
+
+    def _instance_node(
+        self,
+        span: Span,
+        name: Name,
+        kind: Name | None,
+        host: Name | None,
+        body: Any,
+        *,
+        is_program: bool = False,
+    ) -> ast.Instance:
         items = body or ()
         return ast.Instance(
             span,
@@ -37,8 +49,13 @@ class InstancesBuilder(DevicesBuilder):
             actions=of_kind(ast.Action, items),
             environment=of_kind(ast.Environment, items),
             doc=self.doc(span),
+            is_program=is_program,
             **self.settings(items),
         )
+
+    def program(self, span: Span, name: Name, host: Name | None, body: Any) -> ast.Instance:
+        """`program name on host { … };`."""
+        return self._instance_node(span, name, None, host, body, is_program=True)
 
     def on(self, _span: Span, host: Name) -> Name:
         """`on host`."""
