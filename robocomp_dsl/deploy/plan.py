@@ -13,13 +13,13 @@ from graphlib import TopologicalSorter
 from pathlib import Path
 
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
+from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
     Clock,
     Connection,
     Deployment,
-    Host,
     Instance,
     Qos,
     Readiness,
@@ -98,7 +98,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         )
         for instance in deployment.instances
     )
-    clock = _describe_clock(deployment.clock)
+    clock = describe_clock(deployment.clock)
     return Plan(name, deployment.path, domain, deployment.middleware, processes, clock)
 
 
@@ -151,7 +151,7 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
         context=instance.context,
         config_name=instance.config_name,
         settings=format_settings(instance),
-        host=_describe_host(instance.host),
+        host=describe_host(instance.host),
         group=instance.group,
         devices=describe_devices(instance.devices),
     )
@@ -162,22 +162,6 @@ def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:
     if not (instance.is_program and instance.watchdog_s):
         return ()
     return (("WATCHDOG_USEC", str(round(instance.watchdog_s * 1e6))),)
-
-
-def format_readiness(readiness: Readiness) -> str:
-    """When a program is ready: `when port 8080 answers`; empty if its lifecycle tells."""
-    if readiness.pattern:
-        return f'when log matches "{readiness.pattern}"'
-    if readiness.port:
-        return f"when port {readiness.port} answers"
-    return f"after {readiness.delay_s:g} s" if readiness.delay_s else ""
-
-
-def format_limits(limits: ResourceLimits) -> str:
-    """`memory 500 MB, cpu 80 %`; empty without limits."""
-    parts = [f"memory {limits.memory_bytes / 1e6:g} MB"] if limits.memory_bytes else []
-    parts += [f"cpu {limits.cpu * 100:g} %"] if limits.cpu else []
-    return ", ".join(parts)
 
 
 def _command_line(
@@ -223,22 +207,6 @@ def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]
         clock.stop_on_timeout,
     )
     return settings.as_text()
-
-
-def _describe_host(host: Host) -> str:
-    """The name and address of a host; empty for this machine without a name."""
-    same = host.address in ("", host.name) or not host.name
-    return host.name if same else f"{host.name} ({host.address})"
-
-
-def _describe_clock(clock: Clock) -> str:
-    if clock.source is None:
-        return "wall"
-    text = f"simulated, from {clock.source.full_name}"
-    if not clock.lockstep:
-        return text
-    on_timeout = "stops" if clock.stop_on_timeout else "continues without the component"
-    return f"{text}, lock-step: at most {clock.limit_s:g} s per step, {on_timeout} on a time-out"
 
 
 def _stops_after(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:

@@ -15,7 +15,8 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
-from robocomp_dsl.deploy.plan import Plan, Process, batches, format_limits, format_readiness
+from robocomp_dsl.deploy.plan import Plan, Process, batches
+from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
 
 
 @click.command()

@@ -85,7 +85,8 @@ class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
     `component` is None if it has the name of the instance; `host` None: this machine; `from_` is
-    the file of `from`. `is_program`: written as `program`, without component. If a setting is repeated, the first one is stored (the second was reported).
+    the file of `from`. `is_program`: written as `program`, without component. If a setting is
+    repeated, the first one is stored (the second was reported).
     """
 
     name: Name
