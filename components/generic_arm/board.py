@@ -1,4 +1,4 @@
-"""One control board, as far as the arm uses it: its joints, their modes, commands to them.
+"""One control board with the joints of the arm: measurements, modes, commands.
 
 In: a proxy, the names of the joints. Out: measurements, and commands after the switch to the mode
 that they need. Middleware errors are passed on; a rejected command raises `CommandRefused`.

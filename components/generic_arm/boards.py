@@ -13,8 +13,8 @@ import numpy as np
 from board import Board, CommandRefused, CommandSuperseded, Joints
 from generic_arm_generated.interfaces import ControlBoardProxy, Impedance, InteractionMode
 
-from robocomp_dsl.runtime.parameters import ConfigError, ConfigFinding, ConfigLocation
-from robocomp_dsl.runtime.parameters.findings import ConfigText
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.runtime.parameters import ConfigError
 from robocomp_dsl.tactile.arm.generic_arm import Control, JointCommands
 from robocomp_dsl.tactile.arrays import Bools, Floats
 from robocomp_dsl.tactile.description.model import GenericPart
@@ -135,8 +135,8 @@ class Boards:
         return proceed
 
 
-def create_boards(part: GenericPart, file: str, proxies: Mapping[str, ControlBoardProxy]) -> Boards:
-    """The boards of `part` of `file`: one for each physical part, in the order of the ports.
+def create_boards(part: GenericPart, proxies: Mapping[str, ControlBoardProxy]) -> Boards:
+    """The boards of `part`: one for each physical part, in the order of the ports.
 
     Raises `ConfigError` if there are more parts than ports, or no joints.
     """
@@ -144,10 +144,8 @@ def create_boards(part: GenericPart, file: str, proxies: Mapping[str, ControlBoa
     physical = list(dict.fromkeys(servo.part for servo in servos))
     if not 0 < len(physical) <= len(proxies):
         message = f"`{part.name}` is on {len(physical)} physical parts: {', '.join(physical)}"
-        place = ConfigLocation(ConfigText(file, ()), part.place.line, part.place.column)
-        raise ConfigError(
-            [ConfigFinding(place, message, help=f"there are ports for {len(proxies)}")]
-        )
+        help_text = f"there are ports for {len(proxies)}"
+        raise ConfigError([Finding(part.place, message, help=help_text)])
     boards = []
     for name, (port, proxy) in zip(physical, proxies.items(), strict=False):
         at = np.flatnonzero([servo.part == name for servo in servos])

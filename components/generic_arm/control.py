@@ -80,7 +80,7 @@ class ArmControl:
     def carry_out(self, commands: JointCommands, glide: Floats | None = None) -> Bools:
         """Send commands; returns which angles (n,) were clipped.
 
-        `glide` (3,) is a velocity of the hand in m/s, from which joint speeds are renewed every
+        `glide` (3,) is a velocity of the end effector in m/s; joint speeds follow from it in every
         period. Raises one of `ARM_ERRORS`, `CommandSuperseded`.
         """
         self._sending += 1
@@ -135,7 +135,7 @@ class ArmControl:
         return ""
 
     def _hold_arm(self) -> None:
-        """Hold the arm, with the springs that were set last."""
+        """Hold the arm with the current springs."""
         if self._springs is not None:
             self._boards.soften(*self._springs)
         self._boards.hold(self._begin.speed)

@@ -38,7 +38,7 @@ from robocomp_dsl.tactile.description.part_file import load_arm_part
 
 
 class SpecificWorker(GenericWorker):
-    """A five-joint arm that is the same on every robot, on top of the boards of a real arm.
+    """A robot-independent arm of five joints, on top of the boards of a real arm.
 
     Boards are polled: a missing reply is detected immediately, boards need not publish, and the
     rate of the arm is set here.
@@ -59,7 +59,7 @@ class SpecificWorker(GenericWorker):
         part = load_arm_part(params.description, params.part, self.config_file)
         for proxy in proxies.values():
             proxy.set_timeout(params.patience / 1000)
-        boards = create_boards(part, params.description, proxies)
+        boards = create_boards(part, proxies)
         self.log.info("%s: %s", params.part, boards)
         self.arm = GenericArm(part)
         begin = StartAction(params.begin, params.begin_speed, params.compliant)
@@ -93,7 +93,7 @@ class SpecificWorker(GenericWorker):
         self.genericarmstate_proxy.armState(state_to_message(self.arm, moving=self.control.moving))
 
     def emergency(self) -> None:
-        """Without time no motion can be supervised: stop, and hold the arm again later."""
+        """Without a clock no motion can be supervised: stop, and hold the arm again later."""
         if self.clock.is_stale:
             self.stop_if_reachable()
             self.control.lose(CLOCK_LOST)
@@ -161,7 +161,7 @@ class SpecificWorker(GenericWorker):
             raise NotPossible(str(error)) from None
 
     def GenericArm_getHand(self) -> Pose:
-        """The pose of the hand."""
+        """The pose of the end effector."""
         with self.declared_errors():
             return pose_to_message(self.arm.end_effector_pose())
 
@@ -176,12 +176,12 @@ class SpecificWorker(GenericWorker):
             return self.outcome(self.arm.relative_move(way, optional_speed(speed)))
 
     def GenericArm_reach(self, x: float, y: float, z: float) -> Outcome:
-        """Move the hand to a point."""
+        """Move the end effector to a point."""
         with self.declared_errors():
             return self.outcome(self.arm.reach(np.array([x, y, z])))
 
     def GenericArm_reachPose(self, pose: Pose) -> Outcome:
-        """Move the hand to a pose."""
+        """Move the end effector to a pose."""
         with self.declared_errors():
             return self.outcome(self.arm.reach(position_of(pose), rotation_of(pose)))
 
@@ -191,7 +191,7 @@ class SpecificWorker(GenericWorker):
             self.outcome(self.arm.set_position(position))
 
     def GenericArm_drive(self, velocity: Angles) -> None:
-        """Turn at these velocities until the next command."""
+        """Move at these joint velocities until the next command."""
         with self.log_refusals("drive"):
             self.outcome(self.arm.velocity_move(velocity))
 
@@ -201,7 +201,7 @@ class SpecificWorker(GenericWorker):
             self.outcome(self.arm.set_torque(torque))
 
     def GenericArm_glide(self, vx: float, vy: float, vz: float) -> None:
-        """Move the hand at this velocity until the next command."""
+        """Move the end effector at this velocity until the next command."""
         with self.log_refusals("glide"):
             velocity = np.array([vx, vy, vz])
             self.control.carry_out(self.arm.line_move(velocity), velocity)

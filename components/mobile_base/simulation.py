@@ -1,4 +1,4 @@
-"""From parameters to a simulated base with a laser in a room."""
+"""Builds a simulated base with a laser in a room from parameters."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Simulation:
 
 
 def simulate(params: MobileBaseParams) -> Simulation:
-    """Build it. Raises `ConfigError` for a wrong room, `SceneError` for an impossible one."""
+    """Build it. Raises `ConfigError` for an invalid room, `SceneError` for an impossible one."""
     room = Room.read(HERE / params.room)
     base = DifferentialRobot(
         _mechanics(params.base),

@@ -1,4 +1,4 @@
-"""mobile_base: a MuJoCo world that follows or makes the time, its devices served as interfaces."""
+"""mobile_base: a MuJoCo world that follows a clock or is its source, and serves its devices."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from robocomp_dsl.runtime.parameters import ParameterRejected
 from robocomp_dsl.runtime.time.clock_source import ClockSource
 
 MOST_BEHIND = 0.1
-"""Seconds that one `compute` may make up for; behind a longer pause the world was asleep."""
+"""Maximum seconds that one `compute` catches up; after a longer pause the process was suspended."""
 
 
 class SpecificWorker(GenericWorker):
@@ -37,25 +37,25 @@ class SpecificWorker(GenericWorker):
         self.did_set_speed(self.params.speed)
 
     def begin(self) -> None:
-        """The world as it is at the beginning."""
+        """Reset the world to the start."""
         self.simulation = simulate(self.params)
         self.last, self.epoch = self.clock.now(), max(self.clock.reset_count, 0)
         self.next_publication = 0.0
 
     def will_set_speed(self, value: float) -> None:
-        """The clock of the machine cannot be waited for less than it takes."""
+        """Reject speed 0 on the wall clock, which cannot run faster than real time."""
         if not value and not isinstance(self.clock, ClockSource):
             raise ParameterRejected(
                 "0 is for deployments with `clock sim`, where this component is the clock"
             )
 
     def did_set_speed(self, _old: float) -> None:
-        """The time of a deployment that this component makes goes on as fast."""
+        """Set the speed of the deployment's clock if this component is its source."""
         if isinstance(self.clock, ClockSource):
             self.clock.set_speed(self.params.speed)
 
     def compute(self) -> None:
-        """Let the world catch up with the clock, and tell where the base is."""
+        """Advance the world to the clock, and publish the state of the base."""
         if self.clock.reset_count != self.epoch:
             self.begin()
         now = self.clock.now()
@@ -88,30 +88,30 @@ class SpecificWorker(GenericWorker):
         return round(pose.x), round(pose.z), pose.alpha
 
     def DifferentialRobot_setSpeedBase(self, adv: float, rot: float) -> None:
-        """Drive; refused when the numbers are none or beyond the limits."""
+        """Drive; rejects numbers that are not finite or beyond the limits."""
         with _failures():
             self.simulation.base.set_speed(adv, rot)
 
     def DifferentialRobot_stopBase(self) -> None:
-        """Stop as fast as the base can."""
+        """Stop as fast as possible."""
         self.simulation.base.stop()
 
     def DifferentialRobot_resetOdometer(self) -> None:
-        """The odometry starts again at x = z = alpha = 0."""
+        """Reset the odometry to x = z = alpha = 0."""
         self.simulation.base.set_odometry(ORIGIN)
 
     def DifferentialRobot_setOdometer(self, state: TBaseState) -> None:
-        """The odometry goes on from the pose in `state`."""
+        """Set the odometry to the pose in `state`."""
         with _failures():
             self.simulation.base.set_odometry(Pose(state.x, state.z, state.alpha))
 
     def DifferentialRobot_setOdometerPose(self, x: int, z: int, alpha: float) -> None:
-        """The odometry goes on from this pose."""
+        """Set the odometry to this pose."""
         with _failures():
             self.simulation.base.set_odometry(Pose(x, z, alpha))
 
     def DifferentialRobot_correctOdometer(self, x: int, z: int, alpha: float) -> None:
-        """The corrected pose goes on from this pose."""
+        """Set the corrected pose."""
         with _failures():
             self.simulation.base.correct(Pose(x, z, alpha))
 
@@ -127,7 +127,7 @@ class SpecificWorker(GenericWorker):
         return self.Laser_getLaserData(), self.DifferentialRobot_getBaseState()
 
     def Laser_getLaserConfData(self) -> LaserConfData:
-        """How the laser is set up."""
+        """Configuration of the laser."""
         laser = self.simulation.laser
         message: LaserConfData = settings_to_message(LaserConfData, laser.name, laser.settings)
         return message
@@ -135,7 +135,7 @@ class SpecificWorker(GenericWorker):
 
 @contextmanager
 def _failures() -> Iterator[None]:
-    """What a device refuses, as the exception that its interface declares."""
+    """Converts a device's rejection to the declared exception of its interface."""
     try:
         yield
     except HardwareError as error:

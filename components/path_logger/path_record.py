@@ -1,4 +1,4 @@
-"""The path of a base: samples, what they add up to, and the file they end in."""
+"""The path of a base: samples, their statistics, and the file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Sample:
 
 @dataclass(slots=True)
 class PathRecord:
-    """Samples in order. `distance` is the way in mm; no way leads from one run to the next."""
+    """Samples in order. `distance` is the path length in mm; consecutive runs are not connected."""
 
     interval: float = 0.0
     samples: list[Sample] = field(default_factory=list)
@@ -35,7 +35,7 @@ class PathRecord:
     time: float = 0.0
 
     def add(self, time: float, numbers: tuple[float, ...]) -> None:
-        """One state at `time` (s). A time before the last one begins another run."""
+        """Add a state at `time` (s). A time before the last one starts another run."""
         again = not self.samples or time < self.time
         if again:
             self.runs += 1
@@ -50,7 +50,7 @@ class PathRecord:
         self.samples.append(sample)
 
     def write(self, path: Path) -> None:
-        """All samples as CSV; the file appears whole or not at all."""
+        """Write all samples as CSV, atomically."""
         path.parent.mkdir(parents=True, exist_ok=True)
         part = path.with_name(path.name + ".part")
         with part.open("w", newline="", encoding="utf-8") as stream:

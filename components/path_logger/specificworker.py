@@ -1,4 +1,4 @@
-"""path_logger: keeps what the base says of itself, and writes it to a file at the end."""
+"""path_logger: records the published states of a base, and writes them to a file at exit."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from path_record import PathRecord
 
 
 class SpecificWorker(GenericWorker):
-    """Keeps the path of a base and writes it to a file at the end."""
+    """Records the path of a base and writes it to a file at exit."""
 
     def initialize(self) -> None:
-        """Begin with an empty path."""
+        """Start with an empty path."""
         self.record = PathRecord(self.params.interval / 1000)
 
     def finalize(self) -> None:
@@ -38,7 +38,7 @@ class SpecificWorker(GenericWorker):
     # subscribesTo RoboCompDifferentialRobotPub::DifferentialRobotPub
 
     def DifferentialRobotPub_pushBaseState(self, state: TBaseState, time: float) -> None:
-        """Keep it."""
+        """Record the state."""
         pose = (state.correctedX, state.correctedZ, state.correctedAlpha)
         odometry = (state.x, state.z, state.alpha)
         self.record.add(time, (*pose, *odometry, state.advVz, state.rotV))

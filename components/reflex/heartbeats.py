@@ -31,7 +31,7 @@ class Heartbeats:
         return not now - self.arm <= timeout
 
     def missing(self, now: float, frame_timeout: float, arm_timeout: float) -> str:
-        """What is missing, the arm first because it can do harm; empty if nothing is missing."""
+        """The missing part, the arm first because it can do harm; empty if nothing is missing."""
         if self.is_silent(now, arm_timeout):
             return f"no state of the arm received for {arm_timeout:g} s"
         if self.is_blind(now, frame_timeout):

@@ -43,7 +43,7 @@ class ReflexService(GenericWorker):
         return [field_to_message(field, self.part) for field in self.sense.fields]
 
     def Reflex_setFields(self, fields: Fields) -> None:
-        """Replace the receptive fields; each must be on a limb that the skin has."""
+        """Replace the receptive fields; each must be on a limb of the skin."""
         try:
             self.sense.use_fields(receptive_fields(fields, self.part, self.size))
         except InvalidField as error:
@@ -85,7 +85,7 @@ class ReflexService(GenericWorker):
         self.sense.use_law(self.law(), self.params.reach)
 
     def did_set_reach(self, _old: float) -> None:
-        """Use the new neighbours."""
+        """Use the new distance of neighbours."""
         self.sense.use_law(self.law(), self.params.reach)
 
     def did_set_arm_timeout(self, _old: float) -> None:

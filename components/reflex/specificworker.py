@@ -45,7 +45,7 @@ class SpecificWorker(HealthMonitor):
         super().initialize()
 
     def finalize(self) -> None:
-        """Leave no arm moving."""
+        """Stop the arm."""
         if self.machine.is_in("Withdrawing") or self.machine.is_in("Returning"):
             reason = self.failure_of(self.genericarm_proxy.stop)
             if reason:
@@ -62,7 +62,7 @@ class SpecificWorker(HealthMonitor):
         """Wait until `emergency` reports recovery."""
 
     def on_enter_Watching(self) -> None:
-        """The arm has returned, as far as it can."""
+        """The arm has returned, as far as possible."""
         self.away = False
         self._publish_state(ReflexState.Watching)
 
@@ -165,7 +165,7 @@ class SpecificWorker(HealthMonitor):
             self.freeze(f"the arm does not move: {reason}")
 
     def _arrive(self) -> None:
-        """Leave the state when the arm has arrived, or does not get any further."""
+        """Leave the state when the arm has arrived, or makes no progress."""
         at_goal = max_joint_distance(self.pose, self.goal) <= self.params.arrived
         if at_goal or self.clock.now() >= self.until:
             self.machine.send("arrived")

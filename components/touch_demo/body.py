@@ -1,7 +1,7 @@
-"""The robot's body and the finger, in any pose: the world file that the simulator also has.
+"""The robot's body and the finger in any pose, from the world file of the simulator.
 
-In: the world file, the skin, the arm's description. Out: where limbs are and where on them the
-finger meets skin. Nothing here moves by itself: poses are set from what was measured.
+In: the world file, the skin, the arm's description. Out: poses of limbs, and the contact points of
+the finger on them. The body does not move by itself: poses are set from measurements.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ CAMERA = "onlooker"
 _DOT = 0.0032
 _BODY, _FLOOR, _FINGERTIP = (0.86, 0.89, 0.93, 1), (0, 0, 0, 0), (0.0, 0.62, 0.45, 1)
 _CLEAR = 0.055
-"""m from the limb's axis: outside the limb, and nearer than anything else of the robot."""
+"""m from the limb's axis: outside the limb, and closer than the rest of the robot."""
 
 
 class Body:
-    """`data` is in the pose that was set last. Taxel i of the skin is the site `taxel<i>`."""
+    """`data` is in the last pose that was set. Taxel i of the skin is the site `taxel<i>`."""
 
     def __init__(self, world: Path, skin: Skin, part: GenericPart) -> None:
         spec, findings = read_spec(world)
@@ -60,7 +60,7 @@ class Body:
     ) -> None:
         """Set joints by name, generic angles (5,) and the finger's joints (3,).
 
-        Joints that only a board has, as version and vergence of eyes, leave the model as it is.
+        Joints that only a board has, such as version and vergence of the eyes, are ignored.
         """
         angles = {name: at for name, at in (joints or {}).items() if name in self._known}
         if arm is not None:
@@ -74,7 +74,7 @@ class Body:
         mujoco.mj_forward(self.model, self.data)
 
     def centre(self, place: Place) -> Floats:
-        """Where the centre of a field is in the world, (3,)."""
+        """The position of a field's centre in the world, (3,)."""
         body = self.data.body(self.skin.bodies[self.skin.limbs.index(place.limb)])
         on_body = self.skin.placed(place.limb, place.centre)
         found: Floats = body.xmat.reshape(3, 3) @ on_body + body.xpos
@@ -90,7 +90,7 @@ class Body:
         return turned / np.linalg.norm(turned)
 
     def touching(self, place: Place) -> Floats:
-        """Where the finger's centre is when it just touches the limb at the field's centre."""
+        """The finger's centre when it just touches the limb at the field's centre."""
         out = self.outward(place)
         axis = self.centre(place) - out * np.linalg.norm(place.centre[1:])
         start, geom = axis + _CLEAR * out, np.zeros(1, np.int32)
@@ -100,7 +100,7 @@ class Body:
         return touched
 
     def clearance(self, point: Floats) -> float:
-        """How far the finger at `point` (3,) would be from everything else; at most 0.2 m."""
+        """Distance of a finger at `point` (3,) to everything else, at most 0.2 m."""
         at = self.data.geom_xpos[self.finger_geom]
         previous = at.copy()
         at[:] = point
@@ -114,27 +114,27 @@ class Body:
 
     @property
     def finger_point(self) -> Floats:
-        """Where the finger's centre is, (3,)."""
+        """The position of the finger's centre, (3,)."""
         point: Floats = self.data.geom_xpos[self.finger_geom].copy()
         return point
 
     def finger_joints(self, point: Floats) -> Floats:
-        """The finger's joints (3,) that bring its centre to `point` (3,)."""
+        """The finger's joint positions (3,) for its centre at `point` (3,)."""
         joints: Floats = np.linalg.solve(self._finger_axes, point - self._finger_zero)
         return joints
 
     def _paint(self) -> None:
-        """Bodies are bright, so that the skin on them is seen; a floor is none of them."""
+        """Use bright bodies, so that the skin on them is visible; the floor is unchanged."""
         planes = self.model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE
         self.model.geom_matid[:] = -1
         self.model.geom_rgba[:] = np.where(planes[:, None], _FLOOR, _BODY)
         self.model.geom_rgba[self.finger_geom] = _FINGERTIP
-        self.model.light_active[:] = 0  # one light, whatever the world has
+        self.model.light_active[:] = 0  # a single light, whatever the world has
         light = self.model.vis.headlight
         light.ambient, light.diffuse, light.specular = [0.5] * 3, [0.5] * 3, [0.05] * 3
 
     def _find_finger(self) -> None:
-        """Its geom, and how its joints move it; they are slides, whatever their directions."""
+        """Its geom, and the map from its joints (slides in any directions) to its motion."""
         geoms = [
             geom
             for geom in range(self.model.ngeom)

@@ -1,4 +1,4 @@
-"""Colours that people with any colour vision tell apart (after Okabe and Ito), and of pressure."""
+"""Colours for pressure, and colours distinguishable with any colour vision (Okabe and Ito)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ RIM, FIELD, TOUCH = "#c3cad0", "#0072b2", "#f3d9c6"
 JOINTS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 UNTOUCHED = (0.90, 0.92, 0.94)
 BARE = (0.55, 0.61, 0.68, 1.0)
-"""Of taxels that feel nothing, on a robot."""
+"""Colour of untouched taxels on a robot."""
 
 Floats = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def pressures() -> Colormap:
 
 
 def scale(highest: float) -> PowerNorm:
-    """Forces up to `highest` [N] on the colours; small ones are seen, too."""
+    """Colour scale of forces up to `highest` [N]; small forces are visible, too."""
     return PowerNorm(0.5, vmin=0.0, vmax=highest)
 
 

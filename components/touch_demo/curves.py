@@ -1,6 +1,6 @@
 """The joint angles of the generic arm over time, with the touches.
 
-In: recordings and outcomes. Out: drawn on the sheet of the picture.
+In: recordings and outcomes. Out: curves on the panel of the picture.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def draw(sheet: Sheet, column: Column, left: float, top: float, span: tuple[floa
 
 
 def _touches(axes: Axes, column: Column, start: float) -> None:
-    """When each touch began, with its number."""
+    """Mark the start of each touch with its number."""
     above = axes.get_xaxis_transform()
     for touch in column.outcomes:
         if not np.isnan(touch.contact):
@@ -50,19 +50,19 @@ def _touches(axes: Axes, column: Column, start: float) -> None:
 
 
 def _with_gaps(times: Floats, angles: Floats) -> tuple[Floats, Floats]:
-    """The same with NaN where nothing was heard for long, so that no line is drawn over it."""
+    """The same with NaN in long gaps, so that no line is drawn across them."""
     after = np.flatnonzero(np.diff(times) > _SILENCE) + 1
     return np.insert(times, after, np.nan), np.insert(angles, after, np.nan, axis=0)
 
 
 def span(columns: Sequence[Column]) -> tuple[float, float]:
-    """Angles that all robots' curves fit between."""
+    """A range of angles that contains all robots' curves."""
     every = np.degrees(np.concatenate([column.recording.arm.ravel() for column in columns]))
     return float(every.min()) - 6.0, float(every.max()) + 6.0
 
 
 def names(sheet: Sheet, top: float) -> None:
-    """Which curve is which joint."""
+    """Legend of the joints."""
     sheet.text(LEFT, top, "joint angles of the generic arm [°]", size=8, color=SOFT)
     for i, (name, colour) in enumerate(zip(_JOINTS, JOINTS, strict=True)):
         sheet.text(LEFT + 2.3 + i * 1.3, top, f"\u2014 {name}", size=8, color=colour, weight="bold")

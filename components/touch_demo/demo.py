@@ -1,7 +1,7 @@
 """The demo: a finger touches the left arm of NAO, then of the iCub; one reflex withdraws both.
 
 `python demo.py [--robot nao] [--touches 5] [--picture demo.png] [--live]`. Exit code 0 when every
-touched arm has withdrawn and all components ran to the end. What was recorded is kept in
+touched arm has withdrawn and all components exited normally. Recordings are written to
 `build/touch_demo/`.
 """
 
@@ -43,8 +43,8 @@ ATTEMPTS = 3
 
 
 def main() -> int:
-    """Run it."""
-    # Also where a script runs it in the background, which ignores SIGINT.
+    """Run the demo."""
+    # Also when a script runs it in the background, which ignores SIGINT.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     options = _arguments()
     subjects = [SUBJECTS[options.robot]] if options.robot else list(SUBJECTS.values())
@@ -86,7 +86,7 @@ def _arguments() -> argparse.Namespace:
 
 
 def touched(subject: Subject, touches: int) -> Recording:
-    """One robot touched at so many places, from the start of its deployment to its end."""
+    """Touch one robot at several places, from the start of its deployment to its end."""
     print(f"{subject.name}: starting simulator, arm and reflex ...", flush=True)
     with (
         deployed(subject.ddsl, _name(subject), subject.recording_path.with_suffix(".log")) as alive,
@@ -106,7 +106,7 @@ def touched(subject: Subject, touches: int) -> Recording:
 
 
 def pressed(name: str, stage: RobotUnderTest, body: Body, place: Place) -> Press:
-    """One touch; again when the reflex was frozen meanwhile, as on a machine that is too busy."""
+    """One touch; repeated if the reflex was frozen meanwhile, as on an overloaded machine."""
     for _ in range(ATTEMPTS - 1):
         result = press(stage, body, place)
         if not stage.heard.frozen_since(result.began):
@@ -116,7 +116,7 @@ def pressed(name: str, stage: RobotUnderTest, body: Body, place: Place) -> Press
 
 
 def watch_live(subject: Subject, port: int) -> None:
-    """One robot in the browser, touched again and again until Ctrl-C."""
+    """Show one robot in the browser, touched repeatedly until Ctrl-C."""
     with (
         deployed(subject.ddsl, _name(subject), subject.recording_path.with_suffix(".log")) as alive,
         closing(RobotUnderTest(_name(subject), PART, alive, LIVE_FRAMES)) as stage,

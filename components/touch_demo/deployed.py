@@ -1,7 +1,7 @@
-"""One deployment while it runs.
+"""One running deployment.
 
-In: a DDSL file, a name that is also its domain, a file for all that its components say. Out: a
-context in which it runs; its end is waited for.
+In: a DDSL file, a name that is also its domain, a log file for the output of its components. Out: a
+context in which it runs; at the end it waits until all have exited.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _LAST_LINES = 16
 
 @contextmanager
 def deployed(ddsl: Path, name: str, log: Path) -> Iterator[Callable[[], None]]:
-    """Gives a function that raises `DemoFailed` once the deployment has ended by itself."""
+    """Yields a function that raises `DemoFailed` once the deployment has exited by itself."""
     program = Path(sys.executable).with_name("rcdeploy")
     command = [program, ddsl, "up", "--name", name, "--domain", name, "--no-table"]
     log.parent.mkdir(parents=True, exist_ok=True)

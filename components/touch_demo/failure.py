@@ -1,7 +1,7 @@
-"""How the demo fails: with a sentence that says what did not happen."""
+"""The error of the demo, with a message for the user."""
 
 from __future__ import annotations
 
 
 class DemoFailed(Exception):
-    """The demo cannot go on; the message says why."""
+    """The demo cannot continue; the message gives the reason."""

@@ -1,6 +1,6 @@
-"""The picture of the demo: for each robot what it looked like, what it felt and what it did.
+"""The picture of the demo: photographs, skin maps and joint angles of each robot.
 
-In: recordings, outcomes, photographs if there are any. Out: a PNG file, 1600 pixels wide.
+In: recordings, outcomes, photographs if available. Out: a PNG file, 1600 pixels wide.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from metrics import words
 from panel import COLUMN, LEFT, ROOM, WIDE, Column, Sheet
 
 PHOTO = (2.17, 1.9)
-"""Width and height of a photograph, in inches; all lengths here are, from the upper left corner."""
+"""Width and height of a photograph in inches, as all lengths here, from the upper left corner."""
 PHOTO_PIXELS = (694, 608)
-"""The same shape, twice as many pixels as it has dots."""
+"""Its size in pixels: the same shape, twice the resolution of the picture."""
 _MM = COLUMN / 252
 """Inches per mm of skin."""
 _LINE = 0.165
@@ -31,11 +31,11 @@ _CAPTION = (
     " Circles: receptive fields."
 )
 _BETWEEN = 0.46
-"""From one map to the next."""
+"""Distance of two maps."""
 
 
 def draw(columns: Sequence[Column], title: str, facts: str, highest: float, file: Path) -> None:
-    """Write the picture to `file`; `highest` [N] is the end of the colours."""
+    """Write the picture to `file`; `highest` [N] is the end of the colour scale."""
     rows = max(len(panel.outcomes) for panel in columns)
     maps, span = _map_rows(columns), curves.span(columns)
     below_photos = 1.30 + PHOTO[1] + 0.36
@@ -130,7 +130,7 @@ def _maps(
 
 
 def _bar(sheet: Sheet, highest: float) -> None:
-    """The scale of the pressure colours, beside the facts."""
+    """Draw the scale of the pressure colours, beside the facts."""
     axes = sheet.axes(WIDE - 2.35, 0.86, 2.1, 0.09)
     colours = ScalarMappable(scale(highest), pressures())
     bar = sheet.figure.colorbar(colours, cax=axes, orientation="horizontal")

@@ -1,6 +1,6 @@
-"""The robot in the browser while it is touched, each taxel in the colour of what it has just felt.
+"""Shows the robot in the browser while it is touched; taxels are coloured by their recent force.
 
-In: the running simulation, the skin, what is heard of it. Out: a page on this machine alone, until
+In: the running simulation, the skin, its published data. Out: a page on this machine only, until
 `close`. Needs the extra `view`.
 """
 
@@ -18,21 +18,21 @@ from recording import Floats, Ints, Skin
 from topic_buffer import TopicBuffer
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation
 
 HIGHEST = 2.0
-"""N at the end of the colours."""
+"""End of the colour scale [N]."""
 _PICTURES = 20.0  # per second
 _DOT = 0.006
 _DISTANCE = 0.45
 _GLOW_S = 0.4
-"""Touches are short, and are seen for so long."""
+"""How long a touch stays visible, since touches are short."""
 
 log = logging.getLogger("touch_demo")
 
 
 class Live:
-    """The page, until `close`. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
+    """The page, open until `close`. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
 
     def __init__(self, name: str, hand: Any, skin: Skin, heard: TopicBuffer, port: int) -> None:
         try:
@@ -55,7 +55,7 @@ class Live:
         self._thread.start()
 
     def _look(self) -> None:
-        """From ahead and from the touched side, so near that taxels are seen."""
+        """A camera ahead on the touched side, close enough to see taxels."""
         limb = self._skin.limbs.index(f"{self._heard.part}/lower_arm")
         page = self._page.page
         middle = page.data.body(self._skin.bodies[limb]).xpos
@@ -73,7 +73,7 @@ class Live:
             self.show()
 
     def show(self) -> None:
-        """Give the taxels their colours; what has not changed is not sent."""
+        """Colour the taxels; unchanged colours are not sent."""
         force = self._heard.felt_within(_GLOW_S)
         for name in self._skin.limbs:
             mine = self._skin.of(name)
@@ -88,7 +88,7 @@ class Live:
         self._page.page.show_points(f"skin of {limb}", body, points, colours, _DOT)
 
     def close(self) -> None:
-        """The page is gone."""
+        """Close the page."""
         self._over.set()
         self._thread.join()
         self._page.close()

@@ -1,4 +1,4 @@
-"""What each touch came to, and the table of it.
+"""The metrics of each touch, and their table.
 
 In: a recording and the robot's body. Out: one `TouchMetrics` per press, and lines for the terminal.
 """
@@ -13,20 +13,20 @@ from body import Body
 from recording import Floats, Ints, Press, Recording
 
 MOVED = 0.01
-"""rad by which a joint must have turned for the arm to have begun to move."""
+"""rad: a joint that turned further has started to move."""
 LEAST = 10.0
-"""mm that a touched place must go for the arm to have withdrawn."""
+"""mm: a touched place that moved further has withdrawn."""
 _THERE = 0.98
-"""Of its whole way, at which a place is as good as there."""
+"""Share of the whole distance at which a place counts as arrived."""
 
 
 @dataclass(frozen=True, slots=True)
 class TouchMetrics:
-    """`force` [N] is the largest that the whole arm felt, `withdrawn` [mm] the way of the place.
+    """`force` [N] is the maximum force on the arm, `withdrawn` [mm] the distance of the place.
 
-    `field` is what answered most strongly, with `gain`; times [ms] count from `contact` [s], the
-    first frame that feels anything; `farthest` [s] is when the place was as good as there. What did
-    not happen is NaN.
+    `field` is the field with the strongest response, `gain`; times [ms] count from `contact` [s],
+    the first frame with a force; `farthest` [s] is the time when the place arrived. A value without
+    an event is NaN.
     """
 
     robot: str
@@ -42,7 +42,7 @@ class TouchMetrics:
 
     @property
     def trouble(self) -> str:
-        """Why this is no withdrawal; empty if it is one."""
+        """The reason why this is no withdrawal; empty if it is one."""
         where = f"{self.robot}, {words(self.place)}"
         if np.isnan(self.contact):
             return f"{where}: the skin felt nothing"
@@ -56,7 +56,7 @@ class TouchMetrics:
 
 
 def outcomes(it: Recording, body: Body) -> list[TouchMetrics]:
-    """One for each press, in order."""
+    """The metrics of each press, in order."""
     return [_outcome(it, body, press) for press in it.presses]
 
 
@@ -89,7 +89,7 @@ def _outcome(it: Recording, body: Body, press: Press) -> TouchMetrics:
 
 
 def arm_force(it: Recording) -> Floats:
-    """What the whole arm feels, (frames,) in N."""
+    """Force on the whole arm, (frames,) in N."""
     limbs = [i for i, name in enumerate(it.skin.limbs) if name.startswith(f"{it.part}/")]
     total: Floats = it.force[:, np.isin(it.skin.limb, limbs)].sum(axis=1)
     return total
@@ -113,7 +113,7 @@ def _first_motion(it: Recording, press: Press, contact: float) -> float:
 
 
 def _withdrawn(it: Recording, body: Body, press: Press, contact: float) -> tuple[float, float]:
-    """How far the place went [mm], and when it was as good as there."""
+    """Distance of the place [mm], and when it arrived."""
     place = it.place(press.place)
     body.pose(it.rest, arm_at(it, contact))
     before = body.centre(place)
@@ -128,7 +128,7 @@ def _withdrawn(it: Recording, body: Body, press: Press, contact: float) -> tuple
 
 
 def words(name: str) -> str:
-    """The name of a place as one says it."""
+    """The name of a place in plain words."""
     return name.replace("_", " ")
 
 
@@ -139,7 +139,7 @@ _HEAD = (
 
 
 def table(rows: Sequence[TouchMetrics]) -> Iterator[str]:
-    """Two lines of head, then one for each touch; times count from the contact."""
+    """Two header lines, then one line per touch; times count from the contact."""
     cells = [
         (
             touch.robot,

@@ -1,4 +1,4 @@
-"""The paper of the picture: inches from its upper left corner, and what one robot has on it."""
+"""The canvas of the picture: inches from its upper left corner, and the data of one robot."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from recording import Recording
 
 WIDE, DOTS = 10.0, 160
 LEFT, COLUMN, ROOM = 0.62, 4.40, 0.36
-"""Where the first robot begins, how wide each is, and the room between two."""
+"""Start of the first robot's column, its width, and the gap between two."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Column:
-    """One robot. `photos` are before and after the touch `shown`, or `why_not` tells of them."""
+    """One robot. `photos` are before and after the touch `shown`, or `why_not` says why not."""
 
     recording: Recording
     outcomes: Sequence[TouchMetrics]
@@ -36,7 +36,7 @@ class Column:
 
     @property
     def numbers(self) -> dict[str, int]:
-        """The touches' numbers by their places."""
+        """The numbers of the touches by place."""
         return {outcome.place: i for i, outcome in enumerate(self.outcomes, 1)}
 
 
@@ -48,11 +48,11 @@ class Sheet:
         self._high = high
 
     def text(self, left: float, top: float, text: str, **style: Any) -> None:
-        """Words with their left end (or as `ha` says) and their middle there."""
+        """Text at this left end (or as `ha` says) and vertical centre."""
         place = left / WIDE, 1 - top / self._high
         self.figure.text(*place, text, **{"color": INK, "va": "center", **style})
 
     def axes(self, left: float, top: float, wide: float, high: float) -> Axes:
-        """Axes whose upper left corner is there."""
+        """Axes with this upper left corner."""
         place = left / WIDE, 1 - (top + high) / self._high, wide / WIDE, high / self._high
         return self.figure.add_axes(place)

@@ -1,7 +1,7 @@
 """Plans a path of the finger around the robot.
 
-In: how far from everything a point is, a start and a goal. Out: points to go to one after the other
-in straight lines, none of which comes near the robot.
+In: a distance function, a start and a goal. Out: waypoints, joined by straight lines, all of which
+keep their distance from the robot.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ _DETOURS = (0.12, 0.25, 0.4)
 
 
 class NoPath(Exception):
-    """The finger cannot get there without touching something else."""
+    """No path of the finger avoids contact with other objects."""
 
 
 def plan_path(
     clearance: Clearance, start: Floats, goal: Floats, margin: float = 0.008
 ) -> list[Floats]:
-    """The points after `start`, `goal` the last: the shortest path found with at most two bends.
+    """The waypoints after `start` up to `goal`: the shortest path found with at most two bends.
 
     Near its ends the path may be as close to the robot as the ends are. Raises `NoPath`.
     """
@@ -38,7 +38,7 @@ def plan_path(
 
 
 def _candidate_paths(start: Floats, goal: Floats) -> Iterator[list[Floats]]:
-    """Straight, by a detour beside the goal, and by one beside both ends."""
+    """Direct, with a detour at the goal, and with detours at both ends."""
     yield [goal]
     sides = [
         np.array(direction, float) for direction in product((-1, 0, 1), repeat=3) if any(direction)

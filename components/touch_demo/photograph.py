@@ -1,6 +1,6 @@
-"""Pictures of the robot's arm, made without a screen, with the skin in the colours of pressure.
+"""Offscreen pictures of the robot's arm, with the skin in the colours of pressure.
 
-In: a recording, the robot's body, moments. Out: pixels; `NoRendering` where nothing can draw.
+In: a recording, the robot's body, times. Out: pixels; raises `NoRendering`.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from robocomp_dsl.simulation.view.picture import Renderer, Viewpoint
 Pixels = NDArray[np.uint8]
 
 _OPENING = 28.0
-"""Degrees that the camera sees from its upper to its lower edge."""
+"""Vertical field of view of the camera, in degrees."""
 
 
 def best_seen(it: Recording, body: Body, touches: Sequence[TouchMetrics]) -> TouchMetrics:
-    """The touch whose place faces the camera and goes far."""
+    """A touch whose place faces the camera and moves far."""
 
     def worth(touch: TouchMetrics) -> float:
         if touch.trouble:
@@ -42,7 +42,7 @@ def best_seen(it: Recording, body: Body, touches: Sequence[TouchMetrics]) -> Tou
 def before_and_after(
     it: Recording, body: Body, touch: TouchMetrics, highest: float, size: tuple[int, int]
 ) -> tuple[Pixels, Pixels]:
-    """The touch where the skin feels most, and the arm when it is farthest away.
+    """Pictures at the maximum force of a touch, and when the arm is farthest away.
 
     `size` is width and height in pixels. Raises `NoRendering`.
     """
@@ -63,7 +63,7 @@ def _paint(it: Recording, body: Body, painter: Renderer, moment: float, highest:
 
 
 def _show(it: Recording, body: Body, moment: float, highest: float) -> None:
-    """The robot as it was at `moment`."""
+    """Set the robot's pose at `moment`."""
     look = min(int(np.searchsorted(it.finger_time, moment)), len(it.finger) - 1)
     frame = max(int(np.searchsorted(it.frame_time, moment, side="right")) - 1, 0)
     body.model.site_rgba[body.sites] = on_robot(it.force[frame], highest)
@@ -71,7 +71,7 @@ def _show(it: Recording, body: Body, moment: float, highest: float) -> None:
 
 
 def _aim(body: Body, it: Recording, moments: tuple[float, float], aspect: float) -> None:
-    """Put the camera where it sees the arm at all moments, from ahead and its own side."""
+    """Place the camera ahead on the arm's side, so that it sees the arm at all times."""
     points = np.concatenate([_arm(body, it, moment) for moment in moments])
     low, high = points.min(axis=0), points.max(axis=0)
     middle, radius = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
@@ -94,7 +94,7 @@ def towards_camera(place: Floats) -> Floats:
 
 
 def _arm(body: Body, it: Recording, moment: float) -> Floats:
-    """Where the taxels of the arm are at `moment`, and the shoulder's side of it."""
+    """Positions of the arm's taxels at `moment`, and of the shoulder."""
     body.pose(it.rest, arm_at(it, moment))
     limbs = [i for i, name in enumerate(it.skin.limbs) if name.startswith(f"{it.part}/")]
     mine = body.sites[np.isin(it.skin.limb, limbs)]

@@ -1,7 +1,7 @@
-"""A finger presses one place after the other and waits for the arm to withdraw and to come back.
+"""Presses one place after the other with a finger; waits for the withdrawal and the return.
 
-In: a `Stage`, on which there are a finger and an arm, and a `Body` that tells where places are.
-Out: when each place was pressed. All waiting is in simulated time.
+In: a `Stage` with a finger and an arm, and a `Body` that locates places. Out: the time of each
+press. All waiting is in simulated time.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from recording import Floats, Place, Press
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How the finger presses: lengths in m, times in s, speed in m/s.
+    """Motion of the finger: lengths in m, times in s, speed in m/s.
 
-    It stops `off` before the skin, goes `near`, then `deep` into where the skin was within `push`;
-    there it stays for `stay`, and when the skin feels nothing for `free` it goes away.
+    It stops `off` before the skin, moves to `near`, then `deep` into the initial position of the
+    skin within `push`; it stays for `stay`, and leaves once the skin felt nothing for `free`.
     """
 
     off: float = 0.035
@@ -34,12 +34,12 @@ class Manner:
 
 
 PLAIN = Manner()
-_SHORTEST = 0.15  # s that a motion of the finger takes at least
-_SETTLE = 0.15  # s after a motion until the finger stands
+_SHORTEST = 0.15  # s: minimum duration of a finger motion
+_SETTLE = 0.15  # s: settling time after a motion
 
 
 class Stage(Protocol):
-    """What the demo sees of a robot, and the finger that it moves."""
+    """The demo's view of a robot, and its control of the finger."""
 
     def now(self) -> float:
         """Simulated time in s."""
@@ -48,19 +48,19 @@ class Stage(Protocol):
         """Generic angles of the arm, (5,)."""
 
     def finger(self) -> Floats:
-        """Where the finger's joints are, (3,)."""
+        """The finger's joint positions, (3,)."""
 
     def move_finger(self, joints: Floats, seconds: float) -> None:
-        """Send the finger there, so that it arrives after some seconds; return at once."""
+        """Move the finger so that it arrives after some seconds; returns immediately."""
 
     def free_since(self) -> float:
-        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+        """Time since which the arm's skin has felt nothing; infinite while it feels something."""
 
     def wait_until_calm(self) -> None:
-        """Wait until the reflex watches and the arm stands still."""
+        """Wait until the reflex is watching and the arm is at rest."""
 
     def wait(self, seconds: float) -> None:
-        """Let simulated time pass."""
+        """Wait for simulated time."""
 
 
 def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Press:
@@ -87,7 +87,7 @@ def press(stage: Stage, body: Body, place: Place, manner: Manner = PLAIN) -> Pre
 
 
 def park(stage: Stage, body: Body, home: Floats, manner: Manner = PLAIN) -> None:
-    """Bring the finger back to where it was, out of the robot's reach. Raises `NoPath`."""
+    """Return the finger to its initial position, out of the robot's reach. Raises `NoPath`."""
     stage.wait_until_calm()
     body.pose(arm=stage.arm(), finger=stage.finger())
     here = body.finger_point

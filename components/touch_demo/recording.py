@@ -1,8 +1,8 @@
-"""What happened to one robot, as numbers that can be kept in a file.
+"""The data of one robot's touches, stored in a file.
 
-In: what the components published while a finger pressed. Out: a `Recording`, written to and read
-from one `.npz` file. Times are simulated, in s, as the components stamped them; lengths in m,
-forces in N, angles in rad.
+In: data published while a finger presses. Out: a `Recording`, written to and read from one `.npz`
+file. Times are simulated time stamps of the components in s; lengths in m, forces in N, angles in
+rad.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Skin:
-    """Where the n taxels are: `points` and `normals` (n, 3) in the frames of their limbs.
+    """Positions of the n taxels: `points` and `normals` (n, 3) in the frames of their limbs.
 
     `limb` (n,) is an index into the limbs; limb i has the frame `origins[i]` (3,) and `axes[i]`
     (3, 3) on the body `bodies[i]`.
@@ -59,7 +59,7 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Press:
-    """The finger was sent into the place between two times; it was out of reach before `began`."""
+    """The finger was moved to the place between two times; before `began` it was out of reach."""
 
     place: str
     began: float
@@ -68,7 +68,7 @@ class Press:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """One field answered a touch at `time`."""
+    """The response of a field to a touch at `time`."""
 
     time: float
     field: str
@@ -78,7 +78,7 @@ class Answer:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Recording:
-    """One robot, one arm. `force` (frames, n), `arm` (states, 5), `finger` (looks, 3).
+    """One robot, one arm. `force` (frames, n), `arm` (states, 5), `finger` (samples, 3).
 
     `rest` are the angles of all joints of the robot before the first touch, by name.
     """
@@ -98,7 +98,7 @@ class Recording:
     rest: Mapping[str, float]
 
     def place(self, name: str) -> Place:
-        """The place of that name; `KeyError` without one."""
+        """The place of that name; raises `KeyError` if there is none."""
         return {place.name: place for place in self.places}[name]
 
 
@@ -107,7 +107,7 @@ _SKIN_ARRAYS = ("points", "normals", "limb", "origins", "axes")
 
 
 def save(it: Recording, file: Path) -> None:
-    """Write it; the folder is made when it is not there."""
+    """Write the file; missing folders are created."""
     words = {
         "robot": it.robot,
         "part": it.part,
@@ -126,7 +126,7 @@ def save(it: Recording, file: Path) -> None:
 
 
 def load(file: Path) -> Recording:
-    """Read what `save` wrote."""
+    """Read a file written by `save`."""
     with np.load(file, allow_pickle=False) as found:
         words: dict[str, Any] = json.loads(str(found["words"]))
         skin = Skin(

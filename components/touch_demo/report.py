@@ -1,6 +1,6 @@
-"""What the demo says and draws at its end.
+"""The report at the end of the demo.
 
-In: recordings. Out: a table on the terminal, a picture, and what went wrong.
+In: recordings. Out: a table on the terminal, a picture, and the failures.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LEAST_SCALE = 0.1  # N
 def report(
     subjects: Sequence[Subject], recordings: Sequence[Recording], picture: Path
 ) -> list[str]:
-    """Print the table, draw the picture; returns what went wrong."""
+    """Print the table and draw the picture; returns the failures."""
     highest = max(_LEAST_SCALE, *(float(item.force.max(initial=0.0)) for item in recordings))
     columns = [
         _column(subject, recording, highest)

@@ -1,7 +1,7 @@
-"""The skin of a limb, cut open and laid flat, with what its taxels felt and the fields on it.
+"""Maps of a limb's skin, unrolled, with the forces of its taxels and its fields.
 
-In: a recording, a limb, the largest force of each taxel. Out: drawn on the axes of a picture: up is
-along the limb, across is around it, both to the same scale.
+In: a recording, a limb, the maximum force of each taxel. Out: a drawing on the axes of a picture:
+up is along the limb, across is around it, with the same scale.
 """
 
 from __future__ import annotations
@@ -18,27 +18,27 @@ from recording import Floats, Place, Recording
 from robocomp_dsl.tactile.skin.cone import cartesian, cylindrical
 
 SEAM = -math.radians(135)
-"""Where the skin is cut when it is pressed on all sides: between the places."""
+"""Cut for skin that is pressed on all sides: between the places."""
 _MARGIN = 4.0
 _TAXEL = 3.1
 """mm: radius of the dots."""
 
 
 def seam(places: Sequence[Place]) -> float:
-    """Where to cut: opposite to the only place, or between several."""
+    """The angle of the cut: opposite to a single place, or between several."""
     if len(places) != 1:
         return SEAM
     return float(cylindrical(places[0].centre)[1]) + math.pi
 
 
 def unrolled(points: Floats, radius: float, cut: float) -> Floats:
-    """Points (n, 3) of a limb's frame as mm around and mm along it, (n, 2)."""
+    """Points (n, 3) of a limb's frame as mm around and mm along the limb, (n, 2)."""
     x, theta, _ = cylindrical(points)
     return np.column_stack((1000 * radius * around(theta, cut), 1000 * x))
 
 
 def around(theta: Floats, cut: float) -> Floats:
-    """Angles from the cut on, 0 to 2 pi."""
+    """Angles from the cut, 0 to 2 pi."""
     turned: Floats = np.mod(theta - cut, 2 * math.pi)
     return turned
 
@@ -46,10 +46,10 @@ def around(theta: Floats, cut: float) -> Floats:
 def outline(
     points: Floats, place: Place, cut: float, steps: int = 240
 ) -> tuple[Floats, Floats, Floats]:
-    """How far the limb's surface is from a field's centre, over its radius.
+    """Distance of the limb's surface to a field's centre, divided by its radius.
 
-    Angles from the cut (steps,), places along the limb (steps,) in m, and the distances on their
-    grid; the field's edge is where these are 1. The surface is the cone through `points`.
+    Returns angles from the cut (steps,), positions along the limb (steps,) in m, and the distances
+    on their grid; the field's edge is at 1. The surface is the cone through `points`.
     """
     x, _, rho = cylindrical(points)
     slope, at_zero = np.polyfit(x, rho, 1)
@@ -86,26 +86,26 @@ def draw(
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Sheet:
-    """The skin with taxels at `points` (n, 3), laid flat at its mean `radius`."""
+    """The skin with taxels at `points` (n, 3), unrolled at its mean `radius`."""
 
     points: Floats
     radius: float
     cut: float
 
     def flat(self, points: Floats) -> Floats:
-        """Points (n, 3) in mm on the sheet, (n, 2)."""
+        """Points (n, 3) in mm on the map, (n, 2)."""
         return unrolled(points, self.radius, self.cut)
 
 
 def extent(it: Recording, limb: str) -> tuple[float, float]:
-    """How wide and how high the map of a limb is, in mm."""
+    """Width and height of a limb's map, in mm."""
     points = it.skin.points[it.skin.of(limb)]
     low, high = vertical(it, limb)
     return 2000 * math.pi * float(cylindrical(points)[2].mean()), high - low
 
 
 def vertical(it: Recording, limb: str) -> tuple[float, float]:
-    """From where to where the map goes along the limb, in mm: all taxels and fields are on it."""
+    """Range of the map along the limb, in mm: it contains all taxels and fields."""
     fields = [(place.centre[0], place.radius) for place in it.places if place.limb == limb]
     taxels = it.skin.points[it.skin.of(limb), 0]
     ends = [*taxels, *(x - r for x, r in fields), *(x + r for x, r in fields)]

@@ -1,4 +1,4 @@
-"""The robots that can be touched, and where all that belongs to them is."""
+"""The robots that can be touched, and the paths of their files."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Subject:
 
     @property
     def recording_path(self) -> Path:
-        """What its recording and its log are called, but for the ending."""
+        """Base name of its recording and its log."""
         return RECORDINGS / self.ddsl.stem
 
 

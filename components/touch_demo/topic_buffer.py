@@ -1,6 +1,6 @@
-"""What a robot, its arm and its reflex have published, in the order of its coming.
+"""Data published by a robot, its arm and its reflex, in order of arrival.
 
-In: published structs, on any thread. Out: the numbers in them as a recording has them.
+In: published structs, on any thread. Out: their numbers in the form of a recording.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from recording import Answer, Floats, Press, Recording, Skin
 
 _FROZEN = "Frozen"
 _BACK_S = 1.0
-"""Nothing is so late; time that goes back further has begun anew."""
+"""Maximum delay of a message; a larger step back in time is a reset."""
 
 
 class TopicBuffer:
-    """`news` is notified of all about `part`. All of it is kept, or the `most` latest of a kind."""
+    """`news` is notified of data about `part`. Stores all, or the `most` latest of each kind."""
 
     def __init__(self, skin: Skin, part: str, most: int | None = None) -> None:
         limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]
@@ -31,12 +31,12 @@ class TopicBuffer:
         self._answers: deque[Answer] = deque(maxlen=most)
         self._frozen = float("-inf")
         self.free_since = float("inf")
-        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+        """Time since which the arm's skin has felt nothing; infinite while it feels something."""
 
-    # Handlers: a middleware calls them.
+    # Handlers of the middleware.
 
     def frame(self, frame: Any) -> None:
-        """`SkinFrame`; frames that are not as long as the skin tell nothing."""
+        """`SkinFrame`; frames of another length are ignored."""
         force = np.array(frame.force, dtype=np.float64)
         if len(force) != len(self._mine):
             return
@@ -65,19 +65,19 @@ class TopicBuffer:
             self.news.notify_all()
 
     def reflex_state(self, state: Any) -> None:
-        """`ReflexEvents`: what the reflex does from now on."""
+        """`ReflexEvents`: the new state of the reflex."""
         with self.news:
             if state.name == _FROZEN and self._frames:
                 self._frozen = self.now
 
     def finger_at(self, time: float, joints: Floats) -> None:
-        """Where the finger was found."""
+        """Store a position of the finger."""
         with self.news:
             if not self._fingers or time > self._fingers[-1][0]:
                 self._fingers.append((time, joints))
 
     def _from(self, time: float) -> None:
-        """Where the simulation has begun anew, what was before counts no more but the latest."""
+        """After a reset of the simulation, discard all but the latest data."""
         if not (self._frames and self._arm and time < self.now - _BACK_S):
             return
         self._frames = deque([(time, self._frames[-1][1])], self._frames.maxlen)
@@ -86,11 +86,11 @@ class TopicBuffer:
         self._answers.clear()
         self._frozen = float("-inf")
 
-    # What is known.
+    # Queries.
 
     @property
     def complete(self) -> bool:
-        """Whether skin and arm have been heard."""
+        """Whether data of skin and arm have arrived."""
         return bool(self._frames and self._arm)
 
     @property
@@ -99,7 +99,7 @@ class TopicBuffer:
         return max(self._frames[-1][0], self._arm[-1][0])
 
     def felt_within(self, seconds: float) -> Floats:
-        """The largest force on each taxel within the last seconds, (n,) in N."""
+        """The maximum force on each taxel within the last seconds, (n,) in N."""
         with self.news:
             since = self._frames[-1][0] - seconds
             latest = [force for time, force in self._frames if time >= since]
@@ -113,16 +113,16 @@ class TopicBuffer:
 
     @property
     def finger_seen(self) -> float:
-        """When the finger was seen last, in s."""
+        """Time of the latest finger position, in s."""
         return self._fingers[-1][0] if self._fingers else float("-inf")
 
     def frozen_since(self, time: float) -> bool:
-        """Whether the reflex has been frozen after that time, blind or without its arm."""
+        """Whether the reflex was frozen after that time."""
         return self._frozen >= time
 
     @property
     def finger(self) -> Floats:
-        """Where the finger was seen last, (3,)."""
+        """The latest position of the finger, (3,)."""
         return self._fingers[-1][1]
 
     def stands(self, seconds: float, way: float) -> bool:
@@ -134,7 +134,7 @@ class TopicBuffer:
         return bool(np.ptp([angles for _, angles, _ in latest], axis=0).max() <= way)
 
     def recording(self, robot: str, presses: list[Press], **others: Any) -> Recording:
-        """All of it; `others` are the rest of a `Recording`."""
+        """All data; `others` are the other fields of a `Recording`."""
         with self.news:
             frames, arm, fingers = list(self._frames), list(self._arm), list(self._fingers)
             answers = tuple(self._answers)
@@ -155,7 +155,7 @@ class TopicBuffer:
 
 
 def skin_of(geometry: Any) -> Skin:
-    """The geometry that a skin tells, in arrays."""
+    """The geometry of a skin as arrays."""
     limbs = geometry.limbs
     turns = [[getattr(limb, f"r{i}{j}") for i in range(3) for j in range(3)] for limb in limbs]
     return Skin(

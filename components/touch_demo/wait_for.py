@@ -1,7 +1,7 @@
-"""A robot under its reflex, watched and touched from outside, as any program of the domain can do.
+"""Observes and touches a robot under its reflex, as a client of its domain.
 
-In: the domain of a deployment of `robot`, `arm` and `reflex`. Out: a `Stage` to press on, and what
-was published meanwhile. All waiting is in simulated time; when that stands still, it fails.
+In: the domain of a deployment of `robot`, `arm` and `reflex`. Out: a `Stage` to press on, and the
+published data. All waiting is in simulated time; a wait fails if that stops.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ ROBOT, ARM, REFLEX = "robot", "arm", "reflex"
 FINGER = "finger"
 FINGER_JOINTS = ["finger_x", "finger_y", "finger_z"]
 STIFF = {"kp": 2000.0, "ki": 0.0, "kd": 40.0, "maxOutput": 20.0, "maxIntegral": 0.0}
-"""N/m, N s/m and N: a finger that gives way by 1 mm under 2 N."""
+"""N/m, N s/m and N: an impedance of the finger that yields 1 mm under 2 N."""
 PATIENCE_S = 90.0
-"""Wall time that a start, and anything that is waited for afterwards, may take."""
+"""Wall-time limit of the start, and of every later wait."""
 _LOOKS_S = 0.02
 _NEWS_S = 1.0
-"""Within so long it is known that a component has ended."""
+"""Time within which the exit of a component is detected."""
 _CALM_S, _STILL = 0.15, 0.004
-"""The arm stands when it has moved by at most so many rad within so many s."""
+"""The arm is at rest if it moved by at most so many rad within so many s."""
 
 
 class RobotUnderTest:
     """The robot, from the start of its components to `close`.
 
-    `alive` raises when the deployment has ended. With `most`, only so much is kept of all that is
-    heard, and simulated time may stand still and begin anew. Raises `DemoFailed` when the
-    components do not come, and later when one has ended.
+    `alive` raises when the deployment has exited. With `most`, only so much data is stored, and
+    simulated time may pause and be reset. Raises `DemoFailed` if the components do not start, and
+    later if one has exited.
     """
 
     def __init__(self, domain: str, part: str, alive: Callable[[], None], most: int | None) -> None:
@@ -88,7 +88,7 @@ class RobotUnderTest:
         self._look_at_finger()
         self._patience = PATIENCE_S if most is None else float("inf")
 
-    # What there is.
+    # Properties.
 
     def places(self) -> tuple[Place, ...]:
         """The receptive fields of the reflex."""
@@ -98,7 +98,7 @@ class RobotUnderTest:
         )
 
     def joints(self) -> Mapping[str, float]:
-        """Where all joints of the robot and the finger are, by name."""
+        """Positions of all joints of the robot and the finger, by name."""
         found: dict[str, float] = {}
         for board in self._boards.values():
             names = [joint.name for joint in self._asked(board.getJoints)]
@@ -106,10 +106,10 @@ class RobotUnderTest:
         return found
 
     def simulation(self) -> SimulationProxy:
-        """The robot's world as a whole."""
+        """The complete world of the robot."""
         return SimulationProxy(self._links.channel(SIMULATION, ROBOT, "Simulation"))
 
-    # The stage.
+    # Implementation of `Stage`.
 
     def now(self) -> float:
         """Simulated time in s."""
@@ -120,22 +120,22 @@ class RobotUnderTest:
         return self.heard.angles
 
     def finger(self) -> Floats:
-        """Where the finger's joints are, (3,)."""
+        """The finger's joint positions, (3,)."""
         self._look_at_finger()
         return self.heard.finger
 
     def move_finger(self, joints: Floats, seconds: float) -> None:
-        """Send the finger there, so that it arrives after some seconds; return at once."""
+        """Move the finger so that it arrives after some seconds; returns immediately."""
         speed = np.maximum(np.abs(joints - self.finger()) / seconds, 1e-4)
         self._asked(self._finger.setReferenceSpeed, FINGER_JOINTS, speed)
         self._asked(self._finger.positionMove, FINGER_JOINTS, joints)
 
     def free_since(self) -> float:
-        """Since when the arm's skin has felt nothing; infinite while it feels something."""
+        """Time since which the arm's skin has felt nothing; infinite while it feels something."""
         return self.heard.free_since
 
     def wait_until_calm(self) -> None:
-        """Wait until the reflex watches and the arm stands still."""
+        """Wait until the reflex is watching and the arm is at rest."""
 
         def calm() -> bool:
             if not self.heard.stands(_CALM_S, _STILL):
@@ -145,25 +145,25 @@ class RobotUnderTest:
         self._until(calm, "that the reflex watches and the arm stands still")
 
     def wait(self, seconds: float) -> None:
-        """Let simulated time pass, and see where the finger is meanwhile."""
+        """Wait for simulated time, and record the finger meanwhile."""
         since = self.now()
 
         def over() -> bool:
             now = self.now()
             if now >= self.heard.finger_seen + _LOOKS_S:
                 self._look_at_finger()
-            return not since <= now < since + seconds  # time may begin anew
+            return not since <= now < since + seconds  # simulated time may be reset
 
         self._until(over, f"{seconds:.2f} s of simulated time")
 
-    # How it is done.
+    # Internals.
 
     def _all_run(self) -> bool:
         running = (self._links.component(name).getInfo().state for name in (ROBOT, ARM, REFLEX))
         try:
             return all(state == LifeState.Compute for state in running)
         except MiddlewareError:
-            return False  # not there yet
+            return False  # not available yet
 
     def _board_ports(self) -> list[str]:
         ports = self._links.component(ROBOT).getInfo().ports
@@ -178,7 +178,7 @@ class RobotUnderTest:
         self.heard.finger_at(float(state.time), np.array(state.position, dtype=np.float64))
 
     def _asked(self, call: Callable[..., Any], *inputs: Any) -> Any:
-        """The answer of a component. Raises `DemoFailed` when there is none."""
+        """The reply of a component. Raises `DemoFailed` if there is none."""
         try:
             return call(*inputs)
         except DeclaredError as refused:
@@ -188,7 +188,7 @@ class RobotUnderTest:
             raise DemoFailed(f"a component does not answer: {error}") from None
 
     def _blame(self) -> None:
-        """Something does not answer: it may be because its component has just ended."""
+        """Handle a missing reply: its component may have just exited."""
         deadline = time.monotonic() + _NEWS_S
         while time.monotonic() < deadline:
             self._check()

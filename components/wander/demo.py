@@ -1,7 +1,7 @@
-"""The demo: deploys `wander.ddsl`, lets the robot drive, says how it went and draws its path.
+"""The demo: deploys `wander.ddsl`, lets the robot drive, prints a summary and draws its path.
 
-`python demo.py [--seconds 30] [--picture demo.png]`. Exit code 0 when all three components ran to
-the end and the simulation kept up with the clock.
+`python demo.py [--seconds 30] [--picture demo.png]`. Exit code 0 when all three components exited
+normally and the simulation kept up with the clock.
 """
 
 from __future__ import annotations
@@ -43,17 +43,17 @@ BASE = HERE.parent / "mobile_base"
 PATH = HERE.parents[1] / "build" / "wander" / "path.csv"
 COMPONENTS = ("mobile_base", "wander", "path_logger")
 START_S = 60.0
-"""How long the deployment may take until the path logger has heard of the robot."""
+"""Time limit until the path logger receives data of the robot."""
 SLOWEST = 0.98
-"""Simulated seconds per second below which the simulation did not keep up."""
+"""Real-time factor below which the simulation did not keep up."""
 
 
 class DemoFailed(Exception):
-    """The demo cannot go on; the message says why."""
+    """The demo cannot continue; the message gives the reason."""
 
 
 def main() -> int:
-    """Run it."""
+    """Run the demo."""
     parser = argparse.ArgumentParser(description="A simulated robot wanders through a room.")
     parser.add_argument("--seconds", type=float, default=30.0, help="of simulated time (30)")
     parser.add_argument("--picture", type=Path, default=Path("demo.png"), help="(demo.png)")
@@ -74,7 +74,7 @@ def main() -> int:
 
 @contextmanager
 def deployed(name: str) -> Iterator[subprocess.Popen[bytes]]:
-    """The deployment while it runs; its end is waited for."""
+    """The running deployment; at the end it waits until all have exited."""
     program = Path(sys.executable).with_name("rcdeploy")
     command = [program, HERE / "wander.ddsl", "up", "--name", name, "--domain", name, "--no-table"]
     process = subprocess.Popen(list(map(str, command)))  # noqa: S603 - our own words
@@ -89,7 +89,7 @@ def deployed(name: str) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def watched(domain: str, seconds: float, process: subprocess.Popen[bytes]) -> tuple[Look, Look]:
-    """A look when all components run, and one when `seconds` were simulated."""
+    """Statistics when all components run, and after `seconds` of simulated time."""
     observer = Observer(domain)
     try:
         until(observer, 0.0, START_S, process)
@@ -106,7 +106,7 @@ def watched(domain: str, seconds: float, process: subprocess.Popen[bytes]) -> tu
 def until(
     observer: Observer, seconds: float, patience: float, process: subprocess.Popen[bytes]
 ) -> None:
-    """Wait until all components run and the path logger has heard of so much simulated time."""
+    """Wait until all components run and the path logger has seen this much simulated time."""
     heard, running = observer.path(), [observer.component(name) for name in COMPONENTS]
     deadline = time.monotonic() + patience
     while time.monotonic() < deadline:
@@ -117,13 +117,13 @@ def until(
             if states == {LifeState.Compute} and heard().time >= seconds:
                 return
         except MiddlewareError:
-            pass  # not there yet
+            pass  # not available yet
         time.sleep(0.05)
     raise DemoFailed(f"{seconds:g} s of simulated time did not pass within {patience:.0f} s")
 
 
 def look(observer: Observer) -> Look:
-    """The statistics now."""
+    """The current statistics."""
     wall, simulated = time.monotonic(), float(observer.path()().time)
     found = {name: observer.component(name).getStatistics() for name in COMPONENTS}
     return Look(wall, simulated, found)

@@ -1,7 +1,7 @@
-"""A look at the running deployment from outside, as any program of the domain can take it.
+"""Observes the running deployment as a client of its domain.
 
-In: the name of a domain. Out: proxies of the introspection interface that every component serves,
-and of what the path logger has recorded.
+In: the name of a domain. Out: proxies of the introspection interface of every component, and of the
+path logger's recording.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ class Observer(DomainClient):
     """Proxies of one domain; `close` it at the end."""
 
     def path(self, name: str = "path_logger") -> Callable[[], Any]:
-        """Asks the logger called `name` for the `PathSummary` of what it has recorded."""
+        """Fetches the `PathSummary` of the logger `name`."""
         summary: Callable[[], Any] = self.operations(
             load_generated_interfaces(LOGGER).PATHLOG, name, "PathLog"
         ).getSummary

@@ -1,6 +1,6 @@
-"""The room from above with the path of the robot in it.
+"""A picture of the room from above, with the path of the robot.
 
-In: outlines of the room, the path, what was measured. Out: a PNG file. Lengths are mm, x to the
+In: outlines of the room, the path, measurements. Out: a PNG file. Lengths are mm, x to the
 right, z upwards on the paper.
 """
 
@@ -29,10 +29,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """What is drawn: `time` (n,) in s, `path` and `odometry` (n, 2) in mm, `heading` (n,) in rad.
+    """The data: `time` (n,) in s, `path` and `odometry` (n, 2) in mm, `heading` (n,) in rad.
 
-    `odometry` is where the wheels alone would have the robot, told in the room. `nearest` is the
-    index of the nearest approach, `touching` the place on the obstacle, `clearance` in mm.
+    `odometry` is the path according to the wheels, in room coordinates. `nearest` is the index of
+    the nearest approach, `touching` the point on the obstacle, `clearance` in mm.
     """
 
     time: Array
@@ -142,7 +142,7 @@ def _marks(axes: Axes, drive: Drive) -> None:
     towards = drive.touching - place
     rim = place + towards / max(float(np.linalg.norm(towards)), 1e-9) * drive.radius
     axes.plot(*np.stack([rim, drive.touching]).T, color=ALARM, linewidth=1.8, zorder=6)
-    aside = 1 if drive.path[-1][0] < place[0] else -1  # away from where the path goes on
+    aside = 1 if drive.path[-1][0] < place[0] else -1  # away from the continuation of the path
     middle = ((rim + drive.touching) / 2).tolist()
     axes.text(
         middle[0] + aside * 110,

@@ -1,6 +1,6 @@
-"""What a wandering robot does next: a pure decision on one scan.
+"""The next command of a wandering robot: a pure function of one scan.
 
-In: a scan, the time, what it is doing, the thresholds. Out: a command, and what it is doing now.
+In: a scan, the time, the current action, the thresholds. Out: a command, and the new action.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 
 class Thresholds(Protocol):
-    """The parameters that decide; the component's own have these names."""
+    """The thresholds; the component's parameters have the same names."""
 
     @property
     def threshold(self) -> float:
-        """Nearer than this (mm) is in the way."""
+        """Distance (mm) below which something is an obstacle."""
 
     @property
     def front(self) -> float:
@@ -72,10 +72,10 @@ def decide(
     it: Thresholds,
     chance: random.Random,
 ) -> Decision:
-    """Ahead while the front sector is free; else on the spot, for a while and until it is free.
+    """Ahead while the front sector is free; else turn on the spot until it is free again.
 
     `angles` (rad, positive to the right) and `distances` (mm) have one entry per ray, `now` is in
-    s. The side of a turn stays the same until it is over, or the robot would tremble in a corner.
+    s. The side of a turn stays the same until it ends; else the robot would oscillate in corners.
     """
     sector = distances[np.abs(angles) <= it.front]
     nearest = float(sector.min()) if len(sector) else float("inf")

@@ -1,4 +1,4 @@
-"""wander: looks at the laser and drives the base."""
+"""wander: reads the laser and drives the base."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 
 
 class SpecificWorker(GenericWorker):
-    """Drives about without hitting anything.
+    """Drives around without collisions.
 
-    While the robot is away a call raises, which the life cycle tells once and tries again.
+    While the robot is missing a call raises; the lifecycle logs it and retries.
     """
 
     def initialize(self) -> None:
-        """Begin by going ahead."""
+        """Start by driving ahead."""
         self.chance = random.Random(self.params.seed)  # noqa: S311 - no secret
         self.turning: Turning | None = None
         self.epoch = self.clock.reset_count
 
     def compute(self) -> None:
-        """Look, decide, drive."""
+        """Read a scan, decide, drive."""
         scan = self.laser_proxy.getLaserData()
         now = self.clock.now()
         if self.clock.reset_count != self.epoch:
@@ -36,7 +36,7 @@ class SpecificWorker(GenericWorker):
         self.differentialrobot_proxy.setSpeedBase(found.adv, found.rot)
 
     def finalize(self) -> None:
-        """Leave no robot driving."""
+        """Stop the robot."""
         try:
             self.differentialrobot_proxy.stopBase()
         except MiddlewareError as error:

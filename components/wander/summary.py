@@ -1,6 +1,6 @@
-"""What a drive was like, in numbers and in words.
+"""The summary of a drive, as numbers and text.
 
-In: the recorded path, the room, two looks at the statistics of every component. Out: a `Drive` for
+In: the recorded path, the room, two samples of every component's statistics. Out: a `Drive` for
 the picture and lines for the terminal.
 """
 
@@ -49,12 +49,12 @@ def read_drive(file: Path, room: Sequence[Outline], start: Pose, radius: float) 
 
 
 def length(drive: Drive) -> float:
-    """The way in mm."""
+    """The length of the path in mm."""
     return float(np.linalg.norm(np.diff(drive.path, axis=0), axis=1).sum())
 
 
 def obstacle(drive: Drive, room: Sequence[Outline]) -> str:
-    """What the robot came nearest to."""
+    """The obstacle of the nearest approach."""
     place = drive.path[drive.nearest : drive.nearest + 1]
     name = min(room, key=lambda outline: float(clearance(place, (outline,))[0][0])).name
     kind, *rest = name.split(maxsplit=2)
@@ -62,7 +62,7 @@ def obstacle(drive: Drive, room: Sequence[Outline]) -> str:
 
 
 def speed(first: Look, last: Look) -> float:
-    """Simulated seconds per second."""
+    """The real-time factor."""
     return (last.simulated - first.simulated) / (last.wall - first.wall)
 
 

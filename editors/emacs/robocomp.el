@@ -27,7 +27,7 @@
   :group 'languages)
 
 (defcustom robocomp-server nil
-  "The program `rcgen'; nil: that of the project's .venv, or the one on the PATH."
+  "The program `rcgen'; nil: search the project's .venv, then the PATH."
   :type '(choice (const :tag "Find it" nil) file))
 
 (defconst robocomp--missing
@@ -45,7 +45,7 @@
         (executable-find "rcgen"))))
 
 (defun robocomp--contact (&optional _interactive)
-  "The command of the language server, as eglot wants it."
+  "The command of the language server, for eglot."
   (list (or (robocomp-find-server) (user-error "%s" robocomp--missing)) "lsp"))
 
 (defvar robocomp-mode-syntax-table
@@ -56,7 +56,7 @@
     (modify-syntax-entry ?\" "\"" table)
     (modify-syntax-entry ?_ "w" table)
     table)
-  "Comments, strings and words of all languages with braces.")
+  "Syntax of all languages with braces.")
 
 (defun robocomp--indent-line ()
   "Indent the line by four columns for each brace around it."
@@ -70,7 +70,7 @@
 
 ;;;###autoload
 (define-derived-mode robocomp-mode prog-mode "RoboComp"
-  "What the modes of all languages with braces share."
+  "Parent mode of all languages with braces."
   (setq-local comment-start "// "
               comment-end ""
               comment-start-skip "\\(?://+\\|/\\*+\\)[ \t]*"
@@ -79,7 +79,7 @@
               electric-indent-chars (cons ?} electric-indent-chars)))
 
 (defun robocomp--fontify (language)
-  "Have the words of LANGUAGE shown as what they are."
+  "Highlight the keywords of LANGUAGE."
   (let ((words (alist-get language robocomp-words)))
     (setq-local font-lock-defaults
                 (list (list (cons (regexp-opt (cdr words) 'words) 'font-lock-keyword-face))
@@ -116,7 +116,7 @@
 
 ;;;###autoload
 (define-derived-mode robocomp-scxml-mode nxml-mode "SCXML"
-  "State machines of components, as the W3C writes them.")
+  "State machines in the format of the W3C.")
 
 ;;;###autoload
 (progn
@@ -126,7 +126,7 @@
   (add-to-list 'auto-mode-alist '("\\.ddsl\\'" . robocomp-ddsl-mode))
   (add-to-list 'auto-mode-alist '("\\.smdsl\\'" . robocomp-smdsl-mode))
   (add-to-list 'auto-mode-alist '("\\.scxml\\'" . robocomp-scxml-mode))
-  ;; An XML file may be anything; it is ours when its root element is that of InnerModel.
+  ;; XML files are InnerModel if their root element is `innerModel'.
   (add-to-list 'magic-mode-alist
                '("\\(?:<\\?xml[^>]*>\\|<!--[^>]*-->\\|[ \t\r\n]\\)*<innerModel[ \t\r\n/>]"
                  . robocomp-innermodel-mode)))

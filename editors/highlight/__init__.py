@@ -1,4 +1,4 @@
-"""Highlighting for every editor from one table of words, made from the grammars.
+"""Highlighting for every editor from one table of keywords, generated from the grammars.
 
 `python -m editors.highlight` writes `grammars/words.json`,
 and from it the syntax files of each editor.

@@ -1,4 +1,4 @@
-"""Writes the table of words and every file that is made from it: `python -m editors.highlight`."""
+"""Writes the table of keywords and the files generated from it: `python -m editors.highlight`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from editors.highlight.files import ROOT, files, table_file
 
 
 def main() -> None:
-    """First the table, since the other files are made from the written one."""
+    """Writes the table first, since the other files are generated from it."""
     for outputs in (table_file, files):
         for path, text in outputs().items():
             target = ROOT / path

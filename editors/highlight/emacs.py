@@ -1,4 +1,4 @@
-"""The words of all languages for Emacs."""
+"""The keywords of all languages for Emacs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All that is made from the grammars: paths from the root of the project to texts."""
+"""All files generated from the grammars: paths from the root of the project to texts."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ TABLE = "grammars/words.json"
 
 
 def table_file() -> dict[str, str]:
-    """The table of words, from the grammars."""
+    """The table of keywords, from the grammars."""
     return {TABLE: _json(words.table())}
 
 
 def files() -> dict[str, str]:
-    """The files of the editors, from the table as it is written."""
+    """The files of the editors, from the written table."""
     outputs = {"editors/emacs/robocomp-words.el": emacs.lisp()}
     for language in LANGUAGES:
         outputs[f"editors/vscode/syntaxes/{language}.tmLanguage.json"] = _json(

@@ -1,6 +1,6 @@
 """Syntax definitions of KDE's editors.
 
-In: the contexts of a language. Out: the XML. A rule of KDE has one style, so the name behind the
+In: the contexts of a language. Out: the XML. A rule of KDE has one style, so the name after the
 first word of a statement has a context of its own.
 """
 
@@ -90,14 +90,14 @@ def _rule(rule: HighlightRule) -> Iterator[str]:
     if declares:
         target, pattern = f"{target}-name", pattern.removesuffix(rf"(?:(\s+)({NAME}))?")
     if not rule.styles:
-        # KDE passes over matches of no length; with `lookAhead` it does not consume what matches.
+        # KDE skips matches of length 0; with `lookAhead` a rule does not consume its match.
         pattern = pattern.removeprefix("(?=")[:-1]
     shown = f'attribute="{rule.styles[0]}"' if rule.styles else 'lookAhead="1"'
     yield f'        <RegExpr {shown} context="{target}" String={quoteattr(pattern)}/>'
 
 
 def _declared(rule: HighlightRule) -> Iterator[str]:
-    """What is behind the first word of a statement that declares something."""
+    """The part after the first word of a statement that declares something."""
     rest = f"#pop!{rule.push}"
     yield (
         f'      <context name="{rule.push}-name" attribute="text" lineEndContext="{rest}" '

@@ -1,7 +1,7 @@
 """TextMate grammars (VS Code and others).
 
-In: the contexts of a language. Out: the grammar as data. A context that is pushed becomes a pair of
-`begin` and `end`; what goes back from it becomes the `end`.
+In: the contexts of a language. Out: the grammar as data. A pushed context becomes a pair of `begin`
+and `end`; a rule that pops it becomes the `end`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Vim syntax files.
 
 In: the words of a language. Out: the file. Each kind of statement is a region that ends at `;` or
-before a brace; of regions that begin at the same place Vim takes the one defined last.
+before a brace; if regions start at the same place, Vim uses the one defined last.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def syntax(language: str) -> str:
 
 
 def _body(of: Words) -> Iterator[str]:
-    """Later lines win, so the general comes first."""
+    """Later lines take precedence, so the general ones come first."""
     yield from _items(of)
     yield from _region(of, StatementKeywords("", False, False, of.plain, ()), _plain_start(of))
     for statement in of.statements:
@@ -76,7 +76,7 @@ def _body(of: Words) -> Iterator[str]:
 
 
 def _items(of: Words) -> Iterator[str]:
-    """What may stand in any statement; all of it is in the cluster `Any`."""
+    """Elements of any statement, all in the cluster `Any`."""
     name = of.language
     match = f"syn match {name}"
     yield rf"{match}Operator contained /->\|=>\|::\|[=:<>+.-]/"
@@ -109,7 +109,7 @@ def _items(of: Words) -> Iterator[str]:
 
 
 def _region(of: Words, item: StatementKeywords, start: str) -> Iterator[str]:
-    """A statement; the groups inside it have its first word in their name, so none is mixed up."""
+    """A statement; the names of its inner groups contain its first word, so they are unique."""
     name, own = of.language, f"{of.language}_{item.word or 'plain'}"
     inside = [f"@{name}Any", f"{name}Comment", f"{name}Doc"]
     group = "Legacy" if item.legacy else "Declaration" if item.opens else "Keyword"

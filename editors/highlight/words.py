@@ -1,7 +1,7 @@
-"""From the grammars to the words of each language and where they stand.
+"""Extracts the keywords of each language and their contexts from the grammars.
 
-In: the Lark grammars, and the vocabularies that the checks know. Out: plain data, kept as
-`grammars/words.json`; `robocomp_dsl.highlight.table` says what its parts mean.
+In: the Lark grammars, and the vocabularies of the checks. Out: plain data, stored as
+`grammars/words.json`; `robocomp_dsl.highlight.table` explains its parts.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ VALUES = {
     "priority": PRIORITIES,
     "restart": POLICIES,
 }
-"""What checks accept behind a keyword where the grammar has just a name."""
+"""The values that checks accept after a keyword where the grammar has only a name."""
 
 _TRUTH = {"idsl": ("false", "true"), "pdsl": ("false", "true"), "ddsl": ("false", "true")}
 _FOLLOWING = {
@@ -53,7 +53,7 @@ Start = tuple[str, tuple[Symbol, ...], bool]
 
 
 class Grammar:
-    """The rules of one language, asked for statements."""
+    """The rules of one language, with queries for statements."""
 
     def __init__(self, language: str) -> None:
         outputs: Lark = lark_parser(language)
@@ -67,12 +67,12 @@ class Grammar:
 
     @staticmethod
     def _spelling(outputs: Lark, tables: dict[str, Any]) -> dict[str, str]:
-        """The words as the grammar spells them, to the names of their terminals."""
+        """The keywords as spelled in the grammar, by the names of their terminals."""
         known = set(tables["keywords"].values())
         return {t.pattern.value: t.name for t in outputs.terminals if t.name in known}
 
     def statements(self) -> dict[str, tuple[set[str], bool, bool]]:
-        """By the first keyword (or none): the keywords behind it, whether a block opens, legacy."""
+        """By the first keyword (or none): the keywords after it, whether a block opens, legacy."""
         found: dict[str, tuple[set[str], bool, bool]] = {}
         items = [name for name in self._rules if name.endswith("_item")]
         for name in items:
@@ -84,7 +84,7 @@ class Grammar:
         return found
 
     def following(self, terminal: str) -> list[str]:
-        """What may stand behind a keyword: `name`, `string`, `number` or a sign."""
+        """What may follow a keyword: `name`, `string`, `number` or punctuation."""
         after = {row[terminal] for row in self._actions if row.get(terminal, -1) >= 0}
         kinds = {kind for state in after for kind in self._actions[state]}
         kinds = {"ID" if kind in self.terminals else kind for kind in kinds}
@@ -108,7 +108,7 @@ class Grammar:
                 yield "", behind, old
 
     def _reached(self, symbols: Sequence[Symbol]) -> set[str]:
-        """The keywords in what follows, up to the items of a block."""
+        """The keywords of an expansion, up to the items of a block."""
         words: set[str] = set()
         seen: set[str] = set()
         todo = list(symbols)

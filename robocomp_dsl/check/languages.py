@@ -22,6 +22,7 @@ from robocomp_dsl.check.passes import (
 )
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.parse import LANGUAGES, parse_innermodel, parse_scxml
 
@@ -90,7 +91,7 @@ def _tells_touch(path: Path) -> bool:
     if path.suffix.lower() != ".xml":
         return path.suffix.lower() in TACTILE
     try:
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             return b"<Generic_Robot_Part" in file.read(_HEAD)
     except OSError:
         return False

@@ -113,7 +113,7 @@ def terminal_width() -> int:
 def run(program: click.Command, name: str) -> NoReturn:
     """Run `program` on the command line and exit the process with its exit code."""
     signal.signal(signal.SIGTERM, _terminated)
-    # Python does so itself, except where a script starts it in the background with SIGINT ignored.
+    # Python does so itself, except in a background process of a script with SIGINT ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     gc.set_threshold(GC_GEN0_THRESHOLD)
     try:

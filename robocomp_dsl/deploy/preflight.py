@@ -16,10 +16,11 @@ from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.parameters import runtime_schema
 from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.diagnostics import Code, Diagnostic, Note
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
-from robocomp_dsl.runtime.parameters import ConfigError, ConfigFinding, load_values, overrides
-from robocomp_dsl.source import Source, Span, UnreadableSource
+from robocomp_dsl.runtime.parameters import ConfigError, load_values, overrides
+from robocomp_dsl.source import Source, UnreadableSource
 
 DEFAULT_CONFIG = Path("etc") / "config.yaml"
 """The configuration that a component reads by default, if the file exists."""
@@ -111,28 +112,22 @@ def _search_config(name: str, process: Process) -> Path | None:
     return resolve_config(request, environment).path
 
 
-def _config_diagnostic(
-    instance: Instance, config: Path | None, finding: ConfigFinding
-) -> Diagnostic:
-    place = finding.place
+def _config_diagnostic(instance: Instance, config: Path | None, finding: Finding) -> Diagnostic:
+    at = finding.location
     span = instance.span
     message = f"{finding.message} (`{instance.name}`)"
-    if config and place.text.name == str(config):
-        span = _config_span(config, place.line, place.column, place.width)
-    elif place.text.name == overrides.SOURCE_NAME:
-        message = f"{finding.message} (`set {place.excerpt}` of `{instance.name}`)"
+    if config and at.file == str(config):
+        span = _read_source(config).span_at(at.line, at.column, at.width)
+    elif at.file == overrides.SOURCE_NAME:
+        message = f"{finding.message} (`set {at.excerpt}` of `{instance.name}`)"
     return Diagnostic(codes.CONFIGURATION, span, message, label=finding.label, help=finding.help)
 
 
-def _config_span(path: Path, line: int, column: int, width: int) -> Span:
+def _read_source(path: Path) -> Source:
     try:
-        source = Source.read(path)
+        return Source.read(path)
     except UnreadableSource:
-        return Source(path, "").file_span
-    if line > len(source.line_starts):
-        return source.span(len(source.text), len(source.text))
-    start = source.line_starts[line - 1] + column - 1
-    return source.span(start, min(start + width, len(source.text)))
+        return Source(path, "")
 
 
 def _check_ports(deployment: Deployment) -> Iterator[Diagnostic]:

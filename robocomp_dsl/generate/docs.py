@@ -1,4 +1,4 @@
-"""What generated code says of fields and operations: doc comments, units and failures.
+"""Docstrings of generated fields and operations: doc comments, units and exceptions.
 
 In: model objects. Out: text, which `literals` quotes.
 """

@@ -19,7 +19,7 @@ _YAML_WORDS = {"", "~", "null", "true", "false", "yes", "no", "on", "off", "y", 
 _YAML_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_./-]*")
 
 _ITEM = re.compile(r" *([-*+|>#]|\d+[.)]) ")
-"""A line that does not run on from the one above."""
+"""A line that starts a list item or a block."""
 
 
 def _escaped(character: str) -> str:
@@ -97,10 +97,10 @@ def sentence(text: str) -> str:
 
 
 def docstring(text: str, indent: str, instead: str = "") -> str:
-    """`text`, or `instead` if it says nothing, as a docstring that the formatter leaves as it is.
+    """`text`, or `instead` if it is empty, as a docstring that the formatter does not change.
 
-    The first indentation is not in it. `inspect.getdoc` of it gives `lines(text)` back, those that
-    are longer than `WIDTH` wrapped.
+    The first indentation is omitted. `inspect.getdoc` of it returns `lines(text)`, with lines
+    longer than `WIDTH` wrapped.
     """
     rows = lines(text) or lines(instead) or [""]
     width = WIDTH - len(indent) - len('"""')
@@ -116,7 +116,7 @@ def docstring(text: str, indent: str, instead: str = "") -> str:
 
 
 def _reflowed(rows: list[str], width: int) -> Iterator[str]:
-    """`rows` with each paragraph that has a longer line wrapped anew; lists keep their lines."""
+    """`rows` with each paragraph that has a longer line rewrapped; lists keep their lines."""
     for _, grouped in groupby(rows, key=lambda row: len(row) - len(row.lstrip(" ")) if row else -1):
         paragraph = list(grouped)
         is_text = not any(_ITEM.match(row) for row in paragraph)
@@ -143,9 +143,9 @@ def comment(text: str, indent: str = "") -> list[str]:
 
 
 def wrapped(row: str, width: int, hang: str = "") -> list[str]:
-    """A line of text as lines of at most `width` characters where its words allow it.
+    """A line of text as lines of at most `width` characters, as far as its words permit.
 
-    The others start where the first one does, and `hang` further in.
+    Continuation lines are indented by `hang` more than the first one.
     """
     text = row.lstrip(" ")
     indent = row[: len(row) - len(text)]

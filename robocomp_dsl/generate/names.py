@@ -47,12 +47,12 @@ specificworker Any Callable overload Literal GenericWorker SpecificWorker Compon
 CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
 finalize"""
 MODULE = frozenset(_MODULE.split())
-"""What generated modules and their classes call things that are not the user's."""
+"""Names of generated modules and classes that are not the user's."""
 
 ANNOTATION = frozenset(
     ("bool", "int", "float", "str", "list", "dict", "tuple", "rt", "np", "Any", "Callable")
 )
-"""What annotations inside a class may mention; a member of that name would hide it from mypy."""
+"""Names in annotations inside a class; a member of that name would hide it from mypy."""
 
 
 ENUM_MEMBERS = frozenset(
@@ -73,7 +73,7 @@ ENUM_MEMBERS = frozenset(
         "value",
     )
 )
-"""What an `IntEnum` has itself."""
+"""Members of `IntEnum`."""
 
 
 STRUCT_MEMBERS = frozenset(("rt",))
@@ -83,7 +83,7 @@ ERROR_MEMBERS = STRUCT_MEMBERS | {"add_note", "args", "with_traceback"}
 """The same for declared exceptions, with the public members of their base."""
 
 ARGUMENTS = frozenset(("rt", "super"))
-"""Names that the bodies of methods need."""
+"""Names used in the bodies of methods."""
 
 ARRAY_MEMBERS = frozenset(
     (
@@ -103,7 +103,7 @@ ARRAY_MEMBERS = frozenset(
         "sort",
     )
 )
-"""Public members of the base of all arrays of records."""
+"""Public members of the base of all struct arrays."""
 
 PROXY_MEMBERS = frozenset(
     ("INTERFACE", "has_subscribers", "is_heard", "set_timeout", "wait_for_server")
@@ -139,7 +139,7 @@ PARAMETER_MEMBERS = frozenset(
 
 
 def identifier(name: str, reserved: Iterable[str] = ()) -> str:
-    """`name` by the rules 1 to 3; `reserved` are the names that the scope reserves."""
+    """`name` by the rules 1 to 3; `reserved` are the reserved names of the scope."""
     bare = name.lstrip("_")
     moved = bare + "_" * (len(name) - len(bare))
     if not bare or bare[0].isdigit():

@@ -1,19 +1,19 @@
-"""What generation gives: files as data, before anything is written."""
+"""Generated files as data, before anything is written."""
 
 from __future__ import annotations
 
 from robocomp_dsl.record import ValueRecord
 
 MANIFEST_FOLDER = ".rcgen/"
-"""The folder in which rcgen remembers what it generated."""
+"""The folder of rcgen's manifest and pristine outputs."""
 
 
 class OutputFile(ValueRecord):
     """One file. `path` is relative to the output folder, with `/`.
 
-    A file with `keep` is written once and then belongs to the user. One that was made from a file
-    that is there already has the bytes of that in `seen`: it is only written over those. One that
-    `is_removed` is deleted if it still holds the bytes in `seen`.
+    A file with `write_once` is written once and then belongs to the user. A merged file has the
+    bytes of the existing file in `expected_bytes`: only these are overwritten. A file with
+    `is_removed` is deleted if it still has the expected bytes.
     """
 
     path: str
@@ -25,10 +25,10 @@ class OutputFile(ValueRecord):
 
     @property
     def is_internal(self) -> bool:
-        """Whether it is rcgen's record of what it did, which nobody needs to look at."""
+        """Whether it is internal data of rcgen."""
         return self.path.startswith(MANIFEST_FOLDER)
 
     @property
     def data(self) -> bytes:
-        """Its bytes on the disk."""
+        """The bytes to write."""
         return self.text.encode(self.encoding, "surrogateescape")

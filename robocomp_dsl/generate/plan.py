@@ -13,11 +13,11 @@ from robocomp_dsl.model.component import Component
 __all__ = ["LANGUAGES", "OutputFile", "plan"]
 
 LANGUAGES = {"python": "robocomp_dsl.generate.python.component_files"}
-"""Target languages, in lower case, and the module of each; it is loaded when it is needed."""
+"""Target languages, in lower case, and the module of each, which is loaded on use."""
 
 
 def plan(component: Component, *, language: str = "", middleware: str = "") -> list[OutputFile]:
-    """The files of `component`. `language` and `middleware`, where given, win over its own.
+    """The files of `component`. `language` and `middleware` override the component's own.
 
     Raises `KeyError` for a language that is not in `LANGUAGES`.
     """

@@ -233,7 +233,7 @@ LEGACY_STATE_METHOD = Code(
 `self.t_search_to_found.emit()`. `legacy.py` still does both; the event is sent in the next
 period. To remove `legacy.py`, rename the method to `on_enter_search` and send the event yourself:
 
-    self.machine.go("t_search_to_found")""",
+    self.machine.send("t_search_to_found")""",
 )
 
 NOT_COPIED = Code(

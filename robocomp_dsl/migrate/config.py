@@ -16,6 +16,7 @@ from typing import Any, TypeAlias
 
 from robocomp_dsl.diagnostics import Note, Report
 from robocomp_dsl.migrate import codes
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 Value: TypeAlias = Any
@@ -72,7 +73,7 @@ def read_source(path: Path, report: Report) -> Source:
     try:
         return Source.read(path)
     except UnreadableSource:
-        with suppress(OSError), path.open("rb") as stream:
+        with suppress(OSError), open_regular(path) as stream:
             data = stream.read(MAX_BYTES + 1)
             if len(data) <= MAX_BYTES and not _BINARY.search(data) and path.suffix != ".toml":
                 source = Source(path, data.decode("iso-8859-1"))

@@ -13,6 +13,7 @@ from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.migrate import codes
 from robocomp_dsl.migrate.component_files import ComponentFile, FileCategory
 from robocomp_dsl.migrate.migrated_component import MigratedComponent
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import MAX_BYTES, Source
 
 _NOT_MIGRATED = {
@@ -58,7 +59,7 @@ def _copy(moved: MigratedComponent, file: ComponentFile, room: int, report: Repo
     name = str(file.relative)
     data, problem = b"", ""
     try:
-        with file.path.open("rb") as stream:
+        with open_regular(file.path) as stream:
             data = stream.read(min(MAX_BYTES, room) + 1)
     except OSError as error:
         problem = error.strerror or str(error)

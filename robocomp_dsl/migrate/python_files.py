@@ -18,6 +18,7 @@ from robocomp_dsl.migrate.infer import InferredParameters
 from robocomp_dsl.migrate.legacy import legacy_text
 from robocomp_dsl.migrate.worker import adapt_module, names_for, period_of
 from robocomp_dsl.model.component import Component
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 WORKER = "specificworker.py"
@@ -123,7 +124,7 @@ def _read_module(path: Path, report: Report) -> user_module.UserModule | None:
 def _copy_bytes(file: ComponentFile, place: str) -> MigratedFile:
     """A file copied byte by byte."""
     try:
-        with file.path.open("rb") as stream:
+        with open_regular(file.path) as stream:
             data = stream.read(MAX_BYTES)
     except OSError:
         data = b""

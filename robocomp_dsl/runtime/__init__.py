@@ -1,4 +1,4 @@
-"""What a running component needs; nothing of the toolchain is loaded here.
+"""The runtime of components. It loads nothing of the toolchain.
 
 Generated code imports `Component`, its specification and `main` from here, and the types from
 `robocomp_dsl.runtime.types`.

@@ -82,7 +82,7 @@ def load_generated_interfaces(folder: Path) -> ModuleType:
 
 
 def _forget(package: str) -> None:
-    """Another component of this name was loaded from elsewhere."""
+    """A package of the same name was already loaded from another folder."""
     for name in [
         module for module in sys.modules if module == package or module.startswith(f"{package}.")
     ]:

@@ -51,12 +51,12 @@ class Clock(Protocol):
         """Whether the clock source exited or is not responding; a paused clock is not stale."""
 
     def now(self) -> float:
-        """Seconds since a fixed moment; goes back only with another `epoch`."""
+        """Seconds since a fixed moment; decreases only after a reset (see `reset_count`)."""
 
     def wait_until(self, moment: float | None, wake: WakeEvent) -> None:
-        """Until `now()` is `moment` (None: for ever), `wake` is set or the epoch is another.
+        """Wait until `now()` is `moment` (None: no limit), `wake` is set or time was reset.
 
-        While it is `silent`, a wait ends now and then.
+        While `is_stale`, waits return periodically.
         """
 
 

@@ -1,31 +1,49 @@
-"""What can go wrong between components, as types. In: words. Out: exceptions that users catch.
+"""The exceptions of a running component that users catch.
 
-Exception ├── MiddlewareError the call, the topic or the message did not work out │ ├── NoServer
-nobody serves the interface that is called │ ├── AmbiguousServer several serve it and no wire says
-which is meant │ ├── Timeout no answer came in time │ ├── InterfaceMismatch the two sides were
-generated from different interfaces │ ├── RemoteError the other side failed with something it did
-not declare │ └── MalformedMessage the bytes are not what the interface says (offset and field) ├──
-DeclaredError base of the exceptions that an IDSL file declares ├── EncodeError a value that its
-type cannot carry (also a ValueError) ├── NotImplementedOperation the component has no method for it
-(also a NotImplementedError) ├── ConfigError a configuration that cannot be used } defined in └──
-ParameterRejected a live parameter change that is not made } `runtime.parameters`
+Exception
+├── MiddlewareError           a call, a topic or a message failed
+│   ├── NoServer              no component serves the interface that is called
+│   ├── AmbiguousServer       several serve it, and no wire selects one
+│   ├── Timeout               no answer arrived in time
+│   ├── InterfaceMismatch     the two sides were generated from different interfaces
+│   ├── RemoteError           the other side failed with an error that it does not declare
+│   └── MalformedMessage      the bytes do not match the interface (offset and field)
+├── DeclaredError             base of the exceptions that an IDSL file declares
+├── EncodeError               a value that its type cannot carry (also a ValueError)
+├── NotImplementedOperation   the component has no method for it (also a NotImplementedError)
+├── ConfigError               an invalid configuration         } defined in
+└── ParameterRejected         a live change that was rejected  } `runtime.parameters`
 """
 
 from __future__ import annotations
 
-from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.data.declared_error import DeclaredError
+from robocomp_dsl.runtime.data.errors import EncodeError
+
+__all__ = [
+    "AmbiguousServer",
+    "DeclaredError",
+    "EncodeError",
+    "InterfaceMismatch",
+    "MalformedMessage",
+    "MiddlewareError",
+    "NoServer",
+    "NotImplementedOperation",
+    "RemoteError",
+    "Timeout",
+]
 
 
 class MiddlewareError(Exception):
-    """Base of everything that goes wrong between two components."""
+    """Base of all communication errors between two components."""
 
 
 class NoServer(MiddlewareError):
-    """Nobody serves the interface that is called."""
+    """No component serves the interface that is called."""
 
 
 class AmbiguousServer(MiddlewareError):
-    """Several components serve the interface and the required port is not wired to one of them.
+    """Several components serve the interface, and the required port is connected to none of them.
 
     `servers` are their ports, as `component.Port`.
     """
@@ -35,22 +53,22 @@ class AmbiguousServer(MiddlewareError):
         self.servers = servers
 
 
-class Timeout(MiddlewareError):  # the name that users of every middleware know
-    """No answer came in time. Whether the operation was carried out is not known."""
+class Timeout(MiddlewareError):  # the usual name in middlewares
+    """No reply arrived in time. Whether the operation was executed is unknown."""
 
 
 class InterfaceMismatch(MiddlewareError):
-    """The two sides were generated from interfaces of different shape."""
+    """The two components were generated from different versions of the interface."""
 
 
 class RemoteError(MiddlewareError):
-    """The other side failed in a way that its interface does not declare."""
+    """The server failed with an exception that its interface does not declare."""
 
 
 class MalformedMessage(MiddlewareError):
-    """Received bytes that are no message of the expected type.
+    """Received bytes that are not a message of the expected type.
 
-    `path` is the field that could not be read (`scan.points[3].x`; empty: the message as a whole),
+    `path` is the invalid field (`scan.points[3].x`; empty: the whole message),
     `offset` counts bytes from the start of the message, its 4-byte header included.
     """
 
@@ -65,27 +83,5 @@ class MalformedMessage(MiddlewareError):
         return f"malformed message: {where}, byte {self.offset}: {self.reason}"
 
 
-class EncodeError(ValueError):
-    """A value that its type cannot carry; nothing was sent. `path` is the field it was given to."""
-
-    def __init__(self, reason: str, path: str = "") -> None:
-        self.reason = reason
-        self.path = path
-        super().__init__(reason, path)
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.reason}" if self.path else self.reason
-
-
 class NotImplementedOperation(NotImplementedError):
     """The component declares the interface but has no method for this operation."""
-
-
-class DeclaredError(Struct, Exception):
-    """Base of the exceptions that an IDSL file declares; carries fields as a struct does."""
-
-    __slots__ = ()
-    _fields_ = ()
-
-    def __str__(self) -> str:
-        return repr(self)

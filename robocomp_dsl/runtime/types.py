@@ -1,4 +1,4 @@
-"""What generated code is written in, imported by it as `rt`.
+"""The names that generated code uses, imported as `rt`.
 
 Declarations of types (`Struct`, `Enum`, `StructArray`, …), annotations that name the type on the
 wire (`Int`, `String`, `Float32Array`, …), wire types as objects (`INT`, `STRING`, `Array`, …),

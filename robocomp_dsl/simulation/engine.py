@@ -1,7 +1,7 @@
-"""The physics engine, MuJoCo: loaded once, its warnings sent to the logger `robocomp.mujoco`.
+"""The physics engine, MuJoCo: loaded once; its warnings go to the logger `robocomp.mujoco`.
 
-By default MuJoCo writes its warnings into a file in the working folder. `connect` runs when the
-package is imported, before any other module of it can use the engine.
+By default MuJoCo writes its warnings to a file in the working folder. `connect` runs when the
+package is imported, before any of its modules uses the engine.
 """
 
 from __future__ import annotations

@@ -60,7 +60,9 @@ class ErrorType(rt.Enum):
 
 
 class InnerModelManagerError(rt.DeclaredError):
-    """The scene stays as it was; `err` and `text` say why."""
+    """The request is rejected and the scene unchanged; `err` and `text` give the
+    reason.
+    """
 
     err: ErrorType = ErrorType.NonExistingNode
     text: rt.String = ""
@@ -167,7 +169,7 @@ class Matrix(rt.Struct):
 
 
 class Refused(rt.DeclaredError):
-    """What was asked cannot be; nothing has changed."""
+    """The request cannot be executed; nothing has changed."""
 
     what: rt.String = ""
 
@@ -176,14 +178,15 @@ class State(rt.Struct):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
-    # Simulated seconds per second as wished (0: as fast as it can) and as they are.
+    # Simulated seconds per second, requested (0: as fast as possible) and measured.
     speed: rt.Double = 0.0
     realTimeFactor: rt.Double = 0.0
     paused: rt.Bool = False
     physics: rt.Bool = False
     seed: rt.Int = 0
     noise: rt.Double = 0.0
-    failure: rt.String = ""  # Why it has stopped for good; empty while it is well.
+    # The reason of a permanent stop; empty while the simulation works.
+    failure: rt.String = ""
 
 
 Names = list[rt.String]
@@ -217,25 +220,25 @@ Bytes = rt.UInt8Array
 
 
 class Model(rt.Struct):
-    """The whole world as MuJoCo writes it (MJB), for those who show it."""
+    """The complete world in MuJoCo's format (MJB), for viewers."""
 
-    version: rt.String = ""  # Of MuJoCo; another one cannot read it.
-    revision: rt.Int = 0  # Another number when the world has other nodes.
+    version: rt.String = ""  # MuJoCo version; other versions cannot read the file.
+    revision: rt.Int = 0  # Changes when nodes are added or removed.
     data: Bytes = rt.default()
 
 
 class Sight(rt.Struct):
-    """What there is to be seen at one moment, as MuJoCo counts: m, z up."""
+    """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]
     realTimeFactor: rt.Double = 0.0
     paused: rt.Bool = False
-    revision: rt.Int = 0  # Of the model that the numbers are of.
-    # Of all joints, `qpos` of MuJoCo: m, rad, quaternions.
+    revision: rt.Int = 0  # Revision of the model that the values belong to.
+    # MuJoCo's `qpos` of all joints: m, rad, quaternions.
     positions: Values = rt.default()
-    # Of all bodies, seven each: x y z [m], quaternion w x y z.
+    # Poses of all bodies, seven values each: x y z [m], quaternion w x y z.
     poses: Values = rt.default()
-    contacts: Values = rt.default()  # All contacts, six each: point [m], normal.
+    contacts: Values = rt.default()  # All contacts, six values each: point [m], normal.
 
 
 SIMULATION = rt.Interface(
@@ -313,7 +316,7 @@ class SimulationProxy(rt.Proxy):
         self._call("resume")
 
     def step(self, steps: int) -> float:
-        """While it is paused: so many steps of the physics, at once; tells the time
+        """While paused: run a number of physics steps without delay; returns the time
         afterwards.
 
         May raise Refused.
@@ -321,46 +324,46 @@ class SimulationProxy(rt.Proxy):
         return self._call("step", steps)
 
     def reset(self) -> None:
-        """Everything as it was at the start, with the present seed and nodes.
+        """Reset everything to the start, with the current seed and nodes.
 
         May raise Refused.
         """
         self._call("reset")
 
     def setSeed(self, seed: int) -> None:
-        """Counts from the next reset on.
+        """Takes effect at the next reset.
 
         May raise Refused.
         """
         self._call("setSeed", seed)
 
     def setSpeed(self, speed: float) -> None:
-        """Simulated seconds per second; 0: as fast as it can.
+        """Simulated seconds per second; 0: as fast as possible.
 
         May raise Refused.
         """
         self._call("setSpeed", speed)
 
     def setNoise(self, factor: float) -> None:
-        """A factor on the noise that the devices declare.
+        """Factor on the noise that the devices declare.
 
         May raise Refused.
         """
         self._call("setNoise", factor)
 
     def setPhysics(self, on: bool) -> None:
-        """Off: no gravity and no contacts; motors work as ever."""
+        """Off: no gravity and no contacts; motors still work."""
         self._call("setPhysics", on)
 
     def snapshot(self) -> int:
-        """Keep the world as it is now, under a number.
+        """Save the current state of the world under a number.
 
         May raise Refused.
         """
         return self._call("snapshot")
 
     def restore(self, snapshot: int) -> None:
-        """The world is again as it was then.
+        """Restore a saved state.
 
         May raise Refused.
         """
@@ -371,15 +374,14 @@ class SimulationProxy(rt.Proxy):
         self._call("forget", snapshot)
 
     def fork(self) -> int:
-        """A copy of the world that runs only when it is told to, to see what would
-        happen.
+        """A copy of the world that runs only on request, for prediction.
 
         May raise Refused.
         """
         return self._call("fork")
 
     def advance(self, fork: int, seconds: float) -> float:
-        """Let time pass in a fork; tells its time afterwards.
+        """Advance a fork; returns its time afterwards.
 
         Units: seconds in s.
         May raise Refused.
@@ -387,7 +389,7 @@ class SimulationProxy(rt.Proxy):
         return self._call("advance", fork, seconds)
 
     def drive(self, fork: int, base: str, side: float, adv: float, rot: float) -> None:
-        """Drive a base, until told otherwise; 0 is the world itself.
+        """Drive a base until the next command; fork 0 is the world itself.
 
         Units: side in mm/s, adv in mm/s, rot in rad/s.
         May raise Refused.
@@ -395,39 +397,40 @@ class SimulationProxy(rt.Proxy):
         self._call("drive", fork, base, side, adv, rot)
 
     def move(self, fork: int, joints: Names, positions: Values) -> None:
-        """Joints go to positions (rad, mm) as fast as they can; 0 is the world itself.
+        """Move joints to positions (rad, mm) at maximum speed; fork 0 is the world
+        itself.
 
         May raise Refused.
         """
         self._call("move", fork, joints, positions)
 
     def getPoses(self, fork: int, frames: Names) -> Poses:
-        """Where frames are, in the frame of the world; 0 is the world itself.
+        """Poses of frames in the world frame; fork 0 is the world itself.
 
         May raise Refused.
         """
         return self._call("getPoses", fork, frames)
 
     def getJoints(self, fork: int, joints: Names) -> Values:
-        """Positions of joints (rad, mm); 0 is the world itself.
+        """Joint positions (rad, mm); fork 0 is the world itself.
 
         May raise Refused.
         """
         return self._call("getJoints", fork, joints)
 
     def release(self, fork: int) -> None:
-        """A fork is needed no more.
+        """Delete a fork.
 
         May raise Refused.
         """
         self._call("release", fork)
 
     def getModel(self) -> Model:
-        """What is simulated; some MB, needed once for each `revision`."""
+        """The simulated model; some MB, to be fetched once per `revision`."""
         return self._call("getModel")
 
     def getSight(self) -> Sight:
-        """Where everything is."""
+        """Poses of all bodies."""
         return self._call("getSight")
 
 
@@ -586,28 +589,28 @@ class InnerModelManagerProxy(rt.Proxy):
     INTERFACE = INNERMODELMANAGER
 
     def addTransform(self, item: str, engine: str, base: str, pose: Pose3D) -> bool:
-        """Put a new transform below `base`.
+        """Add a transform below `base`.
 
         May raise InnerModelManagerError.
         """
         return self._call("addTransform", item, engine, base, pose)
 
     def addJoint(self, item: str, base: str, j: jointType) -> bool:
-        """Put a new joint below `base`.
+        """Add a joint below `base`.
 
         May raise InnerModelManagerError.
         """
         return self._call("addJoint", item, base, j)
 
     def addMesh(self, item: str, base: str, m: meshType) -> bool:
-        """Put a new mesh below `base`, which must be a transform.
+        """Add a mesh below `base`, which must be a transform.
 
         May raise InnerModelManagerError.
         """
         return self._call("addMesh", item, base, m)
 
     def addPlane(self, item: str, base: str, plane: Plane3D) -> bool:
-        """Put a new plane below `base`.
+        """Add a plane below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -621,14 +624,14 @@ class InnerModelManagerProxy(rt.Proxy):
         return self._call("getAllNodeInformation")
 
     def setPose(self, base: str, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of `base`.
+        """Set the pose of `item`, expressed in the frame of `base`.
 
         May raise InnerModelManagerError.
         """
         return self._call("setPose", base, item, pose)
 
     def setPoseFromParent(self, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of its parent.
+        """Set the pose of `item`, expressed in the frame of its parent.
 
         May raise InnerModelManagerError.
         """
@@ -660,7 +663,7 @@ class InnerModelManagerProxy(rt.Proxy):
     def transform(
         self, base: str, item: str, coordInItem: coord3D
     ) -> tuple[bool, coord3D]:
-        """A point in the frame of `item`, told in the frame of `base`.
+        """Transform a point from the frame of `item` to the frame of `base`.
 
         Returns the result, coordInBase.
         May raise InnerModelManagerError.
@@ -682,14 +685,14 @@ class InnerModelManagerProxy(rt.Proxy):
         return self._call("setScale", item, scaleX, scaleY, scaleZ)
 
     def addAttribute(self, idNode: str, name: str, type: str, value: str) -> bool:
-        """Give a node a new attribute.
+        """Add an attribute to a node.
 
         May raise InnerModelManagerError.
         """
         return self._call("addAttribute", idNode, name, type, value)
 
     def removeAttribute(self, idNode: str, name: str) -> bool:
-        """Take an attribute away from a node.
+        """Remove an attribute from a node.
 
         May raise InnerModelManagerError.
         """
@@ -711,23 +714,23 @@ class InnerModelManagerProxy(rt.Proxy):
         return self._call("getAttribute", idNode, name)
 
     def removeNode(self, item: str) -> bool:
-        """Remove a node and all below it.
+        """Remove a node and its subtree.
 
         May raise InnerModelManagerError.
         """
         return self._call("removeNode", item)
 
     def moveNode(self, src: str, dst: str) -> bool:
-        """Move a node and all below it under another parent.
+        """Move a node and its subtree to another parent.
 
         May raise InnerModelManagerError.
         """
         return self._call("moveNode", src, dst)
 
     def collide(self, a: str, b: str) -> bool:
-        """Whether two subtrees touch."""
+        """Whether two subtrees are in collision."""
         return self._call("collide", a, b)
 
     def setPointCloudData(self, id: str, cloud: PointCloudVector) -> None:
-        """Replace the points of a cloud."""
+        """Replace the points of a point cloud."""
         self._call("setPointCloudData", id, cloud)

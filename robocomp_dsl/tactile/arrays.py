@@ -1,4 +1,4 @@
-"""The array types of this package; all of them hold doubles, integers or truth values."""
+"""The array types of this package: doubles, integers or booleans."""
 
 from __future__ import annotations
 

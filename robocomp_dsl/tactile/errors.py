@@ -1,11 +1,11 @@
-"""The errors of touch and of the generic arm.
+"""Errors of touch and of the generic arm.
 
 TactileError
-    DescriptionError     a description or position file is wrong; holds all findings
+    DescriptionError     a description or position file is invalid; contains all findings
     InvalidCommand       a command holds NaN, or has the wrong number of values
     Unreachable          no joint angles within the limits reach the pose
     RejectedFrame        a taxel frame cannot be used, with the reason
-    BadFit               points describe no cone
+    BadFit               no cone fits the points
     BadGeometry          the geometry message of a skin is inconsistent
     InvalidField         a receptive field does not fit the skin or the arm
     NoState              no measurement of the arm has arrived yet
@@ -15,8 +15,9 @@ TactileError
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Enum, StrEnum
+
+from robocomp_dsl.finding import Finding
 
 
 class TactileError(Exception):
@@ -24,7 +25,7 @@ class TactileError(Exception):
 
 
 class Fault(StrEnum):
-    """What kind of fault a file has."""
+    """Kind of a finding in a file."""
 
     FORM = "form"
     JOINT = "joint"
@@ -34,34 +35,20 @@ class Fault(StrEnum):
     TWICE = "twice"
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
-    """One fault of a file, with line and column from 1; `help` is the way out, or empty."""
-
-    file: str
-    line: int
-    column: int
-    message: str
-    help: str = ""
-    fault: Fault = Fault.FORM
-
-    def __str__(self) -> str:
-        text = f"{self.file}:{self.line}:{self.column}: {self.message}"
-        return f"{text} ({self.help})" if self.help else text
-
-
 class DescriptionError(TactileError):
-    """A file that cannot be used. `findings` are all its faults, in the order of the file."""
+    """A file that cannot be used. `findings` are all problems, in the order of the file."""
 
     def __init__(self, findings: Iterable[Finding]) -> None:
-        self.findings = tuple(
-            sorted(findings, key=lambda finding: (finding.file, finding.line, finding.column))
-        )
+        self.findings = tuple(sorted(findings, key=_file_order))
         super().__init__("\n".join(str(finding) for finding in self.findings))
 
 
+def _file_order(finding: Finding) -> tuple[str, int, int]:
+    return finding.location.file, finding.location.line, finding.location.column
+
+
 class BadFit(TactileError):
-    """The points describe no cone; the message says why."""
+    """No cone fits the points; the message gives the reason."""
 
 
 class BadGeometry(TactileError):
@@ -69,7 +56,7 @@ class BadGeometry(TactileError):
 
 
 class InvalidField(TactileError):
-    """A receptive field does not fit the skin or the arm; the message says which and why."""
+    """A receptive field does not fit the skin or the arm; the message gives the reason."""
 
 
 class NoState(TactileError):
@@ -94,7 +81,7 @@ class Unreachable(TactileError):
 
 
 class FrameFault(Enum):
-    """Why a taxel frame is rejected."""
+    """Reasons of a rejected taxel frame."""
 
     NOT_FINITE = "it holds NaN or infinity"
     WRONG_LENGTH = "its length is not that of the geometry"

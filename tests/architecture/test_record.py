@@ -1,4 +1,4 @@
-"""Records: what a class of data promises, and that commands which people wait for use them."""
+"""Records: construction, comparison, immutability; interactive commands load no dataclasses."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ class Alone(ValueRecord):
 
 
 class Thing(Record):
-    """Compared by identity; something is worked out once."""
+    """Compared by identity; with a cached property."""
 
     parts: tuple[int, ...]
     __slots__ = ("__dict__",)
 
     @cached_property
     def total(self) -> int:
-        """Worked out when it is asked for."""
+        """Computed at the first access."""
         return sum(self.parts)
 
 

@@ -1,4 +1,4 @@
-"""What a change breaks: each change with its kind, its words and its place."""
+"""Breaking changes between versions: kind, message and location."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the groups and hosts of a deployment become: instances with full names, order, wires."""
+"""Groups and hosts of a deployment: full names of instances, start order, connections."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ HOSTS = st.sampled_from(["", " on localhost", " on robot", " on nowhere"])
 
 @st.composite
 def _blocks(draw: st.DrawFn, depth: int = 0) -> str:
-    """What may stand in a deployment or a group, names and order left to chance."""
+    """Random content of a deployment or a group."""
     deployment = []
     for _ in range(draw(st.integers(0, 4))):
         name, other, host = draw(NAMES), draw(NAMES), draw(HOSTS)

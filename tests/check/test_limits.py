@@ -1,4 +1,4 @@
-"""What no one writes by hand: unreadable, endless and exploding files; findings, no traceback."""
+"""Unreadable, huge and deeply nested files give findings."""
 
 from __future__ import annotations
 

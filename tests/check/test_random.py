@@ -1,4 +1,4 @@
-"""Whatever stands in the files, checking them ends, and ends in findings that point into them."""
+"""Random and mutated files: the check ends, and findings point into the files."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ PIECES = st.one_of(
 
 @st.composite
 def mutated(draw: st.DrawFn) -> tuple[Path, str]:
-    """A real file with a few of its words exchanged, doubled or gone."""
+    """A real file with some words replaced, duplicated or removed."""
     path = draw(st.sampled_from(FILES))
     tokens = TOKEN.findall(_text(path))
     for _ in range(draw(st.integers(1, 6))):
@@ -104,7 +104,7 @@ IMPORTS = st.lists(st.sampled_from("ABC").map('import "{}.idsl";\n'.format), max
 @settings(max_examples=300)
 @given(st.lists(st.tuples(IMPORTS, MODULES).map("".join), min_size=3, max_size=3))
 def test_module_loader_accepts_random_imports(texts: list[str]) -> None:
-    """Cycles, recursion and clashes of all kinds; twice, because the second run meets the first."""
+    """Cycles, recursion and clashes; twice, because the second run uses the cache of the first."""
     folder = Path("/nowhere")
     workspace = Workspace(environ={}, shipped=folder)
     for name, text in zip("ABC", texts, strict=True):

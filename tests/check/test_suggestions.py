@@ -1,4 +1,4 @@
-"""Suggestions are for a handful of names: what they cost does not grow with the file."""
+"""Suggestions of similar names: their number per module is limited."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is kept between runs, and what a change makes of it."""
+"""The workspace: cached modules, and their invalidation after changes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _module(path: Path, workspace: Workspace) -> tuple[Module, list[str]]:
 
 
 def _rewrite(path: Path, text: str) -> None:
-    """As an editor saves: the time of the file moves on."""
+    """Write the file with a later modification time, as an editor does."""
     later = path.stat().st_mtime_ns + 1_000_000
     path.write_text(text)
     os.utime(path, ns=(later, later))

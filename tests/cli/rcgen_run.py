@@ -13,7 +13,7 @@ from robocomp_dsl.cli.rcgen.main import program as rcgen
 
 @dataclass(frozen=True)
 class Run:
-    """What a command did."""
+    """Exit code and output of a command."""
 
     code: int
     out: str

@@ -1,4 +1,4 @@
-"""`rcgen breaking`: which deployments a change breaks, and in what."""
+"""`rcgen breaking`: deployments that a change breaks."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ FILES = {
     "base.yaml": "speed: 900\nmode: fast\n",
 }
 
-# File, what is replaced in it by what, and what is told of the deployment: code, place, words.
+# File, old text, new text, and the finding of the deployment: code, location, words.
 CASES = [
     ("base/base.pdsl", "0:1000", "0:2000", []),
     ("base/base.pdsl", "0:1000", "0:850", []),  # the deployment overrides what its file says

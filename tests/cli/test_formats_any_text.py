@@ -1,4 +1,4 @@
-"""Every form that machines read says what was found, whatever stands in it."""
+"""Machine-readable formats hold the findings, with any text in them."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_formats_accept_any_text(texts: tuple[str, ...], severity: Severity, at:
 
 
 def annotation(line: str) -> tuple[dict[str, str], str]:
-    """What a runner of GitHub reads in a line (its rules for workflow commands)."""
+    """The parsed workflow command of a line, as GitHub runners parse it."""
     assert line.endswith("\n")
     assert not {"\r", "\n"} & set(line[:-1])
     found = re.fullmatch(r"::(?:error|warning|notice) (.*?)::(.*)", line[:-1], re.DOTALL)

@@ -1,4 +1,4 @@
-"""Whatever happens to a command, it ends with the right exit code and in a line of words."""
+"""Commands end with the right exit code and a message of one line, also after internal errors."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def test_broken_pipe_exits_with_141(tmp_path: Path) -> None:
 
 
 def test_sigterm_rolls_back_and_exits_with_143() -> None:
-    """As an exception, so that files half written are taken back."""
+    """SIGTERM raises an exception, so that partial output is rolled back."""
     code = (
         "import os, signal\nfrom robocomp_dsl.cli import program\nimport click\n"
         "@click.command()\ndef command():\n"

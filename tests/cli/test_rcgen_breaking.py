@@ -20,7 +20,7 @@ def git(folder: Path, *arguments: str) -> None:
 
 @pytest.fixture
 def history(here: Path) -> Path:
-    """A git tree with one commit, and a change behind it."""
+    """A git repository with one commit and an uncommitted change."""
     (here / "sub").mkdir()
     (here / "sub" / "M.idsl").write_text(IDSL)
     git(here, "init", "-q")

@@ -1,4 +1,4 @@
-"""`rcgen check`: which files, which form, which exit code."""
+"""`rcgen check`: files, formats and exit codes."""
 
 from __future__ import annotations
 

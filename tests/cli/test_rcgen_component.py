@@ -1,4 +1,4 @@
-"""`rcgen component`: what it writes, what it only says, what it refuses."""
+"""`rcgen component`: output files, modes that write nothing, and errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`rcgen config`: what wins and why, own copies of installed configurations, what they change."""
+"""`rcgen config`: search order, copies of installed configurations, and their differences."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FOLDERS = {
 
 @pytest.fixture
 def top(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A machine: a user, two installed places; the working folder is `work`."""
+    """Folders of a user and two installed folders; the working folder is `work`."""
     for name, folders in FOLDERS.items():
         message = ":".join(str(tmp_path / item) for item in folders.split(":"))
         monkeypatch.setenv(name, message)
@@ -38,7 +38,7 @@ def put(top: Path, path: str, text: str = "rate: 1\n") -> Path:
 
 
 def lab(top: Path) -> None:
-    """A context of which one file is the user's, shadowing two."""
+    """A context in which one file of the user shadows two files."""
     put(top, "data/contexts/lab/arm.yaml", "rate: 3\n")
     put(top, "data/contexts/lab/arm.saved.yaml", '"rate": 4\n')
     put(top, "share1/contexts/lab/arm.yaml", "rate: 1\nname: a\n")

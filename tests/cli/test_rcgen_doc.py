@@ -1,4 +1,4 @@
-"""`rcgen doc`: what is written where, what is never touched, and how it ends."""
+"""`rcgen doc`: written and kept files, and exit codes."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ def test_examples_lists_every_shipped_folder(rcgen: Rcgen) -> None:
 
 
 @pytest.mark.parametrize("name", examples())
-def test_new_example_copies_what_checks(rcgen: Rcgen, here: Path, name: str) -> None:
+def test_new_example_copy_passes_check(rcgen: Rcgen, here: Path, name: str) -> None:
     run = rcgen("new", "robot", "--example", name)
     assert (run.code, run.err) == (0, "")
     place = f"robot/components/{examples()[name].folder.name}"
@@ -47,7 +47,7 @@ def test_new_example_copies_what_checks(rcgen: Rcgen, here: Path, name: str) -> 
 
 
 @pytest.mark.parametrize(("name", "folders"), [("touch", TOUCH), ("wander", WANDER)])
-def test_new_example_copies_what_a_deployment_imports(
+def test_new_example_copies_components_of_deployment(
     rcgen: Rcgen, here: Path, name: str, folders: set[str]
 ) -> None:
     assert rcgen("new", "robot", "--example", name, "-o", "there").code == 0
@@ -58,14 +58,14 @@ def test_new_example_copies_what_a_deployment_imports(
     ("name", "hint"),
     [("tuch", "did you mean `touch`?"), ("qqqq", "`rcgen examples` lists them")],
 )
-def test_new_example_unknown(rcgen: Rcgen, here: Path, name: str, hint: str) -> None:
+def test_new_example_reports_unknown_name(rcgen: Rcgen, here: Path, name: str, hint: str) -> None:
     run = rcgen("new", "robot", "--example", name)
     assert run.code == 2
     assert f"there is no example `{name}`; {hint}" in run.err
     assert list(here.iterdir()) == []
 
 
-def test_new_example_refuses_a_folder_with_files(rcgen: Rcgen, here: Path) -> None:
+def test_new_example_rejects_folder_with_files(rcgen: Rcgen, here: Path) -> None:
     (here / "robot").mkdir()
     (here / "robot/mine").write_text("mine")
     run = rcgen("new", "robot", "--example", "touch")
@@ -74,14 +74,14 @@ def test_new_example_refuses_a_folder_with_files(rcgen: Rcgen, here: Path) -> No
     assert [p.name for p in (here / "robot").iterdir()] == ["mine"]
 
 
-def test_new_example_refuses_a_file(rcgen: Rcgen, here: Path) -> None:
+def test_new_example_rejects_file_as_folder(rcgen: Rcgen, here: Path) -> None:
     (here / "robot").write_text("mine")
     run = rcgen("new", "robot", "--example", "touch")
     assert (run.code, run.err) == (1, "error: `robot` is a file, not a folder\n")
     assert (here / "robot").read_text() == "mine"
 
 
-def test_new_example_takes_no_ports(rcgen: Rcgen, here: Path) -> None:
+def test_new_example_rejects_port_options(rcgen: Rcgen, here: Path) -> None:
     run = rcgen("new", "robot", "--example", "touch", "--requires", "Laser")
     assert run.code == 2
     assert "--example copies a component with its ports" in run.err

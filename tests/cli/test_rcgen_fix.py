@@ -1,4 +1,4 @@
-"""`rcgen check --fix`: legacy forms go, errors and everything else stay."""
+"""`rcgen check --fix`: legacy syntax is replaced, everything else is kept."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_fix_keeps_errors(rcgen: Rcgen, here: Path) -> None:
 
 @pytest.mark.parametrize("wrong", ["[Laser]", '"a-b"'])
 def test_fix_keeps_code_with_errors(rcgen: Rcgen, here: Path, wrong: str) -> None:
-    """`requires` lists nothing then, which alone would be mended by deleting it."""
+    """`requires` lists nothing then; the fix for that alone would delete it."""
     path = here / "robot.cdsl"
     text = f"Component c {{ Communications {{ requires {wrong}; }}; language Python; }};\n"
     path.write_text(text)

@@ -1,4 +1,4 @@
-"""`rcgen fmt`: files in place, standard input, `--check`, `--diff`; errors leave a file alone."""
+"""`rcgen fmt`: files in place, standard input, `--check`, `--diff`; files with errors are kept."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_fmt_of_folder(rcgen: Rcgen, here: Path) -> None:
 
 
 def test_fmt_skips_tactile_descriptions(rcgen: Rcgen, here: Path) -> None:
-    """YAML has no format of ours: in a folder it is passed over, by itself it is refused."""
+    """A YAML file is skipped in a folder and rejected as an argument."""
     source = Path(__file__).parents[2] / "components" / "nao_simulator" / "tactile.yaml"
     Path("tactile.yaml").write_bytes(source.read_bytes())
     Path("a.cdsl").write_text(NEAT)

@@ -1,4 +1,4 @@
-"""`rcgen interface`: where files go, and what is said."""
+"""`rcgen interface`: output files and findings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`rcgen new` writes a start that checks clean and generates; `rcgen explain` knows every code."""
+"""`rcgen new` writes a component without findings; `rcgen explain` explains every code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`rcgen view`: pictures of worlds and robots, and what it says about those that are wrong."""
+"""`rcgen view`: pictures of worlds and robots, and findings about invalid ones."""
 
 import importlib
 import struct
@@ -18,7 +18,7 @@ MODELS = Path(__file__).parents[1] / "simulation" / "models" / "files"
 
 
 def pixels(path: Path) -> np.ndarray:
-    """What is in a PNG file as we write them."""
+    """The pixels of a PNG file of the renderer."""
     data = path.read_bytes()
     assert data.startswith(b"\x89PNG\r\n\x1a\n")
     width, height = struct.unpack(">II", data[16:24])
@@ -200,7 +200,7 @@ def test_view_replaces_missing_mesh_by_box(rcgen: Rcgen, tmp_path: Path) -> None
 
 
 def test_view_of_empty_world(tmp_path: Path) -> None:
-    """As a program: what libraries print would be heard, too."""
+    """In a process, so that output of libraries is captured, too."""
     path = tmp_path / "world.xml"
     path.write_text("<innerModel/>")
     result = view(str(path), "--screenshot", str(tmp_path / "w.png"), "--size", "64x48")

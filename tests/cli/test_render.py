@@ -1,4 +1,4 @@
-"""How findings look on a terminal."""
+"""Findings on a terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`--format sarif`: what the standard asks for (SARIF 2.1.0, section in brackets)."""
+"""`--format sarif`: required content of logs (SARIF 2.1.0, section in brackets)."""
 
 from __future__ import annotations
 

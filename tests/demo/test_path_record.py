@@ -3,7 +3,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.demo.parts import load
+from tests.demo.component_modules import load
 
 PathRecord = load("path_logger/path_record.py").PathRecord
 
@@ -12,7 +12,7 @@ def at(x: float, z: float) -> tuple[float, ...]:
     return (x, z, 0.5, 1.0, 2.0, 0.25, 300.0, 0.1)
 
 
-def test_the_way_adds_up_within_a_run_only() -> None:
+def test_path_record_adds_distances_within_run_only() -> None:
     record = PathRecord()
     for time, x in ((0.0, 0.0), (0.1, 30.0), (0.2, 60.0), (0.0, 1000.0), (0.1, 1005.0)):
         record.add(time, at(x, 0.0))
@@ -21,7 +21,7 @@ def test_the_way_adds_up_within_a_run_only() -> None:
     assert [sample.run for sample in record.samples] == [0, 0, 0, 1, 1]
 
 
-def test_samples_too_close_are_left_out_but_time_goes_on() -> None:
+def test_path_record_skips_close_samples_but_counts_time() -> None:
     record = PathRecord(interval=0.1)
     for i in range(11):
         record.add(i * 0.04, at(i * 10.0, 0.0))
@@ -32,7 +32,7 @@ def test_samples_too_close_are_left_out_but_time_goes_on() -> None:
     assert record.runs == 2
 
 
-def test_the_file_has_names_and_numbers(tmp_path: Path) -> None:
+def test_path_record_file_has_names_and_numbers(tmp_path: Path) -> None:
     record = PathRecord()
     record.add(0.5, at(10.0, -20.0))
     record.add(1.0, at(11.0, -20.0))
@@ -45,7 +45,7 @@ def test_the_file_has_names_and_numbers(tmp_path: Path) -> None:
     assert [value.name for value in path.parent.iterdir()] == ["path.csv"]
 
 
-def test_an_empty_path_is_a_file_with_names(tmp_path: Path) -> None:
+def test_path_record_of_empty_path_has_header(tmp_path: Path) -> None:
     PathRecord().write(tmp_path / "path.csv")
     (line,) = (tmp_path / "path.csv").read_text().splitlines()
     assert line.startswith("run,time_s,x_mm")

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from tests.demo.parts import load
+from tests.demo.component_modules import load
 
 reaction = load("wander/reaction.py")
 Turning = reaction.Turning
@@ -38,13 +38,15 @@ def scan(**near: float) -> np.ndarray:
         ({}, Turning(-1, 5.0), 5.1, 400, 0),
     ],
 )
-def test_decisions(near: dict, turning: object, now: float, adv: float, rot: float) -> None:
+def test_reaction_decides_by_nearest_obstacle(
+    near: dict, turning: object, now: float, adv: float, rot: float
+) -> None:
     found = reaction.decide(ANGLES, scan(**near), now, turning, it=LIMITS, chance=random.Random(1))
     assert (found.adv, found.rot) == (adv, rot)
     assert (found.turning is None) == (rot == 0)
 
 
-def test_a_turn_lasts_between_its_limits() -> None:
+def test_reaction_turn_lasts_within_limits() -> None:
     chance = random.Random(1)
     ends = [
         reaction.decide(ANGLES, scan(ahead=100), 10.0, None, it=LIMITS, chance=chance).turning.until
@@ -54,7 +56,7 @@ def test_a_turn_lasts_between_its_limits() -> None:
     assert 10.8 < max(ends) <= 10.9
 
 
-def test_random_sides_are_both_taken() -> None:
+def test_reaction_takes_both_random_sides() -> None:
     limits = SimpleNamespace(**vars(LIMITS) | {"side": "random"})
     chance = random.Random(1)
     sides = {
@@ -64,7 +66,7 @@ def test_random_sides_are_both_taken() -> None:
     assert sides == {-1, 1}
 
 
-def test_a_laser_without_rays_in_front_does_not_stop_it() -> None:
+def test_reaction_ignores_laser_without_front_rays() -> None:
     found = reaction.decide(ANGLES[:5], scan()[:5], 0.0, None, it=LIMITS, chance=random.Random(1))
     assert found.adv == 400
     assert found.nearest == float("inf")

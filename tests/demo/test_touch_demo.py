@@ -1,4 +1,4 @@
-"""The touch demo as a real process: simulator, arm and reflex deployed, touched, told and drawn."""
+"""The touch demo as a real process: simulator, arm and reflex deployed and touched."""
 
 import os
 import re
@@ -6,7 +6,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +14,9 @@ from matplotlib.image import imread
 
 from robocomp_dsl.runtime.client import DomainClient
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.demo.parts import COMPONENTS
-from tests.demo.touched import demo
+from tests.demo.component_modules import COMPONENTS
+from tests.demo.touch_demo_samples import demo
+from tests.support.waiting import wait_until
 
 DEADLINE = 150.0
 COMPONENT_NAMES = ("robot", "arm", "reflex")
@@ -52,7 +52,7 @@ def log(components: Path, name: str) -> str:
 
 
 @pytest.mark.parametrize(("key", "name"), [("nao", "NAO"), ("icub", "iCub")])
-def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, name: str) -> None:
+def test_touch_demo_reports_and_draws_withdrawals(copy: Path, key: str, name: str) -> None:
     ran = run(copy, "--robot", key)
     assert ran.returncode == 0, ran.stdout + ran.stderr + log(copy, key)
     output = ran.stdout.splitlines()
@@ -76,7 +76,7 @@ def test_a_touched_arm_withdraws_and_it_is_told_and_drawn(copy: Path, key: str, 
     assert {answer.field for answer in saved.answers} >= {"lower_arm_outer"}
 
 
-def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
+def test_touch_demo_fails_if_arm_does_not_withdraw(copy: Path) -> None:
     ddsl = copy / "touch_demo" / "nao.ddsl"
     ddsl.write_text(ddsl.read_text().replace("set full", "set enabled = false;\n        set full"))
     ran = run(copy, "--robot", "nao")
@@ -86,7 +86,7 @@ def test_an_arm_that_does_not_withdraw_fails_the_demo(copy: Path) -> None:
     assert imread(copy.parent / "demo.png").shape[1] == 1600
 
 
-def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
+def test_touch_demo_fails_at_once_if_component_exits(copy: Path) -> None:
     process = subprocess.Popen(
         command(copy, "--robot", "nao", "--touches", "5"),  # it is not over when it is killed
         stdout=subprocess.PIPE,
@@ -111,16 +111,15 @@ def test_a_component_that_ends_fails_the_demo_at_once(copy: Path) -> None:
 def running(domain: str) -> dict[str, int]:
     """The process ids of the components, once all of them run."""
     links = DomainClient(domain)
-    deadline = time.monotonic() + DEADLINE
     try:
-        while time.monotonic() < deadline:
-            try:
-                return {name: links.component(name).getInfo().pid for name in COMPONENT_NAMES}
-            except MiddlewareError:
-                time.sleep(0.05)  # not there yet
+        return wait_until(
+            lambda: {name: links.component(name).getInfo().pid for name in COMPONENT_NAMES},
+            "the components have not started",
+            DEADLINE,
+            ignoring=MiddlewareError,
+        )
     finally:
         links.close()
-    pytest.fail("the components did not start")
 
 
 def is_alive(pid: int) -> bool:
@@ -131,7 +130,7 @@ def is_alive(pid: int) -> bool:
     return True
 
 
-def test_a_deployment_that_does_not_start_is_told_with_its_words(copy: Path) -> None:
+def test_touch_demo_reports_failed_deployment_start(copy: Path) -> None:
     ddsl = copy / "touch_demo" / "nao.ddsl"
     ddsl.write_text(ddsl.read_text().replace("robot.LArm", "robot.LeftArm"))
     ran = run(copy, "--robot", "nao")

@@ -12,12 +12,13 @@ from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.simulation.simulation_interface import SIMULATION
 from robocomp_dsl.simulation.world.simulation import Simulation, read_data
-from tests.demo.parts import COMPONENTS
-from tests.demo.touched import ARM, demo, part, recording
-from tests.support.chromium_tab import needs_chromium, opened_tab, wait_for
+from tests.demo.component_modules import COMPONENTS
+from tests.demo.touch_demo_samples import ARM, demo, part, recording
+from tests.support.chromium_tab import needs_chromium, opened_tab
+from tests.support.waiting import wait_until
 
 
-class Hand:
+class SimulationPort:
     """The port of the shipped simulator, in this process; its world stands still."""
 
     def __init__(self) -> None:
@@ -34,22 +35,22 @@ class Hand:
         return getattr(self._port, operation)
 
 
-def heard_of(it: object) -> object:
-    heard = demo().topic_buffer.TopicBuffer(it.skin, ARM)
-    heard.arm_state(SimpleNamespace(time=0.0, position=part().start, moving=False))
-    return heard
+def buffer_of(it: object) -> object:
+    buffer = demo().topic_buffer.TopicBuffer(it.skin, ARM)
+    buffer.arm_state(SimpleNamespace(time=0.0, position=part().start, moving=False))
+    return buffer
 
 
 def frame(time: float, force: np.ndarray) -> SimpleNamespace:
     return SimpleNamespace(time=time, force=force)
 
 
-def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None:
+def test_live_page_sends_only_limbs_with_changed_forces(monkeypatch) -> None:
     it = recording()
-    heard = heard_of(it)
-    heard.frame(frame(0.0, it.force[0]))
+    buffer = buffer_of(it)
+    buffer.frame(frame(0.0, it.force[0]))
     sent = []
-    with closing(demo().live.Live("NAO", Hand(), it.skin, heard, 0)) as live:
+    with closing(demo().live.Live("NAO", SimulationPort(), it.skin, buffer, 0)) as live:
         live.close()  # no more pictures of its own
         monkeypatch.setattr(
             live._page.page, "show_points", lambda name, *rest: sent.append((name, rest))
@@ -57,7 +58,7 @@ def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None
         live.show()
         assert not sent
         pressed = it.force[np.argmax(it.force.any(axis=1))]
-        heard.frame(frame(0.02, pressed))
+        buffer.frame(frame(0.02, pressed))
         live.show()
     ((name, (body, points, colours, _)),) = sent
     assert name == f"skin of {ARM}/lower_arm"
@@ -70,14 +71,14 @@ def test_only_limbs_that_feel_something_else_are_sent_again(monkeypatch) -> None
     assert (colours[felt, 0] > colours[felt, 2] + 60).all()
 
 
-def test_a_port_that_is_taken_is_told() -> None:
+def test_live_page_reports_occupied_port() -> None:
     it = recording()
-    heard = heard_of(it)
-    heard.frame(frame(0.0, it.force[0]))
-    with closing(demo().live.Live("NAO", Hand(), it.skin, heard, 0)) as live:
+    buffer = buffer_of(it)
+    buffer.frame(frame(0.0, it.force[0]))
+    with closing(demo().live.Live("NAO", SimulationPort(), it.skin, buffer, 0)) as live:
         port = int(live.url.rpartition(":")[2])
         with pytest.raises(demo().failure.DemoFailed, match=f"no page at port {port}"):
-            demo().live.Live("NAO", Hand(), it.skin, heard, port)
+            demo().live.Live("NAO", SimulationPort(), it.skin, buffer, port)
 
 
 def warm(picture: np.ndarray) -> int:
@@ -88,19 +89,19 @@ def warm(picture: np.ndarray) -> int:
 
 
 @needs_chromium
-def test_a_real_browser_shows_the_touch() -> None:
+def test_live_page_shows_touch_in_browser() -> None:
     it = recording()
-    heard = heard_of(it)
-    heard.frame(frame(0.0, it.force[0]))
+    buffer = buffer_of(it)
+    buffer.frame(frame(0.0, it.force[0]))
     with (
-        closing(demo().live.Live("NAO", Hand(), it.skin, heard, 0)) as live,
+        closing(demo().live.Live("NAO", SimulationPort(), it.skin, buffer, 0)) as live,
         opened_tab() as tab,
     ):
         tab("Page.enable")
         tab("Page.navigate", url=live.url)
-        wait_for(lambda: tab.shows("Frames"))
+        wait_until(lambda: tab.shows("Frames"))
         before = warm(tab.picture())
-        heard.frame(frame(0.02, it.force[np.argmax(it.force.any(axis=1))]))
-        wait_for(lambda: warm(tab.picture()) > before + 10)
-        heard.frame(frame(1.0, it.force[0]))
-        wait_for(lambda: warm(tab.picture()) <= before + 2)
+        buffer.frame(frame(0.02, it.force[np.argmax(it.force.any(axis=1))]))
+        wait_until(lambda: warm(tab.picture()) > before + 10)
+        buffer.frame(frame(1.0, it.force[0]))
+        wait_until(lambda: warm(tab.picture()) <= before + 2)

@@ -6,7 +6,7 @@ from matplotlib.image import imread
 
 from robocomp_dsl.hardware.devices.errors import NoRendering
 from robocomp_dsl.simulation.view.offscreen import egl_trouble, osmesa_trouble
-from tests.demo.touched import demo, part, recording, skin, world
+from tests.demo.touch_demo_samples import demo, part, recording, skin, world
 
 WIDE = 1600
 
@@ -26,7 +26,7 @@ def like(picture: np.ndarray, colour) -> np.ndarray:
     return (np.abs(picture[:, :, :3] - np.array(colour)[:3]) < 0.02).all(axis=2)
 
 
-def test_taxels_have_the_colour_of_what_they_felt(body, tmp_path) -> None:
+def test_photograph_colours_taxels_by_force(body, tmp_path) -> None:
     photos = tuple(np.full((608, 694, 3), value, dtype=np.uint8) for value in (90, 160))
     demo().figure.draw(
         [column(body, photos), column(body, photos, name="iCub")], "A title", "facts", 1.0,
@@ -49,7 +49,7 @@ def rgb(code: str) -> tuple[float, ...]:
     return tuple(int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
 
 
-def test_without_photographs_the_picture_says_why(body, tmp_path) -> None:
+def test_touch_picture_without_photographs_says_why(body, tmp_path) -> None:
     columns = [column(body, None, "this machine has no OpenGL")]
     demo().figure.draw(columns, "A title", "facts", 1.0, tmp_path / "a.png")
     photos = tuple(np.full((608, 694, 3), 90, dtype=np.uint8) for _ in range(2))
@@ -60,7 +60,7 @@ def test_without_photographs_the_picture_says_why(body, tmp_path) -> None:
 
 
 @pytest.mark.skipif(bool(egl_trouble() and osmesa_trouble()), reason="needs libegl1 or libosmesa6")
-def test_photographs_show_the_touched_skin_and_the_arm_gone(body) -> None:
+def test_touch_picture_shows_touched_skin_and_withdrawn_arm(body) -> None:
     it = recording(force=1.0)
     first, _ = demo().metrics.outcomes(it, body)
     before, after = demo().photograph.before_and_after(it, body, first, 1.0, (320, 280))
@@ -75,14 +75,14 @@ def test_photographs_show_the_touched_skin_and_the_arm_gone(body) -> None:
     assert (np.abs(before.astype(int) - after).max(axis=2) > 40).mean() > 0.02
 
 
-def test_the_best_seen_touch_is_one_that_went_well(body) -> None:
+def test_touch_picture_selects_successful_touch(body) -> None:
     it = recording(answers=recording().answers[2:])  # nothing answered the first
     found = demo().metrics.outcomes(it, body)
     assert found[0].trouble
     assert demo().photograph.best_seen(it, body, found) is found[1]
 
 
-def test_what_cannot_draw_is_told(body, monkeypatch) -> None:
+def test_touch_picture_reports_missing_drawing_library(body, monkeypatch) -> None:
     def nothing(*_: object) -> None:
         raise NoRendering("offscreen rendering is not available: none")
 

@@ -1,17 +1,17 @@
-"""What the touch demo says at its end, from recordings."""
+"""The report of the touch demo, from recordings."""
 
 import pytest
 from matplotlib.image import imread
 
 from robocomp_dsl.simulation.view.offscreen import NoRendering
-from tests.demo.touched import demo, recording
+from tests.demo.touch_demo_samples import demo, recording
 
 program = demo().demo
 report = demo().report
 NAO = demo().subject.SUBJECTS["nao"]
 
 
-def test_the_facts_of_all_touches_in_a_line() -> None:
+def test_touch_report_lists_all_touches_in_one_line_each() -> None:
     body = demo().body.Body(NAO.world, recording().skin, NAO.part)
     rows = demo().metrics.outcomes(recording(), body)
     assert report.facts(rows) == (
@@ -24,7 +24,7 @@ def test_the_facts_of_all_touches_in_a_line() -> None:
     assert report.facts(none) == "0 of 2 touches: the arm withdrew"
 
 
-def test_table_picture_and_no_trouble(tmp_path, capsys) -> None:
+def test_touch_report_writes_table_and_picture_without_problems(tmp_path, capsys) -> None:
     assert report.report([NAO], [recording()], tmp_path / "a.png") == []
     message = capsys.readouterr().out.splitlines()
     assert [line.split()[0] for line in message if line.strip()][:4] == ["robot", "N", "NAO", "NAO"]
@@ -32,9 +32,7 @@ def test_table_picture_and_no_trouble(tmp_path, capsys) -> None:
     assert imread(tmp_path / "a.png").shape[1] == 1600
 
 
-def test_where_nothing_can_draw_the_picture_is_made_without_photographs(
-    tmp_path, capsys, monkeypatch
-) -> None:
+def test_touch_report_without_renderer_has_no_photographs(tmp_path, capsys, monkeypatch) -> None:
     def nothing(*_: object) -> None:
         raise NoRendering("offscreen rendering is not available: none")
 
@@ -46,7 +44,7 @@ def test_where_nothing_can_draw_the_picture_is_made_without_photographs(
     assert imread(tmp_path / "a.png").shape[1] == 1600
 
 
-def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys) -> None:
+def test_touch_report_includes_arms_that_stay(tmp_path, capsys) -> None:
     still = recording(motion=0.0)
     assert report.report([NAO], [still], tmp_path / "a.png") == [
         "NAO, lower arm outer: the arm went away by 0 mm only",
@@ -66,7 +64,7 @@ def test_arms_that_stay_are_trouble_and_are_drawn_all_the_same(tmp_path, capsys)
         (["--robot", "asimo"], "invalid choice: 'asimo'"),
     ],
 )
-def test_what_cannot_be_done_is_told_before_anything_starts(
+def test_touch_demo_reports_invalid_request_before_start(
     monkeypatch, capsys, options, message
 ) -> None:
     monkeypatch.setattr("sys.argv", ["demo.py", *options])
@@ -80,7 +78,7 @@ def test_what_cannot_be_done_is_told_before_anything_starts(
     ("frozen", "touches", "lines"),
     [([False], 1, 0), ([True, False], 2, 1), ([True, True, True], 3, 2)],
 )
-def test_a_touch_of_a_frozen_reflex_is_made_again(
+def test_touch_report_repeats_touch_of_frozen_reflex(
     monkeypatch, capsys, frozen, touches, lines
 ) -> None:
     repeated = []

@@ -14,15 +14,15 @@ from robocomp_dsl.deploy.supervisor.heartbeat import MIN_MARGIN_S
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
 from robocomp_dsl.model.deployment import Restart
 from robocomp_dsl.runtime.component.hang_report import HangReport
-from tests.deploy.deploy_actors import STEADY, actor
-from tests.deploy.test_supervisor import Run, stop
+from tests.deploy.scripted_processes import STEADY, scripted_process
+from tests.deploy.supervisor_run import SupervisorRun, stop
 
 ONCE = """
 first = not os.path.exists("hung")
 open("hung", "w").close()
 def beat(text):
     os.write(int(os.environ["ROBOCOMP_HEARTBEAT_FD"]), f"{text}\\n".encode())
-tell("initialize"); tell("compute")
+report("initialize"); report("compute")
 """
 """`first`: this is the first process; `beat(text)` writes a line to the supervisor."""
 REPORT = HangReport(
@@ -30,11 +30,13 @@ REPORT = HangReport(
 )
 
 
-def restarted(tmp_path: Path, body: str, message: str, **options: float) -> Run:
+def restarted(tmp_path: Path, body: str, message: str, **options: float) -> SupervisorRun:
     """Run a process that hangs once, until its second start is ready; `message` is logged."""
-    run = Run(tmp_path, actor(tmp_path, "a", ONCE + body), options=Options(**options))
+    run = SupervisorRun(
+        tmp_path, scripted_process(tmp_path, "a", ONCE + body), options=Options(**options)
+    )
 
-    def after_hang(run: Run) -> None:
+    def after_hang(run: SupervisorRun) -> None:
         assert run.row("a").state == status.HUNG
         run.on("restarting in", lambda run: run.on("a is ready", stop))
 
@@ -82,7 +84,9 @@ if first:
     threading.Event().wait()
 wait()
 """
-    run = Run(tmp_path, actor(tmp_path, "a", ONCE + body), options=Options(grace_s=0.1))
+    run = SupervisorRun(
+        tmp_path, scripted_process(tmp_path, "a", ONCE + body), options=Options(grace_s=0.1)
+    )
     run.on(f"a: {REPORT.summary()}, restarting", lambda run: run.on("a is ready", stop))
     assert run.run().code == 0
     assert run.row("a").hang == REPORT
@@ -92,9 +96,13 @@ def test_heartbeat_reader_ignores_garbage_and_end_of_heartbeats(tmp_path: Path) 
     body = """
 beat("nonsense"); beat('{"at": []}'); beat("{"); beat("\\xff"); beat(0.05); beat(0)
 os.close(int(os.environ["ROBOCOMP_HEARTBEAT_FD"]))
-tell("compute"); wait()
+report("compute"); wait()
 """
-    run = Run(tmp_path, actor(tmp_path, "a", ONCE + body), actor(tmp_path, "b", STEADY))
+    run = SupervisorRun(
+        tmp_path,
+        scripted_process(tmp_path, "a", ONCE + body),
+        scripted_process(tmp_path, "b", STEADY),
+    )
     silence_s = MIN_MARGIN_S + 0.1
     run.on(
         "all 2 components are ready",
@@ -106,13 +114,13 @@ tell("compute"); wait()
 
 def test_hang_in_first_initialize_is_restarted_by_policy(tmp_path: Path) -> None:
     body = """
-tell("initialize")
+report("initialize")
 if not os.path.exists("hung"):
     open("hung", "w").close()
     wait(); sys.exit(0)
-tell("compute"); wait()
+report("compute"); wait()
 """
-    run = Run(tmp_path, actor(tmp_path, "a", body, start_timeout_s=1.0))
+    run = SupervisorRun(tmp_path, scripted_process(tmp_path, "a", body, start_timeout_s=1.0))
     run.on("a: not ready within 1 s (state: initialize), restarting", lambda r: r.on("ready", stop))
     assert run.run().code == 0
     assert run.row("a").restarts == 1
@@ -120,8 +128,8 @@ tell("compute"); wait()
 
 def test_starts_that_time_out_end_at_the_limit_however_far_apart(tmp_path: Path) -> None:
     policy = Restart(max=1, window_s=0.001)
-    hanging = actor(tmp_path, "a", "wait()", start_timeout_s=0.3, restart=policy)
-    run = Run(tmp_path, hanging)
+    hanging = scripted_process(tmp_path, "a", "wait()", start_timeout_s=0.3, restart=policy)
+    run = SupervisorRun(tmp_path, hanging)
     assert run.run() == Outcome(1, "failed: a")
     assert any("(not ready in 2 starts)" in text for text in run.texts("rcdeploy"))
 
@@ -138,7 +146,7 @@ def test_program_that_cannot_be_loaded_is_not_restarted(
     tmp_path: Path, body: str, error: str
 ) -> None:
     (tmp_path / "broken.py").write_text("x = 1\ndef f(:\n")
-    run = Run(tmp_path, actor(tmp_path, "a", body))
+    run = SupervisorRun(tmp_path, scripted_process(tmp_path, "a", body))
     assert run.run() == Outcome(1, "failed: a")
     assert run.row("a").restarts == 0
     reports = [text for text in run.texts("rcdeploy") if "failed permanently" in text]
@@ -155,18 +163,20 @@ try: import no_such_module_x
 except ImportError: traceback.print_exc()
 raise RuntimeError("crashed")
 """
-    run = Run(tmp_path, actor(tmp_path, "a", body, restart=Restart(max=1)))
+    run = SupervisorRun(tmp_path, scripted_process(tmp_path, "a", body, restart=Restart(max=1)))
     assert run.run().code == 1
     assert run.row("a").restarts == 1
 
 
 def test_exited_process_is_never_ready(tmp_path: Path) -> None:
     """The state that a process has published may arrive after its exit."""
-    run = Run(tmp_path, actor(tmp_path, "a", "os._exit(3)", restart=Restart("never")))
+    run = SupervisorRun(
+        tmp_path, scripted_process(tmp_path, "a", "os._exit(3)", restart=Restart("never"))
+    )
 
     late: list[bool] = []
 
-    def publish_late(run: Run) -> None:
+    def publish_late(run: SupervisorRun) -> None:
         process = run.engine._processes["a"]
         assert process.child
         # The event loop is here, so it cannot notice the exit yet.

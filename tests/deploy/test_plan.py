@@ -1,28 +1,16 @@
-"""The pure parts: plans, restarts, waves, lines, records, tables."""
+"""Plans: command lines, connections, clocks, quality of service and order."""
 
 from __future__ import annotations
 
-import json
-from dataclasses import replace
 from graphlib import CycleError
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from robocomp_dsl.deploy import logs, status
 from robocomp_dsl.deploy.plan import batches, format_qos, merge_qos, plan
-from robocomp_dsl.deploy.supervisor.restart import decide_restart
 from robocomp_dsl.model.component import Component, Port, Role
-from robocomp_dsl.model.deployment import (
-    Clock,
-    Connection,
-    Deployment,
-    Host,
-    Instance,
-    Qos,
-    Restart,
-)
+from robocomp_dsl.model.deployment import Clock, Connection, Deployment, Host, Instance, Qos
 from robocomp_dsl.model.interface import Interface
 from robocomp_dsl.model.parameter import ParameterSet
 from robocomp_dsl.source import Source
@@ -75,7 +63,7 @@ def commands(deployment: Deployment) -> dict[str, tuple[str, ...]]:
 COMMON = ("--domain", "d-1", "--middleware", "zenoh", "--log-format", "json")
 
 
-def test_command_lines() -> None:
+def test_plan_builds_command_lines() -> None:
     base = instance(
         "body",
         BASE,
@@ -95,7 +83,7 @@ def test_command_lines() -> None:
     )  # fmt: skip
 
 
-def test_a_prefix_is_before_the_names_of_all_that_meet_it() -> None:
+def test_plan_puts_prefix_before_names_and_peers() -> None:
     base = instance("base", BASE, prefix="left", after=("nav",))
     nav, far = instance("nav", NAV), instance("far", NAV, prefix="right")
     wires = [wire(user, 0, base, 0, Qos()) for user in (nav, far)]
@@ -115,7 +103,7 @@ def test_a_prefix_is_before_the_names_of_all_that_meet_it() -> None:
     assert planned.clock.startswith("simulated, from left/base")
 
 
-def test_a_search_is_told_to_the_component() -> None:
+def test_plan_passes_context_and_config_name() -> None:
     base = instance("base", BASE, context="lab", config_name="left/base.yaml")
     assert commands(deployment([base]))["base"] == (
         "/py", "main.py", "--name", "base", *COMMON,
@@ -143,12 +131,12 @@ WORLD = component("world", port(Role.PUBLISHES, SCAN))
             {"kind": "sim", "lockstep": True, "stop_on_timeout": True},
             "lockstep,from=w,with=a+b,limit=10,lost=stop",
             "lockstep,from=w,limit=10,lost=stop",
-            "never",  # a source that begins anew would not find the others where they were
+            "never",  # a restarted source would not match the state of the others
             "simulated, from w, lock-step: at most 10 s per step, stops on a time-out",
         ),
     ],
 )
-def test_clocks(
+def test_plan_passes_clock_options(
     clock: dict[str, Any], of_source: str | None, of_other: str | None, restart: str, shown: str
 ) -> None:
     them = [instance("b", ONE), instance("w", WORLD), instance("a", ONE)]
@@ -171,7 +159,7 @@ def _flag(argv: tuple[str, ...], name: str) -> str | None:
     return argv[argv.index(name) + 1] if name in argv else None
 
 
-def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
+def test_plan_passes_connections_to_client_side() -> None:
     base, server, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
     best = Qos(reliable=False, depth=1, deadline_ms=40)
     found = commands(
@@ -192,7 +180,7 @@ def test_wires_are_told_to_the_side_that_finds_the_other() -> None:
     assert found["one"][tail:] == ("--qos", "Laser=reliable")
 
 
-def test_users_stop_before_what_they_use() -> None:
+def test_plan_stops_clients_before_servers() -> None:
     base, server, nav = instance("base", BASE), instance("one", ONE), instance("nav", NAV)
     spare = instance("spare", NAV, after=("base",))
     planned = plan(
@@ -215,7 +203,7 @@ def test_users_stop_before_what_they_use() -> None:
         ({"a": {"elsewhere"}}, [["a"]]),
     ],
 )
-def test_batches_are_a_topological_order(
+def test_batches_are_in_topological_order(
     waits: dict[str, set[str]], expected: list[list[str]]
 ) -> None:
     assert batches(waits) == expected
@@ -237,114 +225,5 @@ def test_batches_reject_a_cycle() -> None:
         ([Qos(deadline_ms=40), Qos(deadline_ms=12.5)], "deadline=12.5"),
     ],
 )  # fmt: skip
-def test_qualities(requested: list[Qos], expected: str) -> None:
+def test_merge_qos_selects_strictest_settings(requested: list[Qos], expected: str) -> None:
     assert format_qos(merge_qos(requested)) == expected
-
-
-@pytest.mark.parametrize(
-    ("policy", "failed", "restarts", "wait"),
-    [
-        (Restart("never"), True, [], None),
-        (Restart("on-failure"), False, [], None),
-        (Restart("on-failure"), True, [], 0.1),
-        (Restart("always"), False, [], 0.1),
-        (Restart("on-failure", max=5), True, [99.0], 0.2),
-        (Restart("on-failure", max=5), True, [90.0, 99.0], 0.4),
-        (Restart("on-failure", max=90), True, [99.0] * 20, 10.0),
-        (Restart("on-failure", max=2, window_s=60), True, [50.0, 99.0], None),
-        (Restart("on-failure", max=2, window_s=60), True, [40.0, 99.0], 0.2),
-        (Restart("on-failure", max=2000), True, [99.0] * 1999, 10.0),
-    ],
-)
-def test_restarts(policy: Restart, failed: bool, restarts: list[float], wait: float | None) -> None:
-    assert decide_restart(policy, restarts, 100.0, failed=failed).delay_s == wait
-
-
-CHUNKS = [
-    # what arrives, the texts of the records
-    ([b"a\nb\n"], ["a", "b"]),
-    ([b"a", b"b\nc"], ["ab", "c"]),
-    ([b"\n\nx"], ["", "", "x"]),
-    ([b"dos\r\n"], ["dos"]),
-    ([b"\xff\n"], ["\N{REPLACEMENT CHARACTER}"]),
-    (["größe".encode()[:3], "größe".encode()[3:]], ["größe"]),
-    ([b'{"message": "m", "level": "info"}\n'], ["m"]),
-    ([b'{"message": "m", "level": "error", "exception": "Trace"}\n'], ["m\nTrace"]),
-    ([b'{"message": "no level"}\n'], ['{"message": "no level"}']),
-    ([b'{"broken\n'], ['{"broken']),
-    ([b"{" * 5000 + b"\n"], ["{" * 5000]),
-    ([b'{"message": "m", "level": "info", "time": 1e999}\n'], ["m"]),
-    ([], []),
-]
-
-
-@pytest.mark.parametrize(("chunks", "texts"), CHUNKS)
-def test_lines(chunks: list[bytes], texts: list[str]) -> None:
-    lines = logs.LineSplitter("c", "stdout")
-    found = [record for chunk in chunks for record in lines.feed(chunk, 5.0)] + lines.end(5.0)
-    assert [record.text for record in found] == texts
-    assert all(record.time == 5.0 for record in found)
-    assert [logs.LogRecord.from_json(record.to_json()) for record in found] == found
-
-
-@pytest.mark.parametrize("size", [1, 7, 4096, 100_000])
-def test_long_lines_come_in_pieces_that_keep_every_character(size: int) -> None:
-    data = ("ä" * 100_000 + "\n" + "€" * 50_001).encode()
-    lines = logs.LineSplitter("c", "stdout")
-    texts = [
-        record.text
-        for at in range(0, len(data), size)
-        for record in lines.feed(data[at : at + size], 0.0)
-    ] + [record.text for record in lines.end(0.0)]
-    assert "".join(texts) == "ä" * 100_000 + "€" * 50_001
-    assert all(len(text.encode()) <= logs.MAX_LINE_BYTES for text in texts)
-
-
-def test_the_time_of_a_log_line_is_believed_unless_it_is_far_off() -> None:
-    for stamp, believed in ((1000.25, 1000.25), (5e9, 1001.0), ("noon", 1001.0)):
-        line = json.dumps({"message": "m", "level": "INFO", "time": stamp}).encode() + b"\n"
-        assert logs.LineSplitter("c", "stdout").feed(line, 1001.0)[0].time == believed
-
-
-def test_records_as_text() -> None:
-    record = logs.LogRecord(3600.0625, "arm", "WARNING", "hot\x1b[2J\a\nsecond \x1b[31mred")
-    shown = logs.format_record(record, 6, colours=False)
-    stamp, _, rest = shown.partition(" ")
-    assert stamp.endswith(":00:00.062")
-    assert rest == (
-        "arm    | warning: hot\N{REPLACEMENT CHARACTER}[2J\N{REPLACEMENT CHARACTER}\n"
-        + " " * 20 + "| second \x1b[31mred"
-    )  # fmt: skip
-    coloured = logs.format_record(record, 6, colours=True)
-    assert "\x1b[33mwarning: hot" in coloured
-    assert f"\x1b[{logs.colour_of('arm')}marm   \x1b[0m" in coloured
-
-
-def test_table() -> None:
-    rows = [
-        status.ProcessStatus(
-            "arm", status.READY, 4711, 3725.0, 2, 0.256, 52_400_000, "hot", "emergency"
-        ),
-        status.ProcessStatus("base", status.WAITING, note="for arm"),
-    ]
-    assert status.format_table(rows, 200, colours=False) == [
-        "NAME  STATE    LIFE       PID   UP         RESTARTS  CPU   MEMORY",
-        "arm   ready    emergency  4711  1 h 2 min  2         26 %  52 MB   hot",
-        "base  waiting  -          -     -          0         -     -       for arm",
-    ]
-    moving = replace(rows[0], machine=("moving", "left", "right"))
-    assert [line[15:51] for line in status.format_table([moving, rows[1]], 200, colours=False)] == [
-        "LIFE       MACHINE              PID ",
-        "emergency  moving, left, right  4711",
-        "-          -                    -   ",
-    ]
-    assert all(len(line) <= 20 for line in status.format_table(rows, 20, colours=False))
-    assert status.format_table(rows, 200, colours=True)[1].startswith("\x1b[32marm")
-
-
-@pytest.mark.parametrize(
-    ("seconds", "text"),
-    [(0.04, "0.0 s"), (59.94, "59.9 s"), (60, "1 min 0 s"), (3600, "1 h 0 min")],
-)
-def test_durations(seconds: float, text: str) -> None:
-    assert status.format_duration(seconds) == text

@@ -1,10 +1,9 @@
-"""Everything is checked before anything is started, and each finding has its place."""
+"""Checks before the start of a deployment, and the places of their findings."""
 
 from __future__ import annotations
 
 import json
 import socket
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +13,8 @@ import pytest
 from robocomp_dsl.cli.rcdeploy.app import CheckedDeployment, check
 from robocomp_dsl.cli.rcdeploy.main import normalise_arguments
 from robocomp_dsl.cli.rcdeploy.plan import as_text
-from tests.deploy.deploy_robot import build
+from tests.deploy.generated_components import generate_components
+from tests.deploy.rcdeploy_process import rcdeploy
 
 APP = """
 import "arm/arm.cdsl";
@@ -31,11 +31,11 @@ Deployment app
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Two generated components and no deployment yet, the working folder of the test."""
     monkeypatch.chdir(tmp_path)
-    build(tmp_path)
+    generate_components(tmp_path)
     return tmp_path
 
 
-def judged(folder: Path, arm: str = "", eye: str = "", app: str = APP) -> CheckedDeployment:
+def check_app(folder: Path, arm: str = "", eye: str = "", app: str = APP) -> CheckedDeployment:
     path = folder / "app.ddsl"
     path.write_text(app.replace("ARM", arm).replace("EYE", eye))
     return check(path, ())
@@ -50,13 +50,13 @@ def finding_lines(checked: CheckedDeployment, folder: Path) -> list[str]:
     return lines
 
 
-def test_a_right_deployment_has_a_plan(folder: Path) -> None:
-    checked = judged(folder, "set rate = 20;")
+def test_check_gives_plan_for_valid_deployment(folder: Path) -> None:
+    checked = check_app(folder, "set rate = 20;")
     assert finding_lines(checked, folder) == []
     assert checked.plan
     assert [p.name for p in checked.plan.processes] == ["arm", "eye"]
     assert checked.plan.domain.startswith("app-")
-    again = judged(folder, "set rate = 20;").plan
+    again = check_app(folder, "set rate = 20;").plan
     assert again
     assert again.domain != checked.plan.domain
 
@@ -124,11 +124,11 @@ CASES = [
 
 
 @pytest.mark.parametrize(("change", "arm", "eye", "expected"), CASES)
-def test_what_the_machine_lacks(
+def test_check_reports_what_deployment_lacks(
     folder: Path, change: Callable[[Path], None], arm: str, eye: str, expected: list[str]
 ) -> None:
     change(folder)
-    checked = judged(folder, arm, eye)
+    checked = check_app(folder, arm, eye)
     assert finding_lines(checked, folder) == expected
     assert checked.plan
     assert checked.ready == all("RC905" in line for line in expected)
@@ -136,7 +136,7 @@ def test_what_the_machine_lacks(
 
 @pytest.fixture
 def share(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An installed place with a context for `arm`; nothing else of this machine is searched."""
+    """An installed folder with a context for `arm`; no folder of this computer is searched."""
     for name in ("CONFIG_HOME", "DATA_HOME", "CONFIG_DIRS", "DATA_DIRS"):
         monkeypatch.setenv(f"ROBOCOMP_{name}", str(folder / name))
     context = folder / "DATA_DIRS" / "contexts" / "lab"
@@ -144,54 +144,54 @@ def share(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return context
 
 
-def test_what_a_component_will_find_is_checked(folder: Path, share: Path) -> None:
+def test_check_validates_config_found_in_context(folder: Path, share: Path) -> None:
     (share / "arm.yaml").write_text("rate: 5000\n")
-    assert finding_lines(judged(folder, 'context "lab";'), folder) == [
+    assert finding_lines(check_app(folder, 'context "lab";'), folder) == [
         "DATA_DIRS/contexts/lab/arm.yaml:1:7 RC901 `rate` is 5000 Hz, its highest value is 1000 Hz"
         " (`arm`)"
     ]
     own = folder / "DATA_HOME" / "contexts" / "lab"
     own.mkdir(parents=True)
     (own / "arm.yaml").write_text("rate: 500\n")
-    assert finding_lines(judged(folder, 'context "lab";'), folder) == []
-    assert finding_lines(judged(folder, 'context "other";'), folder) == []
+    assert finding_lines(check_app(folder, 'context "lab";'), folder) == []
+    assert finding_lines(check_app(folder, 'context "other";'), folder) == []
 
 
-def test_what_a_component_will_not_find_is_told(folder: Path, share: Path) -> None:
+def test_check_reports_config_not_found(folder: Path, share: Path) -> None:
     (share / "arm.yaml").write_text("rate: 500\n")
-    checked = judged(folder, 'context "lab"; from "amr.yaml";')
+    checked = check_app(folder, 'context "lab"; from "amr.yaml";')
     message = "app.ddsl:6:15 RC901 configuration not found: `amr.yaml` (`arm`)"
     assert finding_lines(checked, folder) == [message]
     assert checked.findings[0].label == "did you mean `arm.yaml`?"
     assert f"{share}/amr.yaml (installed, contexts/lab): not found" in checked.findings[0].help
-    assert finding_lines(judged(folder, 'context "lab"; from "arm.yaml";'), folder) == []
+    assert finding_lines(check_app(folder, 'context "lab"; from "arm.yaml";'), folder) == []
 
 
-def test_what_must_be_given_is_missed_in_the_file_that_should_give_it(folder: Path) -> None:
+def test_check_reports_missing_parameter_in_config_file(folder: Path) -> None:
     empty_config(folder)
-    assert finding_lines(judged(folder, app=APP.replace('set serial = "abc";', "")), folder) == [
+    assert finding_lines(check_app(folder, app=APP.replace('set serial = "abc";', "")), folder) == [
         NO_SERIAL
     ]
 
 
-def test_a_port_in_use(folder: Path) -> None:
+def test_check_reports_port_in_use(folder: Path) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
-        found = finding_lines(judged(folder, f"port {port};"), folder)
+        found = finding_lines(check_app(folder, f"port {port};"), folder)
     message = f"`arm`: port {port} cannot be used: Address already in use"
     assert found == [f"app.ddsl:6:15 RC904 {message}"]
-    assert finding_lines(judged(folder, f"port {port};"), folder) == []
+    assert finding_lines(check_app(folder, f"port {port};"), folder) == []
 
 
-def test_all_findings_come_in_one_run(folder: Path) -> None:
+def test_check_reports_all_findings_at_once(folder: Path) -> None:
     spoil_config(folder)
     remove_main(folder)
-    found = finding_lines(judged(folder, 'config "own.yaml";'), folder)
+    found = finding_lines(check_app(folder, 'config "own.yaml";'), folder)
     assert [line.split()[1] for line in found] == ["RC903", "RC901", "RC901", "RC901"]
 
 
 @pytest.mark.parametrize("content", [b"", b"\0\1\2", b"Deployment", b"\xff\xfe", b"{" * 100_000])
-def test_bad_files_are_findings(folder: Path, content: bytes) -> None:
+def test_check_reports_unreadable_deployment_file(folder: Path, content: bytes) -> None:
     (folder / "app.ddsl").write_bytes(content)
     checked = check(folder / "app.ddsl", ())
     assert checked.plan is None
@@ -219,21 +219,18 @@ ORDERS = [
 ]
 
 
-@pytest.mark.parametrize(("written", "meant"), ORDERS)
-def test_the_file_may_stand_before_the_command(written: list[str], meant: list[str]) -> None:
-    assert normalise_arguments(written) == meant
+@pytest.mark.parametrize(("arguments", "expected"), ORDERS)
+def test_normalise_arguments_accepts_file_before_command(
+    arguments: list[str], expected: list[str]
+) -> None:
+    assert normalise_arguments(arguments) == expected
 
 
-def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
-    program = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
-    return subprocess.run(
-        [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False
-    )
-
-
-def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_rcdeploy_commands_print_and_exit_as_documented(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(folder))
-    judged(folder, 'env MODE = "a b";')
+    check_app(folder, 'env MODE = "a b";')
     shown = rcdeploy("app.ddsl", "plan")
     assert (shown.returncode, shown.stderr) == (0, "")
     assert "2. eye (eye) after arm\n" in shown.stdout
@@ -248,7 +245,7 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert data["processes"][0]["env"] == {"MODE": "a b"}
     right = rcdeploy("check", "app.ddsl")
     assert (right.returncode, right.stdout) == (0, "app.ddsl: 2 components can be started\n")
-    judged(folder, 'executable "nothing";')
+    check_app(folder, 'executable "nothing";')
     wrong = rcdeploy("check", "app.ddsl", "--format", "json")
     assert wrong.returncode == 1
     assert [load["code"] for load in json.loads(wrong.stdout)] == ["RC902"]
@@ -262,7 +259,7 @@ def test_the_commands(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for verb in ("status", "logs", "stop"):
         absent = rcdeploy("app.ddsl", verb)
         assert (absent.returncode, absent.stdout) == (1, "")
-        assert absent.stderr == "error: `app.ddsl` is not running\n"
+        assert absent.stderr.startswith("error: `app.ddsl` is not running")
     assert rcdeploy("stop").stderr == "error: no deployment is running\n"
     assert rcdeploy("missing.ddsl").returncode == 1
     assert rcdeploy("app.ddsl", "sttus").returncode == 2
@@ -282,17 +279,17 @@ Deployment app
 """
 
 
-def test_another_machine_is_refused_where_it_is_named(folder: Path) -> None:
-    checked = judged(folder, app=PLACED.replace("WHERE", "robot"))
+def test_check_rejects_remote_host_at_its_name(folder: Path) -> None:
+    checked = check_app(folder, app=PLACED.replace("WHERE", "robot"))
     message = "`left-arm` is on `robot` (10.0.0.2); remote hosts are not supported yet"
     assert finding_lines(checked, folder) == [f"app.ddsl:8:19 RC907 {message}"]
     assert not checked.ready
 
 
-def test_groups_and_hosts_of_this_machine_run(folder: Path) -> None:
+def test_check_accepts_groups_on_local_hosts(folder: Path) -> None:
     for where in ("desk", "localhost"):
         app = PLACED.replace("WHERE", where)
-        checked = judged(folder, app=app)
+        checked = check_app(folder, app=app)
         assert finding_lines(checked, folder) == []
         assert checked.plan is not None
         arm, eye = checked.plan.processes

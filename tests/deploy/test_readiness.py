@@ -17,8 +17,8 @@ from robocomp_dsl.deploy.supervisor.notify import NotifySocket, parse_message
 from robocomp_dsl.deploy.supervisor.resource_limits import LimitTracker, TreeUsage
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
 from robocomp_dsl.model.deployment import Readiness, ResourceLimits, Restart
-from tests.deploy.deploy_actors import actor
-from tests.deploy.test_supervisor import Run, stop
+from tests.deploy.scripted_processes import scripted_process
+from tests.deploy.supervisor_run import SupervisorRun, stop
 
 NOTIFY = """
 import socket, time
@@ -30,19 +30,19 @@ def notify(text):
 NEVER = Restart("never")
 
 
-class ForeignRun(Run):
+class ForeignRun(SupervisorRun):
     """A run that listens for sd_notify messages."""
 
     def run(self) -> Outcome:
         folder = self.plan.path.parent
         self.on("rcdeploy: listening", lambda run: run.engine.receive_notifications(folder))
-        original = self.watch.start
+        original = self.monitor.start
 
         def start(seen: Callable[[str, int, str], None]) -> None:
             original(seen)
             self.engine.log("listening")
 
-        self.watch.start = start  # type: ignore[method-assign]
+        self.monitor.start = start  # type: ignore[method-assign]
         return super().run()
 
 
@@ -54,8 +54,12 @@ class ForeignRun(Run):
     ],
 )
 def test_readiness_of_foreign_programs(tmp_path: Path, readiness: Readiness, body: str) -> None:
-    foreign = actor(tmp_path, "a", f"{body}\nwait()", readiness=readiness)
-    run = Run(tmp_path, foreign, actor(tmp_path, "b", 'tell("compute"); wait()', after=("a",)))
+    foreign = scripted_process(tmp_path, "a", f"{body}\nwait()", readiness=readiness)
+    run = SupervisorRun(
+        tmp_path,
+        foreign,
+        scripted_process(tmp_path, "b", 'report("compute"); wait()', after=("a",)),
+    )
     run.on("all 2 components are ready", stop)
     assert run.run() == Outcome(0, "test")
     assert run.at("a is ready") < run.at("b is ready")
@@ -67,11 +71,13 @@ def test_readiness_by_a_port_that_answers(tmp_path: Path) -> None:
     go = tmp_path / "go"
     body = f"""
 import socket
-tell("compute")
-while not os.path.exists({str(go)!r}) and not over.is_set(): pass
+report("compute")
+while not os.path.exists({str(go)!r}) and not stopped.is_set(): pass
 server = socket.create_server(("127.0.0.1", {port})); print("serving"); wait()
 """
-    run = Run(tmp_path, actor(tmp_path, "a", body, readiness=Readiness(port=port)))
+    run = SupervisorRun(
+        tmp_path, scripted_process(tmp_path, "a", body, readiness=Readiness(port=port))
+    )
     # Its lifecycle says that it is ready, but its own condition decides.
     run.changed = lambda: go.touch() if run.row("a").life == "compute" else None
     assert run.on("a is ready", stop).run() == Outcome(0, "test")
@@ -79,16 +85,16 @@ server = socket.create_server(("127.0.0.1", {port})); print("serving"); wait()
 
 
 def test_readiness_that_never_comes_is_a_failure(tmp_path: Path) -> None:
-    foreign = actor(
+    foreign = scripted_process(
         tmp_path, "a", 'print("other"); wait()', readiness=Readiness(pattern="listening"),
         start_timeout_s=0.3, restart=NEVER,
     )  # fmt: skip
-    assert Run(tmp_path, foreign).run() == Outcome(1, "failed: a")
+    assert SupervisorRun(tmp_path, foreign).run() == Outcome(1, "failed: a")
 
 
 def test_sd_notify_ready_and_status(tmp_path: Path) -> None:
     body = NOTIFY + 'notify("STATUS=loading 3 of 5"); notify("READY=1\\nSTATUS=serves"); wait()'
-    run = ForeignRun(tmp_path, actor(tmp_path, "a", body))
+    run = ForeignRun(tmp_path, scripted_process(tmp_path, "a", body))
     notes: list[str] = []
 
     def changed() -> None:
@@ -103,8 +109,8 @@ def test_sd_notify_ready_and_status(tmp_path: Path) -> None:
 
 
 def test_sd_notify_of_another_process_is_ignored(tmp_path: Path) -> None:
-    liar = actor(tmp_path, "b", NOTIFY + 'notify("READY=1"); tell("compute"); wait()')
-    silent = actor(tmp_path, "a", "wait()", start_timeout_s=0.5, restart=NEVER)
+    liar = scripted_process(tmp_path, "b", NOTIFY + 'notify("READY=1"); report("compute"); wait()')
+    silent = scripted_process(tmp_path, "a", "wait()", start_timeout_s=0.5, restart=NEVER)
     run = ForeignRun(tmp_path, silent, liar)
     assert run.run() == Outcome(1, "failed: a")
     assert run.at("b is ready")
@@ -114,13 +120,13 @@ def test_sd_notify_watchdog_restarts_a_program_that_hangs(tmp_path: Path) -> Non
     hung = tmp_path / "hung"
     body = f"""{NOTIFY}
 notify("READY=1")
-while not over.is_set():
+while not stopped.is_set():
     if os.environ["WATCHDOG_USEC"] != "200000": break
     notify("WATCHDOG=1"); time.sleep(0.02)
     if not os.path.exists({str(hung)!r}):
         open({str(hung)!r}, "w").close(); print("hangs"); wait(); print("finalized")
 """
-    process = actor(tmp_path, "a", body, env=(("WATCHDOG_USEC", "200000"),))
+    process = scripted_process(tmp_path, "a", body, env=(("WATCHDOG_USEC", "200000"),))
     run = ForeignRun(tmp_path, process).on("a hangs: no WATCHDOG=1 within 0.2 s", lambda _: None)
     run.on("restarting in 0.1 s", lambda r: r.on("a is ready", stop))
     assert run.run() == Outcome(0, "test")
@@ -196,14 +202,14 @@ def test_limits_warn_and_then_restart(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(LimitTracker.__init__, "__defaults__", (0.1,))
     grown = tmp_path / "grown"
     body = f"""
-tell("compute")
+report("compute")
 if not os.path.exists({str(grown)!r}):
     open({str(grown)!r}, "w").close(); block = b"x" * 150_000_000
 wait(); print("finalized")
 """
     limits = ResourceLimits(memory_bytes=100_000_000)
-    process: Process = actor(tmp_path, "a", body, limits=limits)
-    run = Run(tmp_path, process, options=Options(grace_s=5.0))
+    process: Process = scripted_process(tmp_path, "a", body, limits=limits)
+    run = SupervisorRun(tmp_path, process, options=Options(grace_s=5.0))
     run.on("restarting in 0.1 s", lambda r: r.on("a is ready", stop))
     assert run.run() == Outcome(0, "test")
     texts = [t for t in run.texts("rcdeploy") if "of memory, its limit is 100 MB" in t]

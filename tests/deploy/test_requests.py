@@ -13,13 +13,13 @@ from robocomp_dsl.deploy.plan import Plan, Process
 from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, PlanRejected
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
 from robocomp_dsl.model.deployment import Restart
-from tests.deploy.deploy_actors import STEADY, actor, plan_of
-from tests.deploy.test_supervisor import Run, stop
+from tests.deploy.scripted_processes import STEADY, make_plan, scripted_process
+from tests.deploy.supervisor_run import SupervisorRun, stop
 
 NEVER = Restart("never")
 
 
-class RequestRun(Run):
+class RequestRun(SupervisorRun):
     """A run in which `steps` act when the text `begin_at` appears; then it stops."""
 
     replies: list[str]
@@ -42,7 +42,7 @@ class RequestRun(Run):
                 if ends or self.errors:
                     self.engine.stop("test")
 
-        def begin(_: Run) -> None:
+        def begin(_: SupervisorRun) -> None:
             self.task = asyncio.get_running_loop().create_task(act())
 
         outcome = self.on(begin_at, begin).run()
@@ -63,9 +63,9 @@ class RequestRun(Run):
 def chain(tmp_path: Path, body: str = STEADY) -> list[Process]:
     """`base`, then `nav` (in group `g`) after it, then `log` after `nav`."""
     return [
-        actor(tmp_path, "base", body, stops_after=("g-nav", "log")),
-        actor(tmp_path, "g-nav", body, after=("base",), stops_after=("log",), group="g"),
-        actor(tmp_path, "log", body, after=("g-nav",)),
+        scripted_process(tmp_path, "base", body, stops_after=("g-nav", "log")),
+        scripted_process(tmp_path, "g-nav", body, after=("base",), stops_after=("log",), group="g"),
+        scripted_process(tmp_path, "log", body, after=("g-nav",)),
     ]
 
 
@@ -120,9 +120,9 @@ def test_requests_all_stopped_the_deployment_continues(tmp_path: Path) -> None:
 def test_requests_start_after_restarts_were_given_up(tmp_path: Path) -> None:
     fixed = tmp_path / "fixed"
     body = f"if not os.path.exists({str(fixed)!r}): sys.exit(3)\n" + STEADY
-    bad = actor(tmp_path, "a", body, restart=Restart(max=1))
+    bad = scripted_process(tmp_path, "a", body, restart=Restart(max=1))
     keep_going = Options(keep_going=True, grace_s=5.0)
-    run = RequestRun(tmp_path, bad, actor(tmp_path, "b", STEADY), options=keep_going)
+    run = RequestRun(tmp_path, bad, scripted_process(tmp_path, "b", STEADY), options=keep_going)
 
     async def steps(run: RequestRun) -> None:
         # A start that fails again leaves the deployment running, for the next attempt.
@@ -139,7 +139,7 @@ def test_requests_start_after_restarts_were_given_up(tmp_path: Path) -> None:
 def test_requests_a_restart_that_fails_does_not_stop_the_others(tmp_path: Path) -> None:
     broken = tmp_path / "broken"
     body = f"if os.path.exists({str(broken)!r}): sys.exit(3)\n" + STEADY
-    run = RequestRun(tmp_path, actor(tmp_path, "a", body, restart=NEVER))
+    run = RequestRun(tmp_path, scripted_process(tmp_path, "a", body, restart=NEVER))
 
     async def steps(run: RequestRun) -> None:
         broken.touch()
@@ -156,10 +156,10 @@ def test_requests_run_the_description_as_it_is_now(tmp_path: Path) -> None:
     changed = replace(old[0], env=(("MODE", "new"),))
     body = 'print("mode", os.environ["MODE"]); ' + STEADY
     (tmp_path / "base.py").write_text((tmp_path / "base.py").read_text().replace(STEADY, body))
-    added = actor(tmp_path, "extra", STEADY, after=("base",))
+    added = scripted_process(tmp_path, "extra", STEADY, after=("base",))
     new = [changed, replace(old[1], env=(("X", "1"),)), added]
     run = RequestRun(tmp_path, *(replace(p, env=(("MODE", "old"),)) for p in old))
-    run.replanned = lambda: (plan_of(tmp_path, *new), "warning: something")
+    run.replanned = lambda: (make_plan(tmp_path, *new), "warning: something")
 
     async def steps(run: RequestRun) -> None:
         assert await run.request("restart", "base")
@@ -197,12 +197,12 @@ def test_requests_errors_in_the_description_stop_nothing(tmp_path: Path) -> None
 
 
 def test_requests_end_when_the_deployment_stops(tmp_path: Path) -> None:
-    slow = actor(tmp_path, "a", STEADY)
-    run = RequestRun(tmp_path, slow, actor(tmp_path, "b", STEADY))
+    slow = scripted_process(tmp_path, "a", STEADY)
+    run = RequestRun(tmp_path, slow, scripted_process(tmp_path, "b", STEADY))
 
     async def steps(run: RequestRun) -> None:
         script = tmp_path / "a.py"
-        script.write_text(script.read_text().replace('tell("compute")', 'print("not ready")'))
+        script.write_text(script.read_text().replace('report("compute")', 'print("not ready")'))
         run.on("a: not ready", stop)
         assert not await run.request("restart", "a")
         assert not await run.request("start", "a")

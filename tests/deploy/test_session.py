@@ -1,4 +1,4 @@
-"""Whole deployments as processes: signals, SIGKILL, other terminals, several at once."""
+"""Deployments as processes: signals, SIGKILL, control from other processes, several at once."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ import pytest
 from robocomp_dsl.deploy import control, instances
 from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.resource_limits import process_tree
-from tests.deploy.deploy_actors import STEADY
-from tests.deploy.deploy_process import DEADLINE_S, Running, runtime_folder
+from tests.deploy.rcdeploy_process import DEADLINE_S, RunningProcess, runtime_folder
+from tests.deploy.scripted_processes import STEADY
 
-DRIVER = Path(__file__).with_name("driver.py")
+SESSION = Path(__file__).with_name("scripted_session.py")
 PAIR: list[dict[str, Any]] = [
     {"name": "a", "body": STEADY},
     {"name": "b", "body": STEADY, "after": ["a"]},
@@ -40,11 +40,11 @@ def sessions() -> Iterator[ExitStack]:
         yield stack
 
 
-def begin(
+def start_session(
     sessions: ExitStack, where: Path, spec: list[dict[str, Any]], name: str = "demo"
-) -> Running:
-    command = (sys.executable, str(DRIVER), str(where), name, json.dumps(spec))
-    return sessions.enter_context(Running(*command))
+) -> RunningProcess:
+    command = (sys.executable, str(SESSION), str(where), name, json.dumps(spec))
+    return sessions.enter_context(RunningProcess(*command))
 
 
 def pids(name: str) -> list[int]:
@@ -60,16 +60,16 @@ def is_alive(pid: int) -> bool:
         return False
 
 
-def wait_for_end(processes: list[int]) -> None:
+def assert_ended(processes: list[int]) -> None:
     reaper._wait_for_exit(processes, DEADLINE_S)
     assert not [pid for pid in processes if is_alive(pid)]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_signal_stops_in_reverse_order(
+def test_session_stops_in_reverse_order_on_signal(
     tmp_path: Path, sessions: ExitStack, number: signal.Signals
 ) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     running = pids("demo")
     session.process.send_signal(number)
@@ -78,45 +78,43 @@ def test_a_signal_stops_in_reverse_order(
         "b: finalized",
         "a: finalized",
     ]
-    wait_for_end(running)
+    assert_ended(running)
     assert instances.running() == []
 
 
-def test_a_ctrl_c_of_the_terminal_reaches_rcdeploy_only(
-    tmp_path: Path, sessions: ExitStack
-) -> None:
+def test_terminal_ctrl_c_reaches_session_only(tmp_path: Path, sessions: ExitStack) -> None:
     body = 'signal.signal(2, lambda *_: print("hit")); ' + STEADY
-    session = begin(sessions, tmp_path / "x", [{"name": "a", "body": body}])
+    session = start_session(sessions, tmp_path / "x", [{"name": "a", "body": body}])
     session.until("the component is ready")
-    os.killpg(session.process.pid, signal.SIGINT)  # as a terminal does it
+    os.killpg(session.process.pid, signal.SIGINT)  # as a terminal does
     assert session.end() == 0
     assert "a: hit" not in session.lines
     assert "a: finalized" in session.lines
 
 
-def test_killed_rcdeploy_leaves_nothing_and_motors_stop_in_order(
+def test_killed_session_leaves_no_process_and_components_finalize(
     tmp_path: Path, sessions: ExitStack
 ) -> None:
     note = tmp_path / "finalized"
-    gentle = f'tell("compute"); wait(); open({str(note)!r}, "w").close()'
-    deaf = 'signal.signal(15, signal.SIG_IGN); tell("compute"); wait()'
+    finalizing = f'report("compute"); wait(); open({str(note)!r}, "w").close()'
+    ignoring = 'signal.signal(15, signal.SIG_IGN); report("compute"); wait()'
     daemon = """
 import subprocess
 child = subprocess.Popen([sys.executable, "-S", "-c", "import time; time.sleep(600)"],
                          start_new_session=True, stdout=-3, stderr=-3)
-print("daemon", child.pid); tell("compute"); wait()
+print("daemon", child.pid); report("compute"); wait()
 """
-    spec = [{"name": n, "body": b} for n, b in (("a", gentle), ("b", deaf), ("c", daemon))]
-    session = begin(sessions, tmp_path / "x", spec)
+    spec = [{"name": n, "body": b} for n, b in (("a", finalizing), ("b", ignoring), ("c", daemon))]
+    session = start_session(sessions, tmp_path / "x", spec)
     escaped = int(session.until("c: daemon").split()[-1])
     session.until("all 3 components are ready")
     running = [*pids("demo"), escaped]
     session.process.kill()
     session.end()
-    wait_for_end(running)
+    assert_ended(running)
     assert note.exists()
     assert instances.running() == []
-    begin(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
+    start_session(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
 
 
 def reaper_of(pid: int) -> int:
@@ -128,8 +126,8 @@ def reaper_of(pid: int) -> int:
     return 0
 
 
-def test_a_reaper_that_dies_is_replaced(tmp_path: Path, sessions: ExitStack) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+def test_session_replaces_reaper_that_died(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     first = reaper_of(session.process.pid)
     os.kill(first, signal.SIGKILL)
@@ -141,35 +139,33 @@ def test_a_reaper_that_dies_is_replaced(tmp_path: Path, sessions: ExitStack) -> 
     assert all(map(is_alive, running))
     session.process.kill()
     session.end()
-    wait_for_end([*running, second])
+    assert_ended([*running, second])
 
 
-def test_a_reaper_that_died_last_does_not_hinder_the_end(
-    tmp_path: Path, sessions: ExitStack
-) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+def test_session_ends_after_reaper_died(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     os.kill(reaper_of(session.process.pid), signal.SIGKILL)
     session.process.terminate()
     assert session.end() == 0
 
 
-def test_killed_at_any_moment_it_leaves_nothing(tmp_path: Path, sessions: ExitStack) -> None:
+def test_session_killed_during_start_leaves_no_process(tmp_path: Path, sessions: ExitStack) -> None:
     crash = 'print("life", os.getpid()); sys.exit(1)'
     spec = [{"name": f"c{i}", "body": crash} for i in range(4)]
-    session = begin(sessions, tmp_path / "x", spec)
+    session = start_session(sessions, tmp_path / "x", spec)
     session.until("life")
     session.process.kill()
     session.end()
     lives = [int(line.split()[-1]) for line in session.lines if "life" in line]
-    wait_for_end(lives)
+    assert_ended(lives)
     token = f"demo-{tmp_path.name}-x.{session.process.pid}"
-    wait_for_end(reaper.find_processes(token))
+    assert_ended(reaper.find_processes(token))
     assert reaper.find_processes(token) == []
 
 
-def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: ExitStack) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+def test_control_socket_serves_status_logs_and_stop(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     (entry,) = instances.running()
     assert (entry.name, entry.pid) == ("demo", session.process.pid)
@@ -193,15 +189,15 @@ def test_status_logs_and_stop_from_another_process(tmp_path: Path, sessions: Exi
         list(control.send_request("demo", {"verb": "status"}))
 
 
-def test_the_same_name_twice_is_refused_with_the_pid(tmp_path: Path, sessions: ExitStack) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+def test_session_rejects_name_in_use_with_pid(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
-    second = begin(sessions, tmp_path / "y", PAIR)
+    second = start_session(sessions, tmp_path / "y", PAIR)
     assert second.end() == 1
     who = f"pid {session.process.pid}, {tmp_path}/x/demo.ddsl"
     advice = "stop it, or use another --name"
     assert second.lines == [f"`demo` is already running ({who}); {advice}"]
-    third = begin(sessions, tmp_path / "z", PAIR, name="other")
+    third = start_session(sessions, tmp_path / "z", PAIR, name="other")
     third.until("all 2 components are ready")
     assert [r.name for r in instances.running()] == ["demo", "other"]
     assert next(control.send_request("other", {"verb": "stop"}))["code"] == 0
@@ -209,8 +205,8 @@ def test_the_same_name_twice_is_refused_with_the_pid(tmp_path: Path, sessions: E
     assert third.end() == 0
 
 
-def test_nonsense_on_the_control_socket_is_survived(tmp_path: Path, sessions: ExitStack) -> None:
-    session = begin(sessions, tmp_path / "x", PAIR)
+def test_control_socket_survives_invalid_requests(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     for nonsense in ({"verb": "dance"}, {"verb": "logs", "last": "many"}, {}, "text", [1]):
         assert list(control.send_request("demo", nonsense)) == []  # type: ignore[arg-type]
@@ -220,7 +216,7 @@ def test_nonsense_on_the_control_socket_is_survived(tmp_path: Path, sessions: Ex
     assert session.end() == 0
 
 
-def test_stale_entries_are_swept(tmp_path: Path) -> None:
+def test_instances_remove_stale_entries(tmp_path: Path) -> None:
     claim = instances.acquire("demo")
     claim.publish(instances.RunningDeployment("demo", "x.ddsl", "d", 2**22 - 1, 0.0))
     os.close(claim._lock)  # as the kernel does when a process is killed
@@ -235,18 +231,18 @@ def test_stale_entries_are_swept(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["", "..", "a/b", "-x", "a b", "x" * 65, "ü"])
-def test_names_that_are_none(name: str) -> None:
+def test_instances_reject_invalid_name(name: str) -> None:
     with pytest.raises(instances.Unavailable, match="is not a valid name"):
         instances.acquire(name)
 
 
-def test_a_long_path_still_has_a_socket(
+def test_control_socket_works_below_long_path(
     tmp_path: Path, sessions: ExitStack, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     deep = tmp_path / ("d" * 120)
     deep.mkdir()
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(deep))
-    session = begin(sessions, tmp_path / "x", PAIR)
+    session = start_session(sessions, tmp_path / "x", PAIR)
     session.until("all 2 components are ready")
     assert next(control.send_request("demo", {"verb": "stop"}))["code"] == 0
     assert session.end() == 0

@@ -1,4 +1,4 @@
-"""What a user sees: lines of all components, the table below them, and slow or absent readers."""
+"""Output of `rcdeploy`: log lines, the table below them, and slow or absent readers."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ def ignore(_: str) -> None:
     pass
 
 
-class Stream(io.StringIO):
-    """A stream whose writer can be held, as Ctrl-S holds a terminal."""
+class BlockingStream(io.StringIO):
+    """A stream whose writer can be blocked, as Ctrl-S blocks a terminal."""
 
     encoding = "ascii"
 
@@ -54,8 +54,8 @@ def terminal(stream: TextIO, *, live: bool = False, as_json: bool = False) -> Te
     return Terminal(stream, ["arm"], live=live, colours=False, as_json=as_json)
 
 
-def test_lines_of_all_components_in_order() -> None:
-    stream = Stream()
+def test_terminal_prints_lines_in_order() -> None:
+    stream = BlockingStream()
     shown = terminal(stream)
     for text in ("one", "größe", "a\nb"):
         shown.record(record(text))
@@ -65,8 +65,8 @@ def test_lines_of_all_components_in_order() -> None:
     assert lines[0].startswith("arm      |")
 
 
-def test_json_has_one_record_a_line() -> None:
-    stream = Stream()
+def test_terminal_prints_json_record_per_line() -> None:
+    stream = BlockingStream()
     shown = terminal(stream, as_json=True)
     records = [record("one"), record("two\nlines", "eye")]
     for entry in records:
@@ -75,8 +75,8 @@ def test_json_has_one_record_a_line() -> None:
     assert [LogRecord.from_json(line) for line in stream.getvalue().splitlines()] == records
 
 
-def test_the_table_stays_below_the_lines_and_goes_at_the_end() -> None:
-    stream = Stream()
+def test_terminal_redraws_table_below_lines_and_removes_it() -> None:
+    stream = BlockingStream()
     shown = terminal(stream, live=True)
     rows = [ProcessStatus("arm", READY, 4711, 1.0), ProcessStatus("eye", READY, 4712, 1.0)]
     shown.attach(lambda: rows, ignore, ignore)
@@ -90,8 +90,8 @@ def test_the_table_stays_below_the_lines_and_goes_at_the_end() -> None:
     assert text.rstrip("\n").rsplit("\x1b[3F\x1b[J", 1)[1] == ""
 
 
-def test_a_held_terminal_holds_nobody_and_the_lost_are_counted() -> None:
-    stream = Stream()
+def test_blocked_terminal_drops_and_counts_lines() -> None:
+    stream = BlockingStream()
     stream.free.clear()
     shown = terminal(stream)
     shown.record(record("first"))
@@ -107,7 +107,7 @@ def test_a_held_terminal_holds_nobody_and_the_lost_are_counted() -> None:
     assert len(text.splitlines()) == 1 + 1 + rcdeploy_terminal.MAX_QUEUED_LINES
 
 
-def test_a_reader_that_is_gone_stops_the_deployment() -> None:
+def test_terminal_stops_deployment_when_reader_is_gone() -> None:
     reader, writer = os.pipe()
     os.close(reader)
     reader_gone = threading.Event()
@@ -121,8 +121,8 @@ def test_a_reader_that_is_gone_stops_the_deployment() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
-def test_many_components_leave_room_for_the_lines(tmp_path: Path) -> None:
-    stream = Stream()
+def test_terminal_shortens_table_of_many_components(tmp_path: Path) -> None:
+    stream = BlockingStream()
     shown = terminal(stream, live=True)
     shown.attach(lambda: [ProcessStatus(f"c{i}", READY, i + 1) for i in range(100)], ignore, ignore)
     shown.changed()

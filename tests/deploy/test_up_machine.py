@@ -1,12 +1,10 @@
-"""`rcdeploy status` tells what components themselves tell: life cycles and state machines."""
+"""`rcdeploy status` shows the lifecycles and state machines of components."""
 
 from __future__ import annotations
 
 import json
 import os
 import signal
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,10 +15,9 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.write import write
-from tests.deploy.deploy_process import Running, runtime_folder
-from tests.deploy.deploy_robot import HEAD
+from tests.deploy.generated_components import HEAD
+from tests.deploy.rcdeploy_process import RunningProcess, rcdeploy, runtime_folder, start_rcdeploy
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 CDSL = 'Component arm { language Python; period 10; statemachine "arm.smdsl"; };\n'
 SMDSL = """
 arm
@@ -50,13 +47,6 @@ Deployment app { component arm { ready within 200 s; }; component eye { ready wi
 """
 
 
-def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", PROGRAM, *arguments],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-
-
 def component(folder: Path, cdsl: str, worker: str) -> None:
     path = folder / f"{folder.name}.cdsl"
     folder.mkdir()
@@ -71,15 +61,15 @@ def component(folder: Path, cdsl: str, worker: str) -> None:
 
 
 @pytest.fixture
-def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Running]:
-    """A running deployment: one component with a machine that is in trouble, one without."""
+def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[RunningProcess]:
+    """A running deployment: one component with a state machine and an emergency, one without."""
     monkeypatch.chdir(tmp_path)
     component(tmp_path / "arm", CDSL, WORKER)
     component(tmp_path / "eye", "Component eye { language Python; };\n", PLAIN)
     (tmp_path / "app.ddsl").write_text(APP)
     with (
         runtime_folder(monkeypatch),
-        Running(sys.executable, "-c", PROGRAM, "app.ddsl") as running,
+        start_rcdeploy("app.ddsl") as running,
     ):
         running.until("all 2 components are ready", "the left hand is stuck")
         yield running
@@ -87,7 +77,7 @@ def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Running]:
         assert running.end() == 0
 
 
-def test_life_and_all_active_states_are_shown(app: Running) -> None:
+def test_status_shows_lifecycle_and_active_states(app: RunningProcess) -> None:
     shown = rcdeploy("status", "app")
     assert shown.returncode == 0, shown.stderr
     head, arm, eye = shown.stdout.splitlines()[1:]

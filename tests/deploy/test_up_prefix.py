@@ -1,20 +1,17 @@
-"""Copies of a component under prefixes, in processes: who finds whom, and what it is called."""
+"""Copies of a component under prefixes: their names, and the servers they find."""
 
 from __future__ import annotations
 
 import json
 import signal
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.deploy.deploy_process import Running, runtime_folder
-from tests.deploy.deploy_robot import build
+from tests.deploy.generated_components import generate_components
+from tests.deploy.rcdeploy_process import RunningProcess, rcdeploy, runtime_folder, start_rcdeploy
 
-PROGRAM = "from robocomp_dsl.cli.rcdeploy.main import main; main()"
 ARM = """
 class SpecificWorker(GenericWorker):
     def initialize(self):
@@ -42,24 +39,17 @@ Deployment app
 """
 
 
-def rcdeploy(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", PROGRAM, *arguments],
-        capture_output=True, text=True, check=False, timeout=60,
-    )  # fmt: skip
-
-
 @pytest.fixture
-def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Running]:
+def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[RunningProcess]:
     monkeypatch.chdir(tmp_path)
-    build(tmp_path, {"arm": ARM, "eye": EYE})
+    generate_components(tmp_path, {"arm": ARM, "eye": EYE})
     lab = tmp_path / "arm" / "contexts" / "lab" / "left"
     lab.mkdir(parents=True)
     (lab / "arm.yaml").write_text("serial: of left\n")
     (tmp_path / "app.ddsl").write_text(APP)
     with (
         runtime_folder(monkeypatch),
-        Running(sys.executable, "-c", PROGRAM, "app.ddsl") as running,
+        start_rcdeploy("app.ddsl") as running,
     ):
         running.until("all 4 components are ready", "left/near sees", "left/far sees")
         yield running
@@ -67,7 +57,7 @@ def app(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Running]:
         assert running.end() == 0
 
 
-def test_each_finds_what_is_under_its_prefix(app: Running) -> None:
+def test_components_find_servers_under_their_prefix(app: RunningProcess) -> None:
     assert app.has("left/arm begins with of left")
     assert app.has("right/hand/other begins with of right")
     assert app.has("left/near sees 1")

@@ -35,63 +35,63 @@ def pages(*paths: Path, title: str = "Robot") -> dict[str, str]:
 
 
 @dataclass
-class Seen:
-    """What a page says: its words, places, links, and the mistakes in it."""
+class ParsedPage:
+    """The content of a page: words, ids, links, tags, and errors of the HTML."""
 
     words: list[str] = field(default_factory=list)
     ids: list[str] = field(default_factory=list)
     links: list[str] = field(default_factory=list)
     tags: list[str] = field(default_factory=list)
-    mistakes: list[str] = field(default_factory=list)
+    errors: list[str] = field(default_factory=list)
 
     @property
     def text(self) -> str:
-        """All words, blanks as they come."""
+        """All words, separated by single spaces."""
         return " ".join("".join(self.words).split())
 
 
-class _Reader(HTMLParser):
-    """Reads HTML and the SVG in it, and tolerates nothing."""
+class _PageParser(HTMLParser):
+    """Parses HTML with embedded SVG strictly."""
 
     def __init__(self) -> None:
         super().__init__(convert_charrefs=True)
-        self.seen = Seen()
+        self.page = ParsedPage()
         self.open: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         attributes = dict(attrs)
         if len(attributes) != len(attrs):
-            self.seen.mistakes.append(f"<{tag}> has an attribute twice")
-        self.seen.tags.append(tag)
-        self.seen.ids += [v for k, v in attrs if k == "id" and v]
-        self.seen.links += [v for k, v in attrs if k in ("href", "src") and v]
-        self.seen.mistakes += [f"<{tag} {k}>" for k, _ in attrs if k.startswith("on")]
+            self.page.errors.append(f"<{tag}> has an attribute twice")
+        self.page.tags.append(tag)
+        self.page.ids += [v for k, v in attrs if k == "id" and v]
+        self.page.links += [v for k, v in attrs if k in ("href", "src") and v]
+        self.page.errors += [f"<{tag} {k}>" for k, _ in attrs if k.startswith("on")]
         if tag not in VOID:
             self.open.append(tag)
 
     def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.seen.mistakes.append(f"<{tag}/>")
+        self.page.errors.append(f"<{tag}/>")
 
     def handle_endtag(self, tag: str) -> None:
         if not self.open or self.open.pop() != tag:
-            self.seen.mistakes.append(f"</{tag}> at {self.getpos()}")
+            self.page.errors.append(f"</{tag}> at {self.getpos()}")
         if tag in ("td", "th", "dt"):
-            self.seen.words.append(" ")
+            self.page.words.append(" ")
 
     def handle_data(self, data: str) -> None:
-        self.seen.words.append(data)
+        self.page.words.append(data)
 
 
-def read(html: str) -> Seen:
-    """A page, read; that it is whole and that no place is there twice is checked."""
-    reader = _Reader()
-    reader.feed(html)
-    reader.close()
-    assert reader.open == [], reader.open
-    assert reader.seen.mistakes == []
-    ids = reader.seen.ids
+def read(html: str) -> ParsedPage:
+    """Parse a page; asserts that it is well formed and its ids are unique."""
+    parser = _PageParser()
+    parser.feed(html)
+    parser.close()
+    assert parser.open == [], parser.open
+    assert parser.page.errors == []
+    ids = parser.page.ids
     assert len(ids) == len(set(ids)), sorted(item for item in ids if ids.count(item) > 1)
-    return reader.seen
+    return parser.page
 
 
 MARKDOWN_LINK = re.compile(r"(?<!\\)\]\(([^()\s]+)\)")
@@ -99,30 +99,30 @@ MARKDOWN_PLACE = re.compile(r'<a id="([^"]+)"></a>')
 
 
 def check_links(files: dict[str, str]) -> int:
-    """Every link leads to a place that is there; how many there are."""
+    """Assert that every link resolves; the number of links."""
     places, links = {}, []
     for path, text in files.items():
         if path.endswith(".html"):
-            seen = read(text)
-            places[path] = set(seen.ids)
-            links += [(path, link) for link in seen.links]
+            page = read(text)
+            places[path] = set(page.ids)
+            links += [(path, link) for link in page.links]
         elif path.endswith(".md"):
             places[path] = set(MARKDOWN_PLACE.findall(text))
             links += [(path, link) for link in MARKDOWN_LINK.findall(text)]
         else:
             places[path] = set()
-    lost = [(path, link) for path, link in links if not _leads(path, link, places)]
-    assert lost == []
+    broken = [(path, link) for path, link in links if not _resolves(path, link, places)]
+    assert broken == []
     return len(links)
 
 
-def _leads(path: str, link: str, places: dict[str, set[str]]) -> bool:
+def _resolves(path: str, link: str, places: dict[str, set[str]]) -> bool:
     resolved, _, anchor = unquote(link).partition("#")
     folder = str(PurePosixPath(path).parent)
     target = normpath(f"{folder}/{resolved}") if resolved else path
     return target in places and (not anchor or anchor in places[target])
 
 
-def headings(seen: Iterable[str]) -> list[int]:
+def headings(tags: Iterable[str]) -> list[int]:
     """The levels of the headings of a page, in order."""
-    return [int(tag[1]) for tag in seen if re.fullmatch("h[1-6]", tag)]
+    return [int(tag[1]) for tag in tags if re.fullmatch("h[1-6]", tag)]

@@ -1,4 +1,4 @@
-"""Whatever the graph: nothing overlaps, lines begin and end at their nodes, and go to the right."""
+"""Layout of any graph: no overlaps, edges end at their nodes and run from left to right."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ NODES = st.builds(LayoutNode, st.floats(20, 200), st.floats(10, 80))
 
 @st.composite
 def graphs(draw: st.DrawFn) -> tuple[list[LayoutNode], list[LayoutEdge]]:
-    """Any graph: cycles, loops, several edges between the same two, parts apart."""
+    """Any graph: cycles, loops, parallel edges, separate components."""
     nodes = draw(st.lists(NODES, min_size=1, max_size=12))
     ends = st.integers(0, len(nodes) - 1)
     edge = st.builds(LayoutEdge, ends, ends, st.sampled_from([0.0, 40.0, 90.0]), st.just(17.0))
@@ -48,7 +48,7 @@ def _overlap(first: Rectangle, other: Rectangle) -> bool:
 
 @settings(max_examples=150)
 @given(graphs())
-def test_any_graph(graph: tuple[list[LayoutNode], list[LayoutEdge]]) -> None:
+def test_layout_of_random_graph_is_valid(graph: tuple[list[LayoutNode], list[LayoutEdge]]) -> None:
     nodes, edges = graph
     ranks = assign_ranks(nodes, edges)
     layout_ = layout(nodes, edges, ranks)
@@ -81,19 +81,19 @@ def _crossed(count: int, edges: list[tuple[int, int]]) -> GraphLayout:
     return layout([LayoutNode(50, 20)] * count, [LayoutEdge(*ends) for ends in edges])
 
 
-def test_a_chain_is_a_straight_line() -> None:
+def test_layout_of_chain_is_straight_line() -> None:
     layout_ = _crossed(4, [(0, 1), (1, 2), (2, 3)])
     assert len({y for _, y in layout_.nodes}) == 1
     assert [x for x, _ in layout_.nodes] == sorted(x for x, _ in layout_.nodes)
 
 
-def test_crossings_that_can_be_avoided_are() -> None:
+def test_layout_avoids_crossings() -> None:
     layout_ = _crossed(6, [(0, 5), (1, 4), (2, 3)])
     right = [layout_.nodes[i][1] for i in (5, 4, 3)]
     assert right == sorted(right)
 
 
-def test_only_the_edge_that_closes_a_cycle_is_turned() -> None:
+def test_assign_ranks_reverses_only_edge_that_closes_cycle() -> None:
     ranks = assign_ranks(
         [LayoutNode(9, 9)] * 3,
         [LayoutEdge(0, 1), LayoutEdge(1, 2), LayoutEdge(2, 0), LayoutEdge(1, 1)],
@@ -101,7 +101,7 @@ def test_only_the_edge_that_closes_a_cycle_is_turned() -> None:
     assert (ranks.by_node, ranks.reversed_edges) == ([0, 1, 2], {2})
 
 
-def test_border_nodes_are_outermost() -> None:
+def test_assign_ranks_puts_border_nodes_outermost() -> None:
     nodes = [
         LayoutNode(0, 0, "first"),
         LayoutNode(9, 9),
@@ -113,13 +113,13 @@ def test_border_nodes_are_outermost() -> None:
     assert ranks.reversed_edges == {1}
 
 
-def test_a_fixed_place_on_the_border_is_kept() -> None:
+def test_layout_keeps_fixed_source_offset() -> None:
     nodes = [LayoutNode(50, 100), LayoutNode(50, 20), LayoutNode(50, 20)]
     layout_ = layout(nodes, [LayoutEdge(0, 1, source_offset=90.0), LayoutEdge(0, 2)])
     assert layout_.routes[0].points[0][1] == pytest.approx(layout_.nodes[0][1] + 90)
 
 
-def test_many_lines_make_a_node_higher() -> None:
+def test_fit_ports_enlarges_node_with_many_edges() -> None:
     nodes = [LayoutNode(50, 20)] * 6
     edges = [LayoutEdge(i, 5) for i in range(5)]
     assert [n.height for n in fit_ports(nodes, edges, assign_ranks(nodes, edges))] == [20] * 5 + [
@@ -127,11 +127,11 @@ def test_many_lines_make_a_node_higher() -> None:
     ]
 
 
-def test_nothing_at_all() -> None:
+def test_layout_of_empty_graph() -> None:
     assert layout([], []) == GraphLayout(0, 0, (), ())
 
 
-def test_a_long_chain_does_not_exhaust_the_stack() -> None:
+def test_assign_ranks_of_long_chain_is_iterative() -> None:
     count = 3000
     edges = [LayoutEdge(i, i + 1) for i in range(count - 1)]
     assert assign_ranks([LayoutNode(9, 9)] * count, edges).by_node == list(range(count))

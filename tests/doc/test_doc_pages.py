@@ -1,4 +1,4 @@
-"""Every page is valid, every link leads somewhere, and what was described is told."""
+"""Pages of documentation: valid HTML, working links, and the described content."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ def library() -> dict[str, str]:
     return pages(*INTERFACES)
 
 
-def test_all_links_lead_somewhere(demo: dict[str, str], library: dict[str, str]) -> None:
+def test_links_of_pages_resolve(demo: dict[str, str], library: dict[str, str]) -> None:
     assert check_links(demo) > 300
     assert check_links(library) > 3000
 
 
-def test_pages_of_the_demo(demo: dict[str, str]) -> None:
+def test_documentation_has_page_per_declaration(demo: dict[str, str]) -> None:
     names = {path for path in demo if path.endswith(".html")}
     assert names == {
         "index.html",
@@ -53,15 +53,15 @@ def test_pages_of_the_demo(demo: dict[str, str]) -> None:
     assert {path.removesuffix(".html") + ".md" for path in names} <= set(demo)
 
 
-TOLD = [
+SHOWN = [
     ("interfaces/RoboCompLaser.Laser", "TLaserData getLaserAndBStateData(out TBaseState bState);"),
     ("interfaces/RoboCompLaser.Laser", "The latest scan, and the state of the base"),
     ("interfaces/RoboCompLaser.Laser", "angle float rad"),
     ("interfaces/RoboCompLaser.Laser", "mobile_base implements it"),
     ("interfaces/RoboCompLaser.Laser", "wander requires it"),
     ("components/wander", "Laser requires Laser query getLaserData, getLaserAndBStateData"),
-    ("components/wander", "threshold live float 620 1 … 10000 mm Something nearer"),
-    ("components/wander", "side live one of freer, random freer To which"),
+    ("components/wander", "threshold live float 620 1 … 10000 mm An obstacle closer"),
+    ("components/wander", "side live one of freer, random freer Turning direction"),
     ("components/mobile_base", "laser.degrees float 240 1 … 360 deg Width of the scan"),
     ("components/mobile_base", "Computes every 10 ms"),
     ("components/path_logger", "Computes only on events"),
@@ -71,12 +71,12 @@ TOLD = [
 ]
 
 
-@pytest.mark.parametrize(("page", "text"), TOLD)
-def test_what_is_told(demo: dict[str, str], page: str, text: str) -> None:
+@pytest.mark.parametrize(("page", "text"), SHOWN)
+def test_page_shows_description(demo: dict[str, str], page: str, text: str) -> None:
     assert text in read(demo[f"{page}.html"]).text
 
 
-def test_the_whole_name_of_an_instance_is_told(tmp_path: Path) -> None:
+def test_deployment_page_shows_full_instance_name(tmp_path: Path) -> None:
     ddsl = tmp_path / "left.ddsl"
     wander = DEMO.parent / "wander.cdsl"
     base = ROOT / "components" / "mobile_base" / "mobile_base.cdsl"
@@ -87,7 +87,7 @@ def test_the_whole_name_of_an_instance_is_told(tmp_path: Path) -> None:
     assert "runs as left/wander" in read(pages(ddsl)["deployments/d.html"]).text
 
 
-def test_headings_go_down_in_steps_of_one(demo: dict[str, str]) -> None:
+def test_page_headings_descend_by_one_level(demo: dict[str, str]) -> None:
     for path, text in demo.items():
         if path.endswith(".html"):
             main = read(text[text.index("<main") : text.index("</main>") + len("</main>")])
@@ -97,12 +97,12 @@ def test_headings_go_down_in_steps_of_one(demo: dict[str, str]) -> None:
             assert all(b <= a + 1 for a, b in pairwise(levels)), path
 
 
-def test_nothing_comes_from_elsewhere(demo: dict[str, str]) -> None:
+def test_pages_load_no_external_resources(demo: dict[str, str]) -> None:
     for path, text in demo.items():
         assert "://" not in text.replace("http://www.w3.org/2000/svg", ""), path
         assert "<script" not in text
         assert "@import" not in text
 
 
-def test_same_bytes_twice(demo: dict[str, str]) -> None:
+def test_documentation_is_deterministic(demo: dict[str, str]) -> None:
     assert pages(DEMO) == demo

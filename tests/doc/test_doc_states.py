@@ -19,7 +19,7 @@ from tests.doc.doc_site import check_links, pages, read
 
 SPAN = Source(Path("x.smdsl"), "x").file_span
 NEAR = 0.21
-"""Places are written with one decimal."""
+"""Positions are written with one decimal."""
 
 
 def _transition(source: str, target: str, event: str = "e", **more: object) -> Transition:
@@ -34,10 +34,10 @@ def _machine(states: tuple[State, ...], *transitions: Transition) -> StateMachin
 def machines(draw: st.DrawFn) -> StateMachine:
     """States within states, and transitions between any two of them."""
     count = draw(st.integers(1, 9))
-    around = [draw(st.integers(-1, i - 1)) for i in range(count)]
+    parents = [draw(st.integers(-1, i - 1)) for i in range(count)]
 
     def inside(parent: int) -> tuple[State, ...]:
-        states = [i for i in range(count) if around[i] == parent]
+        states = [i for i in range(count) if parents[i] == parent]
         return tuple(
             State(
                 f"s{i}",
@@ -57,7 +57,7 @@ def machines(draw: st.DrawFn) -> StateMachine:
 
 @settings(max_examples=150)
 @given(machines())
-def test_any_machine(machine: StateMachine) -> None:
+def test_state_figure_of_random_machine_is_valid(machine: StateMachine) -> None:
     drawing = state_figure(machine, "x").drawing
     boxes = {
         p.tooltip.removesuffix(": final state"): p
@@ -72,7 +72,7 @@ def test_any_machine(machine: StateMachine) -> None:
     for transition in machine.transitions:
         text = re.compile(f"{transition.source} to {transition.target}(:|$)")
         lines = [p for p in drawing.parts if isinstance(p, Curve) and text.match(p.tooltip)]
-        _check_way(lines, boxes[transition.source], boxes[transition.target])
+        _check_curves(lines, boxes[transition.source], boxes[transition.target])
 
 
 def _check_boxes(
@@ -80,8 +80,8 @@ def _check_boxes(
 ) -> None:
     for item, other in combinations(states, 2):
         a, b = boxes[item.name], boxes[other.name]
-        apart = a.x + a.width <= b.x or b.x + b.width <= a.x
-        assert apart or a.y + a.height <= b.y or b.y + b.height <= a.y
+        separate = a.x + a.width <= b.x or b.x + b.width <= a.x
+        assert separate or a.y + a.height <= b.y or b.y + b.height <= a.y
     for state in states:
         box = boxes[state.name]
         if outer:
@@ -92,8 +92,8 @@ def _check_boxes(
         _check_boxes(state.substates, boxes, box)
 
 
-def _check_way(lines: list[Curve], source: Rectangle, target: Rectangle) -> None:
-    """One line, in as many pieces as there are borders in its way, from border to border."""
+def _check_curves(lines: list[Curve], source: Rectangle, target: Rectangle) -> None:
+    """One line in pieces, divided at the borders that it crosses."""
     ends = [_ends(line) for line in lines]
     (arrow,) = [end for line, (_, end) in zip(lines, ends, strict=True) if line.arrow_head]
     assert _on_border(arrow, target)
@@ -133,11 +133,11 @@ LABELS = [
 
 
 @pytest.mark.parametrize(("transition", "text"), LABELS)
-def test_labels(transition: Transition, text: str) -> None:
+def test_transition_label_shows_event_time_and_condition(transition: Transition, text: str) -> None:
     assert transition_label(transition) == text
 
 
-def test_marks_of_states() -> None:
+def test_state_figure_marks_initial_final_and_history_states() -> None:
     inner = (State("in", SPAN, initial=True), State("h", SPAN, history="deep", start=("in",)))
     states = (State("a", SPAN, initial=True, substates=inner), State("z", SPAN, final=True))
     parts = state_figure(_machine(states), "x").drawing.parts
@@ -148,7 +148,7 @@ def test_marks_of_states() -> None:
     assert "h to in" in {p.tooltip for p in parts if isinstance(p, Curve)}
 
 
-def test_a_component_shows_its_machine(tmp_path: Path) -> None:
+def test_component_page_shows_state_machine(tmp_path: Path) -> None:
     (tmp_path / "c.cdsl").write_text('Component c { language Python; statemachine "c.smdsl"; };')
     (tmp_path / "c.smdsl").write_text(
         "c { initial_state rest; states work; end_state over; "

@@ -19,7 +19,7 @@ QUESTIONS = {
     "Where does the language server compute hover texts?": "language_server/features/hover.py",
     "Where does a component find its peers' sockets?": "runtime/middleware/zenoh/discovery.py",
     "Where is the type hash of an interface computed?": "runtime/data/type_hash.py",
-    "Where is the PID controller of a joint?": "hardware/control/pid.py",
+    "Where is the PID controller of a joint?": "hardware/control/regulators/pid.py",
     "Where is the camera simulated with MuJoCo?": "simulation/devices/camera.py",
     "Where is the force-distance law of the reflex?": "tactile/reflex/law.py",
 }

@@ -12,6 +12,7 @@ from tests.docs.blocks import ROOT
 LIMIT = 120
 SHOWN_ELSEWHERE = ("tests/", "templates/", ".rcgen/")
 """Inputs and expected output of tests, templates with their tags, and copies of generated files."""
+GENERATED = ("tests/golden/*/expected/README.md", "components/*/.rcgen/pristine/README.md")
 
 
 def _files() -> list[Path]:
@@ -27,3 +28,16 @@ def _files() -> list[Path]:
 def test_lines_of_a_markdown_file_are_short(path: Path) -> None:
     lines = path.read_text(encoding="utf-8").splitlines()
     assert [(i, len(line)) for i, line in enumerate(lines, 1) if len(line) > LIMIT] == []
+
+
+@pytest.mark.parametrize(
+    "path",
+    sorted(path for pattern in GENERATED for path in ROOT.glob(pattern)),
+    ids=lambda path: str(path.relative_to(ROOT)),
+)
+def test_lines_of_a_generated_readme_are_short(path: Path) -> None:
+    """Rows of tables cannot be broken."""
+    lines = enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+    text = [(i, line) for i, line in lines if not line.startswith("|")]
+    assert text
+    assert [(i, len(line)) for i, line in text if len(line) > LIMIT] == []

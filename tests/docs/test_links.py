@@ -39,7 +39,7 @@ def _slug(heading: str) -> str:
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_links_of_a_markdown_file_lead_somewhere(path: Path) -> None:
+def test_links_of_markdown_file_resolve(path: Path) -> None:
     broken = [match["target"] for match in LINK.finditer(_text(path)) if _is_broken(path, match)]
     assert broken == []
 
@@ -57,7 +57,7 @@ def _is_broken(path: Path, match: re.Match[str]) -> bool:
     return bool(anchor) and found.suffix == ".md" and anchor not in _anchors(found)
 
 
-def test_every_page_of_docs_is_in_the_site() -> None:
+def test_docs_pages_are_all_in_the_site() -> None:
     pages = staged_pages()
     assert {str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md")} <= set(pages)
     assert len(set(pages.values())) == len(pages)

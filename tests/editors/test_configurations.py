@@ -21,7 +21,7 @@ def toml(path: Path) -> dict[str, Any]:
     return tomllib.loads(path.read_text(encoding="utf-8"))
 
 
-def test_helix() -> None:
+def test_helix_configuration_names_server_and_languages() -> None:
     read = toml(EDITORS / "helix" / "languages.toml")
     server = read["language-server"]["robocomp"]
     assert [server["command"], *server["args"]] == COMMAND
@@ -34,7 +34,7 @@ def test_helix() -> None:
             assert language["scope"] == f"source.{name}"
 
 
-def test_zed() -> None:
+def test_zed_extension_names_server_and_languages() -> None:
     folder = EDITORS / "zed"
     extension = toml(folder / "extension.toml")
     languages = {
@@ -54,7 +54,7 @@ def test_zed() -> None:
 
 
 @pytest.mark.editors
-def test_zed_program_is_rust() -> None:
+def test_zed_extension_is_formatted_rust() -> None:
     rustfmt = shutil.which("rustfmt")
     if rustfmt is None:
         pytest.skip("rustfmt is not installed, and no make target installs it: see rustup.rs")
@@ -63,7 +63,7 @@ def test_zed_program_is_rust() -> None:
     subprocess.run(command, check=True, timeout=60)
 
 
-def test_kate() -> None:
+def test_kate_configuration_names_server_and_languages() -> None:
     servers = json.loads((EDITORS / "kate" / "lspclient.json").read_text())["servers"]
     assert set(servers) == BRACES
     assert servers["idsl"]["command"] == COMMAND

@@ -1,4 +1,4 @@
-"""What the tests of formatting share."""
+"""Helpers of the tests of formatting."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ ROOT = Path(__file__).parent.parent.parent
 
 
 def parse(name: str, text: str) -> tuple[object, Report]:
-    """The tree of a text and what was found in it."""
+    """The tree of a text and its findings."""
     report = Report()
     path = Path(name)
     return PARSERS[path.suffix](Source(path, text), report), report
 
 
 def fmt(name: str, text: str) -> str | None:
-    """The text as the house writes it, or None where it has errors."""
+    """The formatted text, or None if it has errors."""
     return format_source(Source(Path(name), text), list(parse(name, text)[1]))

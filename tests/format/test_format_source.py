@@ -1,4 +1,4 @@
-"""What `format_source` refuses, and what it keeps of the form of a file."""
+"""`format_source`: rejected input, and kept properties of files."""
 
 from __future__ import annotations
 

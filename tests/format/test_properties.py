@@ -1,4 +1,4 @@
-"""What holds for every text: it says the same, with the same comments, and stays as it is then."""
+"""Properties of the formatter: it keeps meaning and comments, and is idempotent."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ WRITTEN = _described("interfaces", "components", "tests/cases", "tests/format/ca
 
 
 def _comments(text: str) -> list[str]:
-    """The words of all comments, each line without the blanks around it."""
+    """The text of all comments, lines stripped."""
     found = (match[1] for match in COMMENT.finditer(text) if match[1])
     return ["\n".join(line.strip() for line in item.split("\n")) for item in found]
 
 
 def _stays(name: str, text: str, result: str) -> None:
-    """`result` of `text` says the same, and is not formatted any further."""
+    """Assert that `result` has the meaning of `text` and is already formatted."""
     (old, before), (new, after) = parse(name, text), parse(name, result)
     # Trees without their spans; the ends of lines in doc comments are those of the file then.
     assert LINE_END.sub("", repr(new)) == LINE_END.sub("", repr(old))
@@ -130,7 +130,7 @@ def _gap(chance: Random, comments: Sequence[str]) -> str:
 
 
 def _reflowed(name: str, chance: Random) -> str:
-    """The tokens of a file with other blanks and comments between them."""
+    """The tokens of a file with random whitespace and comments between them."""
     tokens = _tokens(TEXTS[name])
     first = chance.randrange(len(tokens))
     text, left = "", ";"
@@ -205,7 +205,7 @@ DAMAGE = [
 @given(st.sampled_from(sorted(DAMAGED)), st.integers(0, 2**32))
 @settings(max_examples=300)
 def test_formatter_of_damaged_and_legacy_texts(name: str, seed: int) -> None:
-    """What is lost or added at random is an error or understood, and then kept as it is."""
+    """Random damage gives an error, or text that the formatter keeps."""
     chance = Random(seed)
     text = DAMAGED[name]
     for _ in range(chance.randint(1, 6)):

@@ -16,7 +16,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from tests.fuzz.mutation import LARGEST, SUFFIXES, mutated, seeds
-from tests.fuzz.oracle import judge
+from tests.fuzz.oracle import assert_properties
 
 HOME = Path("build/fuzz")
 TEXT_S = 60
@@ -27,7 +27,7 @@ FOUND = HOME / "found"
 def holds(suffix: str, text: str) -> bool:
     """Whether all rules hold for `text`; prints and keeps one for which they do not."""
     try:
-        judge(suffix, text)
+        assert_properties(suffix, text)
     except Exception:
         data = text.encode("utf-8", "replace")
         path = FOUND / f"{sha256(data).hexdigest()[:10]}{suffix}"
@@ -51,7 +51,7 @@ def undirected(suffix: str, seconds: float) -> int:
 
 def directed(suffix: str, seconds: float) -> None:
     """Mutations that atheris finds worth while; ends the process, with 1 if one broke a rule."""
-    import atheris  # noqa: PLC0415 - not everybody has it
+    import atheris  # noqa: PLC0415 - an optional package
 
     corpus = HOME / suffix[1:]
     corpus.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Texts that are nearly right: the repository's own files, changed as a bad day would.
+"""Mutated texts of the repository: words replaced, removed, duplicated.
 
 In: a random generator. Out: texts of one language.
 """
@@ -97,7 +97,7 @@ def seeds(suffix: str) -> tuple[str, ...]:
 
 @cache
 def words(suffix: str) -> tuple[str, ...]:
-    """Keywords and signs of a language, and what it does not know."""
+    """Keywords and punctuation of a language, and unknown characters."""
     if suffix in (".xml", ".scxml"):
         return (*TAGS, *SIGNS)
     return (*sorted(load(suffix[1:]).keywords), *SIGNS, "int", "Near", "a", "x1")

@@ -1,4 +1,4 @@
-"""What must hold for whatever stands in a file.
+"""Properties that hold for any file content.
 
 In: a file name's suffix and a text. Out: nothing, or an `AssertionError` that says what is wrong.
 """
@@ -17,8 +17,9 @@ from robocomp_dsl.diagnostics import Diagnostic, Report
 from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast.node import Node
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Lexer
-from robocomp_dsl.syntax.grammar.tables import END, load
+from robocomp_dsl.syntax.grammar.tables import load
 
 HOME = Path("/nonexistent/workspace")
 SECONDS = 2.0
@@ -34,31 +35,31 @@ NEIGHBOURS = {
 }
 
 
-def judge(suffix: str, text: str) -> None:
+def assert_properties(suffix: str, text: str) -> None:
     """Parse `text`, and check it in a workspace where it has neighbours."""
     begin = time.process_time()
-    judge_tree(suffix, text)
-    judge_check(suffix, text)
+    assert_tree_is_valid(suffix, text)
+    assert_check_is_valid(suffix, text)
     took = time.process_time() - begin
     assert took < SECONDS + len(text) / 20_000, f"{took:.1f} s for {len(text)} characters"
 
 
-def judge_tree(suffix: str, text: str) -> None:
-    """A tree whose spans are nested, findings within the text, and nothing left out in silence."""
+def assert_tree_is_valid(suffix: str, text: str) -> None:
+    """A tree whose spans are nested, findings within the text, and no content lost silently."""
     source, report = Source(Path(f"x{suffix}"), text), Report()
     tree = PARSERS[suffix](source, report)
     assert isinstance(tree, Node)
-    judge_findings(report, {source.path: text})
+    assert_findings_are_valid(report, {source.path: text})
     outer = {id(tree): (0, len(text))}
     for node in _nodes(tree):
         low, high = outer[id(node)]
         assert low <= node.span.start <= node.span.end <= high, f"{node!r} is not in its parent"
         outer |= {id(child): (node.span.start, node.span.end) for child in _children(node)}
     if not len(report) and suffix in (".idsl", ".cdsl", ".pdsl", ".ddsl", ".smdsl"):
-        _nothing_lost(source, tree)
+        _assert_nothing_lost(source, tree)
 
 
-def judge_check(suffix: str, text: str) -> None:
+def assert_check_is_valid(suffix: str, text: str) -> None:
     """All checks of a file among others end without an exception, with findings in place."""
     files = SourceCache()
     texts = {HOME / name: other for name, other in NEIGHBOURS.items()}
@@ -68,10 +69,10 @@ def judge_check(suffix: str, text: str) -> None:
         files.set_overlay(path, diagnostic)
     report = Report()
     CHECKS[suffix](here, Workspace((), {}, files=files), report)
-    judge_findings(report, texts)
+    assert_findings_are_valid(report, texts)
 
 
-def judge_findings(report: Report, texts: dict[Path, str]) -> None:
+def assert_findings_are_valid(report: Report, texts: dict[Path, str]) -> None:
     """Every finding has words, and every place of it is in its file."""
     for diagnostic in report:
         assert diagnostic.message.strip()
@@ -87,8 +88,8 @@ def _places(diagnostic: Diagnostic) -> Iterator[Span]:
     yield from (edit.span for edit in diagnostic.fix.edits) if diagnostic.fix else ()
 
 
-def _nothing_lost(source: Source, tree: Node) -> None:
-    """Every word of the user that is no keyword is in a leaf of the tree."""
+def _assert_nothing_lost(source: Source, tree: Node) -> None:
+    """Every word of the text that is no keyword is in a leaf of the tree."""
     leaves = [n.span for n in _nodes(tree) if n is not tree and not any(_children(n))]
     covered = {at for span in leaves for at in range(span.start, span.end)}
     lexer = Lexer(source, load(source.path.suffix[1:]), FileDiagnostics(source, Report()))
@@ -96,7 +97,7 @@ def _nothing_lost(source: Source, tree: Node) -> None:
         if token.kind == END:
             return
         if token.kind == "ID" and token.text not in MEANINGLESS:
-            assert token.start in covered, f"`{token.text}` at {token.start} is lost in silence"
+            assert token.start in covered, f"`{token.text}` at {token.start} is lost silently"
 
 
 def _nodes(tree: Node) -> Iterator[Node]:

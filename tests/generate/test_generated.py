@@ -8,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import jsonschema
@@ -21,10 +20,11 @@ from robocomp_dsl.runtime import types as rt
 from robocomp_dsl.runtime.parameters import ParameterGroup, Parameters
 from tests.generate import golden_cases as golden
 from tests.support.generated_package import with_package
+from tests.support.waiting import wait_until
 
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
-PATIENCE_S = 120
-"""How long a component may take to say that it runs; the tests do not judge speed."""
+DEADLINE_S = 120
+"""How long a component may take to start; the tests do not measure speed."""
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +36,7 @@ def generated(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_ruff_finds_nothing(generated: Path) -> None:
+def test_generated_code_passes_ruff(generated: Path) -> None:
     for command in (["check"], ["format", "--diff"]):
         done = subprocess.run(
             [str(shutil.which("ruff")), *command, "--isolated", "--no-cache", "."],
@@ -48,7 +48,7 @@ def test_ruff_finds_nothing(generated: Path) -> None:
         assert done.returncode == 0, done.stdout
 
 
-def test_mypy_finds_nothing(generated: Path) -> None:
+def test_generated_code_passes_mypy_strict(generated: Path) -> None:
     for case in golden.CASES:
         done = subprocess.run(
             [*MYPY, "."],
@@ -61,28 +61,29 @@ def test_mypy_finds_nothing(generated: Path) -> None:
 
 
 @pytest.mark.parametrize("case", golden.CASES)
-def test_it_starts_and_ends_in_order(generated: Path, case: str) -> None:
+def test_generated_component_starts_and_stops(generated: Path, case: str) -> None:
     command = [sys.executable, "main.py", "--middleware", "inproc", "--log-format", "json"]
     log = generated / f"{case}.log"
     with log.open("wb") as stream:
         process = subprocess.Popen(command, cwd=generated / case, stderr=stream, stdout=stream)
     try:
-        wait_until_it_runs(generated / case, process)
+        wait_until_started(process, log)
         process.send_signal(signal.SIGTERM)
-        assert process.wait(PATIENCE_S) == 0, log.read_text()
+        assert process.wait(DEADLINE_S) == 0, log.read_text()
     finally:
         process.kill()
         process.wait()
     assert "Traceback" not in log.read_text()
 
 
-def wait_until_it_runs(folder: Path, process: subprocess.Popen[bytes]) -> None:
-    """Until SIGTERM no longer kills: the component has put its own handler in place."""
-    deadline = time.monotonic() + PATIENCE_S
-    while not catches_sigterm(process.pid):
-        assert process.poll() is None, (folder.parent / f"{folder.name}.log").read_text()
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+def wait_until_started(process: subprocess.Popen[bytes], log: Path) -> None:
+    """Wait until the component has installed its handler of SIGTERM."""
+
+    def started() -> bool:
+        assert process.poll() is None, log.read_text()
+        return catches_sigterm(process.pid)
+
+    wait_until(started, log.read_text, DEADLINE_S)
 
 
 def catches_sigterm(pid: int) -> bool:
@@ -129,8 +130,8 @@ def zero(type_):
 
 
 @pytest.mark.parametrize("case", golden.CASES)
-def test_every_type_travels(generated: Path, case: str) -> None:
-    """The zero value of each input, output and exception is encoded, decoded and the same."""
+def test_generated_operations_encode_and_decode_every_type(generated: Path, case: str) -> None:
+    """The zero value of each input, output and exception survives encoding and decoding."""
     run(generated / case, ZERO + USED)
 
 
@@ -170,7 +171,9 @@ assert lambda_.None_ == 0
 
 
 @pytest.mark.parametrize(("case", "code"), [("types", DEFAULTS), ("renamed", RENAMED)])
-def test_values(generated: Path, case: str, code: str) -> None:
+def test_generated_types_have_defaults_and_renamed_fields(
+    generated: Path, case: str, code: str
+) -> None:
     run(generated / case, code)
 
 
@@ -214,7 +217,7 @@ VALUES = {
 
 
 @pytest.mark.parametrize("case", VALUES)
-def test_the_first_configuration_holds_the_defaults(generated: Path, case: str) -> None:
+def test_generated_config_holds_defaults(generated: Path, case: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", with_package(generated / case, CONFIGURED)],
         cwd=generated / case,
@@ -227,7 +230,7 @@ def test_the_first_configuration_holds_the_defaults(generated: Path, case: str) 
 
 
 @pytest.mark.parametrize("case", golden.CASES)
-def test_the_schema_accepts_the_first_configuration(generated: Path, case: str) -> None:
+def test_generated_config_schema_accepts_generated_config(generated: Path, case: str) -> None:
     schema = json.loads((generated / case / "etc/config.schema.json").read_text())
     config = yaml.safe_load((generated / case / "etc/config.yaml").read_text()) or {}
     jsonschema.Draft202012Validator.check_schema(schema)
@@ -246,7 +249,9 @@ WRONG = [
 
 
 @pytest.mark.parametrize("wrong", WRONG, ids=str)
-def test_the_schema_refuses(generated: Path, wrong: dict[str, object]) -> None:
+def test_generated_config_schema_rejects_wrong_values(
+    generated: Path, wrong: dict[str, object]
+) -> None:
     schema = json.loads((generated / "parameters/etc/config.schema.json").read_text())
     right = {"motors": [{"name": "a"}, {"name": "b"}]}
     jsonschema.validate(right, schema)
@@ -267,7 +272,9 @@ RESERVED = [
 
 
 @pytest.mark.parametrize(("base", "reserved"), RESERVED)
-def test_names_of_the_runtime_are_reserved(base: type, reserved: frozenset[str]) -> None:
+def test_reserved_names_include_members_of_runtime_classes(
+    base: type, reserved: frozenset[str]
+) -> None:
     """A new member of a base class must be added to the table, else it can be hidden."""
     own = {*dir(base), *base.__annotations__}
     assert {name for name in own if not name.startswith("_")} <= reserved

@@ -35,14 +35,14 @@ HASHED = """
 import sys
 from pathlib import Path
 from tests.generate import golden_cases as golden
-for one in golden.files(sys.argv[1]):
-    sys.stdout.buffer.write(one.data)
+for file in golden.files(sys.argv[1]):
+    sys.stdout.buffer.write(file.data)
 """
 
 
 @pytest.mark.parametrize("case", ["types", "renamed"])
-def test_same_input_same_bytes(case: str) -> None:
-    """Whatever the order of sets is in a process."""
+def test_generated_files_are_independent_of_hash_seed(case: str) -> None:
+    """The order of sets differs between the processes."""
     outputs = {
         subprocess.run(
             [sys.executable, "-c", HASHED, case],
@@ -57,7 +57,7 @@ def test_same_input_same_bytes(case: str) -> None:
 
 
 @pytest.mark.parametrize("case", golden.CASES)
-def test_no_place_or_date_of_this_machine(case: str) -> None:
+def test_generated_files_contain_no_machine_path_or_date(case: str) -> None:
     for file in golden.files(case):
         assert str(golden.GOLDEN) not in file.text
         assert "/home" not in file.text

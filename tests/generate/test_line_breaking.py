@@ -1,4 +1,4 @@
-"""Line breaking: what fits stays, what does not is broken as `ruff format` would."""
+"""Line breaking: long items are broken as `ruff format` breaks them."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ CASES = [
 
 
 @pytest.mark.parametrize(("item", "expected"), CASES)
-def test_laid_out(item: Item, expected: str) -> None:
+def test_laid_out_breaks_long_items(item: Item, expected: str) -> None:
     assert layout.laid_out(item) == expected
 
 
-def test_what_is_used_on_the_line_counts() -> None:
+def test_laid_out_counts_used_columns_and_indent() -> None:
     item = layout.call("f", "a" * 40, "b" * 40)
     assert "\n" not in layout.laid_out(item)
     assert "\n" in layout.laid_out(item, used=10)
     assert "\n" in layout.laid_out(item, indent="        ")
 
 
-def test_a_long_answer_is_broken_too() -> None:
+def test_definition_breaks_long_return_type() -> None:
     returns = layout.subscript("tuple", LONG, LONG, "int")
     text = layout.definition("f", ("self", "a: int"), returns)
     assert text.endswith(f") -> tuple[\n        {LONG},\n        {LONG},\n        int,\n    ]:")
@@ -65,7 +65,7 @@ def items(depth: int) -> st.SearchStrategy[Item]:
 
 @settings(max_examples=4)
 @given(st.lists(items(3), min_size=60, max_size=60))
-def test_the_formatter_changes_nothing(layout_items: list[Item]) -> None:
+def test_layout_equals_ruff_format(layout_items: list[Item]) -> None:
     text = "".join(layout.statement("value = ", item) + "\n" for item in layout_items)
     assert formatted(text) == text
 
@@ -78,6 +78,6 @@ def formatted(text: str) -> str:
     return done.stdout
 
 
-def test_natural_order() -> None:
+def test_natural_sort_order() -> None:
     names = ["a", "a2", "a10", "B", "_x", "b"]
     assert sorted(names, key=layout.natural) == ["B", "_x", "a", "a2", "a10", "b"]

@@ -31,7 +31,9 @@ CASES = [
 
 
 @pytest.mark.parametrize(("name", "reserved", "expected"), CASES)
-def test_identifier(name: str, reserved: tuple[str, ...], expected: str) -> None:
+def test_identifier_escapes_reserved_words(
+    name: str, reserved: tuple[str, ...], expected: str
+) -> None:
     assert names.identifier(name, reserved) == expected
 
 
@@ -39,9 +41,9 @@ IDS = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,4}", fullmatch=True)
 
 
 @given(st.lists(IDS, max_size=12))
-def test_any_names_become_different_identifiers(given_: list[str]) -> None:
-    found = names.unique(given_, names.ANNOTATION)
-    assert len(set(found)) == len(given_)
+def test_unique_gives_different_identifiers_for_any_names(raw_names: list[str]) -> None:
+    found = names.unique(raw_names, names.ANNOTATION)
+    assert len(set(found)) == len(raw_names)
     for name in found:
         assert name.isidentifier()
         assert not keyword.iskeyword(name)
@@ -50,11 +52,11 @@ def test_any_names_become_different_identifiers(given_: list[str]) -> None:
         assert name != "self"
 
 
-def test_clashes_get_more_underscores() -> None:
+def test_unique_resolves_clashes_with_underscores() -> None:
     assert names.unique(["x_", "_x", "x"]) == ("x_", "x__", "x")
 
 
-def test_all_builtins_are_known() -> None:
+def test_builtins_table_is_complete() -> None:
     known = {n for n in dir(builtins) if not n.startswith("_") and not keyword.iskeyword(n)}
     assert known <= names.BUILTINS
 
@@ -62,5 +64,5 @@ def test_all_builtins_are_known() -> None:
 @pytest.mark.parametrize(
     ("name", "expected"), [("speech", "Speech"), ("my_arm", "MyArm"), ("aBC", "ABC"), ("_", "")]
 )
-def test_camel(name: str, expected: str) -> None:
+def test_camel_converts_names(name: str, expected: str) -> None:
     assert names.camel(name) == expected

@@ -1,4 +1,4 @@
-"""The user's texts in source: they always come back as they were, and never become code."""
+"""Literals in generated source: texts are kept and never become code."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from robocomp_dsl.generate import literals
 
 TEXTS = st.text(max_size=60) | st.text("\"'\\\n{}%#*/ax\t\r\u2028", max_size=30)
-NASTY = [
+HOSTILE = [
     '"',
     '""',
     '"""',
@@ -34,13 +34,13 @@ NASTY = [
 ]
 
 
-@pytest.mark.parametrize("text", NASTY[:-1])
-def test_nasty_texts_in_a_docstring(text: str) -> None:
+@pytest.mark.parametrize("text", HOSTILE[:-1])
+def test_docstring_keeps_hostile_text(text: str) -> None:
     check_docstring(text)
 
 
 @given(TEXTS)
-def test_any_text_in_a_docstring(text: str) -> None:
+def test_docstring_keeps_any_text(text: str) -> None:
     check_docstring(text)
 
 
@@ -55,7 +55,7 @@ def check_docstring(text: str) -> None:
 
 @given(TEXTS)
 @example("he\"l'lo")
-def test_any_text_as_a_python_string(text: str) -> None:
+def test_python_string_keeps_any_text(text: str) -> None:
     for write in (literals.python_string, literals.quoted):
         source = write(text)
         assert ast.literal_eval(source) == text
@@ -63,12 +63,12 @@ def test_any_text_as_a_python_string(text: str) -> None:
 
 
 @given(st.text(max_size=60))
-def test_any_text_as_a_yaml_value(text: str) -> None:
+def test_yaml_value_keeps_any_text(text: str) -> None:
     assert yaml.safe_load(f"a: {literals.yaml_value(text)}\n") == {"a": text}
 
 
 @given(st.integers() | st.booleans() | st.floats(allow_nan=False))
-def test_any_number_as_a_yaml_and_python_value(value: float) -> None:
+def test_yaml_and_python_values_keep_any_number(value: float) -> None:
     for found in (
         yaml.safe_load(f"a: {literals.yaml_value(value)}\n")["a"],
         eval(literals.python_value(value), {"float": float}),
@@ -77,19 +77,19 @@ def test_any_number_as_a_yaml_and_python_value(value: float) -> None:
         assert type(found) is type(value)
 
 
-def test_not_a_number() -> None:
+def test_yaml_value_of_nan() -> None:
     assert math.isnan(yaml.safe_load(literals.yaml_value(math.nan)))
 
 
 @given(TEXTS)
-def test_comments_stay_comments(text: str) -> None:
+def test_comment_stays_comment_for_any_text(text: str) -> None:
     for line in literals.comment(text, "  "):
         assert line.startswith("  # ")
         assert line.isprintable()
 
 
 @pytest.mark.parametrize("name", ["rate", "on", "yes", "null", "y", "NO", "_x", "true"])
-def test_yaml_keys(name: str) -> None:
+def test_yaml_key_quotes_reserved_words(name: str) -> None:
     assert yaml.safe_load(f"{literals.yaml_key(name)}: 1\n") == {name: 1}
 
 
@@ -104,11 +104,11 @@ LINES = [
 
 
 @pytest.mark.parametrize(("text", "expected"), LINES)
-def test_lines(text: str, expected: list[str]) -> None:
+def test_lines_strips_indentation_and_control_characters(text: str, expected: list[str]) -> None:
     assert literals.lines(text) == expected
 
 
-def test_markdown_cells_end_nowhere() -> None:
+def test_markdown_cell_escapes_delimiters() -> None:
     assert literals.markdown_cell("a|b\n<c> `d`") == "a\\|b \\<c\\> \\`d\\`"
 
 
@@ -116,5 +116,5 @@ def test_markdown_cells_end_nowhere() -> None:
     ("text", "expected"),
     [("", ""), ("50.0", "`50.0`"), ("a|b", "`a\\|b`"), ("a`b", "`` a`b ``")],
 )
-def test_markdown_code(text: str, expected: str) -> None:
+def test_markdown_code_escapes_delimiters(text: str, expected: str) -> None:
     assert literals.markdown_code(text) == expected

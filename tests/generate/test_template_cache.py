@@ -1,4 +1,4 @@
-"""Compiled templates are kept where they can be, and never needed."""
+"""The cache of compiled templates is optional."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAME = "new/component.pdsl.jinja"
 
 @pytest.fixture
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty cache folder, and templates that nobody compiled before."""
+    """An empty cache folder, and no compiled templates in memory."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr(sys, "dont_write_bytecode", False)
     templates._environment.cache_clear()
@@ -26,16 +26,16 @@ def rendered() -> str:
     return templates.render(NAME, name="arm")
 
 
-def test_kept_and_used(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_template_cache_is_reused(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     text = rendered()
     (cached,) = cache.iterdir()
-    monkeypatch.setattr("jinja2.Environment.compile", None)  # nothing is compiled any more
+    monkeypatch.setattr("jinja2.Environment.compile", None)  # compilation fails
     assert rendered() == text
     assert list(cache.iterdir()) == [cached]
 
 
 @pytest.mark.parametrize("damage", [b"", b"garbage", b"j2\x05\x00" * 100])
-def test_damaged(cache: Path, damage: bytes) -> None:
+def test_template_cache_replaces_damaged_file(cache: Path, damage: bytes) -> None:
     text = rendered()
     (cached,) = cache.iterdir()
     cached.write_bytes(damage)
@@ -43,12 +43,14 @@ def test_damaged(cache: Path, damage: bytes) -> None:
     assert cached.read_bytes() != damage
 
 
-def test_no_place_for_it(cache: Path) -> None:
+def test_template_cache_without_folder_is_skipped(cache: Path) -> None:
     cache.parent.parent.joinpath("robocomp_dsl").write_text("in the way")
     assert "arm" in rendered()
 
 
-def test_no_home(monkeypatch: pytest.MonkeyPatch, cache: Path) -> None:
+def test_template_cache_without_home_is_skipped(
+    monkeypatch: pytest.MonkeyPatch, cache: Path
+) -> None:
     def no_home() -> Path:
         raise RuntimeError
 
@@ -57,7 +59,9 @@ def test_no_home(monkeypatch: pytest.MonkeyPatch, cache: Path) -> None:
     assert "arm" in rendered()
 
 
-def test_python_was_told_to_write_none(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_template_cache_respects_dont_write_bytecode(
+    cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(sys, "dont_write_bytecode", True)
     rendered()
     assert not cache.exists()

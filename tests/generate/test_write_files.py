@@ -1,4 +1,4 @@
-"""Files come onto the disk all or none, and nobody else's are touched."""
+"""Output files are written all or none, and files of the user are kept."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ def tree(folder: Path) -> dict[str, str]:
     return {str(p.relative_to(folder)): p.read_text() for p in folder.rglob("*") if p.is_file()}
 
 
-def test_files_are_written(tmp_path: Path) -> None:
+def test_write_creates_files(tmp_path: Path) -> None:
     changes = write(tmp_path / "deep" / "out", FILES)
     assert [c.action for c in changes] == [FileAction.CREATE] * 3
     assert tree(tmp_path / "deep" / "out") == {f.path: f.text for f in FILES}
 
 
-def test_a_second_time_nothing_is_touched(tmp_path: Path) -> None:
+def test_write_is_idempotent(tmp_path: Path) -> None:
     write(tmp_path, FILES)
     stamps = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")}
     changes = write(tmp_path, FILES)
@@ -40,7 +40,7 @@ def test_a_second_time_nothing_is_touched(tmp_path: Path) -> None:
     assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*")} == stamps
 
 
-def test_the_users_files_are_theirs(tmp_path: Path) -> None:
+def test_write_keeps_user_files(tmp_path: Path) -> None:
     (tmp_path / "mine.py").write_text("my own\n")
     (tmp_path / "other.txt").write_text("other\n")
     write(tmp_path, FILES)
@@ -48,7 +48,7 @@ def test_the_users_files_are_theirs(tmp_path: Path) -> None:
     assert tree(tmp_path)["other.txt"] == "other\n"
 
 
-def test_a_dangling_link_of_the_user_is_theirs(tmp_path: Path) -> None:
+def test_write_keeps_dangling_link_of_user(tmp_path: Path) -> None:
     (tmp_path / "mine.py").symlink_to(tmp_path / "nowhere")
     write(tmp_path, FILES)
     assert (tmp_path / "mine.py").is_symlink()
@@ -64,21 +64,21 @@ def test_compare_writes_nothing(tmp_path: Path) -> None:
     assert not compare(tmp_path / "absent", FILES[:1])[0].old
 
 
-def test_the_mode_of_a_file_stays(tmp_path: Path) -> None:
+def test_write_keeps_file_mode(tmp_path: Path) -> None:
     (tmp_path / "main.py").write_text("old\n")
     (tmp_path / "main.py").chmod(0o751)
     write(tmp_path, FILES)
     assert (tmp_path / "main.py").stat().st_mode & 0o777 == 0o751
 
 
-def test_what_a_killed_writer_left_goes_away(tmp_path: Path) -> None:
+def test_write_removes_temporary_files_of_killed_writer(tmp_path: Path) -> None:
     (tmp_path / f".main.py{writer.TEMPORARY}").write_text("half")
     write(tmp_path, FILES)
     assert tree(tmp_path) == {f.path: f.text for f in FILES}
 
 
 @pytest.mark.parametrize("nth", [1, 2, 3])
-def test_a_failure_in_the_middle_takes_all_back(
+def test_write_rolls_back_after_failure(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, nth: int
 ) -> None:
     (tmp_path / "main.py").write_text("old\n")
@@ -98,10 +98,10 @@ def test_a_failure_in_the_middle_takes_all_back(
     assert not (tmp_path / "generated").exists()
 
 
-def test_nothing_is_put_in_place_that_is_not_safe_on_the_disk(
+def test_write_replaces_files_only_after_fsync_of_all(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """All files are brought onto the disk at a time; one that cannot be stops all of them."""
+    """All files are synchronised before the first is replaced; a failure stops all."""
     (tmp_path / "main.py").write_text("old\n")
     synced: list[str] = []
 
@@ -119,7 +119,7 @@ def test_nothing_is_put_in_place_that_is_not_safe_on_the_disk(
     assert temporaries <= {*synced}
 
 
-def test_ctrl_c_in_the_middle_takes_all_back(
+def test_write_rolls_back_after_keyboard_interrupt(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(self: Path, target: Path) -> Path:
@@ -139,7 +139,9 @@ BLOCKED = [
 
 
 @pytest.mark.parametrize(("path", "text", "message"), BLOCKED)
-def test_something_is_in_the_way(tmp_path: Path, path: str, text: str, message: str) -> None:
+def test_write_reports_file_or_folder_in_the_way(
+    tmp_path: Path, path: str, text: str, message: str
+) -> None:
     blocker = tmp_path / path
     blocker.parent.mkdir(parents=True, exist_ok=True)
     blocker.write_text(text)
@@ -150,7 +152,7 @@ def test_something_is_in_the_way(tmp_path: Path, path: str, text: str, message: 
     assert tree(tmp_path) == before
 
 
-def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
+def test_write_rejects_links_out_of_output_folder(tmp_path: Path) -> None:
     (tmp_path / "elsewhere").mkdir()
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / "generated").symlink_to(tmp_path / "elsewhere")
@@ -163,7 +165,7 @@ def test_links_that_lead_elsewhere_are_refused(tmp_path: Path) -> None:
         write(tmp_path / "out", FILES)
 
 
-def test_the_output_folder_itself_may_be_a_link(tmp_path: Path) -> None:
+def test_write_accepts_link_as_output_folder(tmp_path: Path) -> None:
     (tmp_path / "real").mkdir()
     (tmp_path / "out").symlink_to(tmp_path / "real")
     write(tmp_path / "out", FILES)
@@ -182,8 +184,8 @@ except CannotWrite as error:
 """
 
 
-def test_a_full_disk(tmp_path: Path) -> None:
-    """A limit of the size of files stands for it: writing fails in the same place."""
+def test_write_reports_file_size_limit(tmp_path: Path) -> None:
+    """A limit of the file size makes the write fail, as a full disk does."""
 
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
@@ -203,29 +205,29 @@ def test_a_full_disk(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def nobody() -> Iterator[None]:
-    """Run as a user without rights, where the tests are run by one with all of them."""
-    was = os.geteuid()
-    if was == 0:
+def unprivileged_user() -> Iterator[None]:
+    """Run as a user without privileges if the tests run as root."""
+    user = os.geteuid()
+    if user == 0:
         os.seteuid(65534)
     yield
-    os.seteuid(was)
+    os.seteuid(user)
 
 
-def test_a_folder_that_may_not_be_written(
+def test_write_reports_unwritable_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
     tmp_path.chmod(0o555)
     monkeypatch.chdir(tmp_path)
-    request.getfixturevalue("nobody")
+    request.getfixturevalue("unprivileged_user")
     with pytest.raises(CannotWrite, match="cannot write `out`: you may not write there"):
         write(Path("out"), FILES)
     with pytest.raises(CannotWrite, match=r"you may not write there"):
         write(tmp_path / "out", FILES)
 
 
-def test_two_writers_at_once(tmp_path: Path) -> None:
-    """Whoever is last wins whole: never some files of one and some of the other."""
+def test_concurrent_writes_are_serialized(tmp_path: Path) -> None:
+    """The last writer wins: all files are of the same writer."""
     for _ in range(3):
         both = [
             subprocess.Popen([sys.executable, "-c", WRITE, word], cwd=tmp_path)
@@ -237,7 +239,7 @@ def test_two_writers_at_once(tmp_path: Path) -> None:
         assert len(tree(tmp_path / "out")) == 20
 
 
-def test_a_writer_that_never_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_write_reports_lock_timeout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(writer, "LOCK_TIMEOUT_S", 0.05)
     with writer._locked(tmp_path), pytest.raises(CannotWrite, match="another rcgen is writing"):
         write(tmp_path, FILES)

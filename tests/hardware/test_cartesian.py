@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.devices.errors import CommandRefused, SceneError
 from robocomp_dsl.hardware.kinematics.cartesian import goal_of, solve, step
 from robocomp_dsl.hardware.kinematics.cartesian_controller import (
@@ -64,7 +64,7 @@ def hand(request) -> Hand:
     return Hand(request.param)
 
 
-def test_the_chain_tells_poses_as_mujoco_does(hand):
+def test_cartesian_chain_poses_match_mujoco(hand):
     random = np.random.default_rng(1)
     world = hand.arm.world
     for k in range(10):
@@ -78,7 +78,7 @@ def test_the_chain_tells_poses_as_mujoco_does(hand):
         assert pose == pytest.approx(hand.true_pose(), abs=1e-9)
 
 
-def test_every_pose_of_the_arm_is_solved(hand):
+def test_inverse_kinematics_solves_every_pose_of_arm(hand):
     random = np.random.default_rng(3)
     chain = hand.chain
     for _ in range(25):
@@ -94,7 +94,7 @@ def test_every_pose_of_the_arm_is_solved(hand):
             assert (again.q == found.q).all()
 
 
-def test_the_hand_reaches_poses_within_tolerance(hand):
+def test_cartesian_controller_reaches_poses_within_tolerance(hand):
     """Simple-p2p and reaching-tolerance of icub-tests: there and back, by what MuJoCo says."""
     random = np.random.default_rng(5)
     goals = [hand.some_pose(random) for _ in range(3)]
@@ -109,7 +109,7 @@ def test_the_hand_reaches_poses_within_tolerance(hand):
         assert hand.controller.pose() == pytest.approx(there, abs=1e-6)
 
 
-def test_the_hand_goes_on_a_straight_line(hand):
+def test_cartesian_controller_moves_hand_on_straight_line(hand):
     start = hand.controller.pose()[:3, 3]
     low, rest = hand.chain.low, hand.chain.rest
     away = next(  # the first posture on the way to the lower limits that is 40 mm from here
@@ -141,7 +141,7 @@ def test_inverse_kinematics_draws_free_joints_to_rest(hand):
     assert np.linalg.norm(found.q - chain.rest) < 0.9 * np.linalg.norm(far - chain.rest)
 
 
-def test_steps_keep_to_the_limits_and_are_bounded_where_the_arm_is_straight(hand):
+def test_inverse_kinematics_steps_respect_limits_and_are_bounded_near_singularity(hand):
     chain = hand.chain
     for q in (chain.low, chain.high, np.clip(np.zeros(len(chain.low)), chain.low, chain.high)):
         pose = chain.pose(q)
@@ -153,7 +153,7 @@ def test_steps_keep_to_the_limits_and_are_bounded_where_the_arm_is_straight(hand
             assert np.abs(result).max() < 31.0  # |error| over twice the root of the damping
 
 
-def test_goals_out_of_reach_are_refused_and_tell_what_is_nearest(hand):
+def test_cartesian_controller_refuses_unreachable_goal_with_nearest_pose(hand):
     before = hand.arm.board.table.modes[:]
     with pytest.raises(UnreachableGoal, match=r"nearest that it gets is \d+\.\d mm"):
         hand.controller.go_to([2000.0, 0.0, 0.0])
@@ -176,7 +176,7 @@ HALF_TURNED = np.diag([1.0, 1.0, -1.0, 1.0])
         (HALF_TURNED, "rotation"),
     ],
 )
-def test_goals_that_make_no_sense_are_refused(goal, message):
+def test_cartesian_controller_refuses_invalid_goals(goal, message):
     hand = Hand("nao")
     with pytest.raises(CommandRefused, match=message):
         hand.controller.go_to(goal)
@@ -200,7 +200,7 @@ def test_cartesian_controller_is_interrupted_by_mode_change(hand):
         hand.controller.go_to(goal, 1.0)
 
 
-def test_a_stop_holds_the_hand_where_it_is(hand):
+def test_cartesian_controller_stop_holds_hand(hand):
     hand.controller.go_to(hand.some_pose(np.random.default_rng(9)), 3.0)
     hand.arm.world.advance(1.0)
     hand.controller.stop()
@@ -225,7 +225,7 @@ def test_rotation_vectors_have_axis_and_angle(axis, angle):
         assert abs(found @ axis) == pytest.approx(math.pi, abs=1e-6)
 
 
-def test_chains_that_cannot_be_are_refused():
+def test_cartesian_chain_refuses_invalid_joints():
     model = Arm("nao").world.model
     for joints, tip, message in (
         (("LElbowRoll",), "tail", "no body or site `tail`"),

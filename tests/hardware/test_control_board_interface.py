@@ -8,7 +8,7 @@ from robocomp_dsl.check.passes import check_idsl
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServant
 from robocomp_dsl.model.types import Enum
 
 INTERFACE = Path(__file__).parents[2] / "interfaces" / "ControlBoard.idsl"
@@ -21,7 +21,7 @@ def _module():
     return modules[0]
 
 
-def test_every_operation_has_a_servant():
+def test_control_board_interface_operations_have_servants():
     board = next(
         interface for interface in _module().interfaces if interface.name == "ControlBoard"
     )
@@ -31,7 +31,7 @@ def test_every_operation_has_a_servant():
         assert answers is not None, operation.name
 
 
-def test_modes_are_in_the_order_of_the_interface():
+def test_control_board_modes_match_interface_order():
     """The servant turns one into the other by its place."""
     enums = {
         declaration.name: declaration

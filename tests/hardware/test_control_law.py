@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.hardware.control.acceleration import SMOOTHING, AccelerationFilter
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
-from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec, Selector, numbers
-from robocomp_dsl.hardware.control.limits import JointLimits
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK, MinimumJerk
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.pid import Gains, PidBank
-from robocomp_dsl.hardware.control.velocity import VelocityRamp
+from robocomp_dsl.hardware.control.protection.limits import JointLimits
+from robocomp_dsl.hardware.control.regulators.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.regulators.pid import Gains, PidBank
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK, MinimumJerk
+from robocomp_dsl.hardware.control.trajectories.velocity import VelocityRamp
 
 ONE = np.array([0])
 DT = 0.001
@@ -40,7 +40,7 @@ def follow(trajectory: MinimumJerk, seconds: float) -> np.ndarray:
         (10.0, (5.8740234375, 17.34375, 27.4658203125, 30.0)),
     ],
 )
-def test_minimum_jerk_values(speed_at_start, expected):
+def test_minimum_jerk_values_match_polynomial(speed_at_start, expected):
     trajectory = MinimumJerk(np.zeros(1))
     trajectory.velocity[0] = speed_at_start
     trajectory.move(ONE, np.array([30.0]), np.array([20.0]), DT)
@@ -51,14 +51,14 @@ def test_minimum_jerk_values(speed_at_start, expected):
     assert trajectory.velocity[0] == 0.0
 
 
-def test_the_peak_speed_is_1_875_times_the_mean():
+def test_minimum_jerk_peak_speed_is_1_875_times_mean():
     trajectory = MinimumJerk(np.zeros(1))
     trajectory.move(ONE, np.array([30.0]), np.array([20.0]), DT)
     speeds = [(trajectory.step(DT), trajectory.velocity[0])[1] for _ in range(1500)]
     assert max(speeds) == pytest.approx(37.5, abs=1e-3)
 
 
-def test_a_motion_shorter_than_a_step_ends_at_once():
+def test_minimum_jerk_motion_shorter_than_step_ends_at_once():
     trajectory = MinimumJerk(np.zeros(1))
     trajectory.move(ONE, np.array([1e-6]), np.array([1.0]), DT)
     assert not trajectory.moving[0]
@@ -67,7 +67,7 @@ def test_a_motion_shorter_than_a_step_ends_at_once():
 
 @settings(max_examples=30)
 @given(st.floats(-3, 3), st.floats(-3, 3), st.floats(1, 4), st.integers(1, 400))
-def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, steps):
+def test_minimum_jerk_new_goal_keeps_position_and_speed(first, second, speed, steps):
     trajectory = MinimumJerk(np.zeros(1))
     trajectory.move(ONE, np.array([first]), np.array([speed]), DT)
     follow(trajectory, steps * DT)
@@ -82,7 +82,7 @@ def test_a_new_goal_on_the_way_keeps_position_and_speed(first, second, speed, st
 
 
 @pytest.mark.parametrize("seed", [0, 1])
-def test_joints_that_get_other_goals_on_their_way_are_not_faster_than_they_may(seed):
+def test_minimum_jerk_new_goals_respect_speed_limits(seed):
     chance, joints, most = np.random.default_rng(seed), np.arange(200), np.full(200, 2.0)
     trajectory, fastest = MinimumJerk(np.zeros(200)), 0.0
     for steps in [*chance.integers(1, 400, 40), 20000]:
@@ -97,7 +97,7 @@ def test_joints_that_get_other_goals_on_their_way_are_not_faster_than_they_may(s
     assert fastest <= 2.0 * (1.0 + 1e-6)
 
 
-def test_joints_move_each_in_its_own_time():
+def test_minimum_jerk_joints_move_in_their_own_time():
     trajectory = MinimumJerk(np.zeros(3))
     trajectory.move(np.array([0, 2]), np.array([1.0, -1.0]), np.array([1.0, 2.0]), DT)
     for _ in range(500):
@@ -118,7 +118,7 @@ def test_velocities_ramp_and_time_out():
 
 
 @pytest.mark.parametrize("asked_each", [1, 7, 1000])
-def test_accelerations_are_those_of_a_filter_whoever_asks(asked_each):
+def test_acceleration_estimate_is_independent_of_readers(asked_each):
     random, velocity, expected = np.random.default_rng(0), np.zeros(3), np.zeros(3)
     acceleration = AccelerationFilter(velocity)
     for k in range(200):
@@ -134,7 +134,7 @@ def test_accelerations_are_those_of_a_filter_whoever_asks(asked_each):
     assert not acceleration.now(velocity).any()
 
 
-def test_regulators_have_proportion_integral_damping_and_bounds():
+def test_regulator_has_proportional_integral_derivative_and_bounds():
     bank = PidBank((Gains(kp=2, ki=1, kd=0.5, offset=0.1, max_output=10, max_integral=0.3),))
     assert bank.step(np.array([1.0]), np.array([2.0]), 0.1) == pytest.approx([3.2])
     for _ in range(100):
@@ -147,7 +147,7 @@ def test_regulators_have_proportion_integral_damping_and_bounds():
     assert bank.step(np.array([1.0]), np.zeros(1), 0.1) == pytest.approx([2.2])
 
 
-def test_an_integral_does_not_wind_up_at_the_bound():
+def test_regulator_integral_does_not_wind_up_at_bound():
     bank = PidBank((Gains(kp=1, ki=10, max_output=1),))
     for _ in range(1000):
         bank.step(np.array([5.0]), np.zeros(1), 0.01)
@@ -155,12 +155,12 @@ def test_an_integral_does_not_wind_up_at_the_bound():
 
 
 @pytest.mark.parametrize("wrong", [{"kp": -1}, {"ki": np.nan}, {"max_output": -1}, {"kd": np.inf}])
-def test_impossible_gains_are_refused(wrong):
+def test_regulator_refuses_invalid_gains(wrong):
     with pytest.raises(BadValue):
         Gains(**wrong)
 
 
-def test_springs_pull_back_and_keep_to_their_bounds():
+def test_impedance_pulls_back_within_bounds():
     impedance = Impedance((Bounds(100, 5),) * 2)
     both = np.array([0, 1])
     impedance.set(both, np.array([10.0, 0]), np.array([1.0, 0]))
@@ -171,7 +171,7 @@ def test_springs_pull_back_and_keep_to_their_bounds():
     assert impedance.stiffness[0] == 10.0
 
 
-def test_torques_keep_to_the_limits_and_lead_back():
+def test_torques_respect_limits_and_lead_back():
     limits = JointLimits(board(5))
     q = np.array([0.0, 1.01, 1.01, -1.01, 0.0])
     dq = np.array([0.0, 0.0, 0.0, 0.0, 3.0])
@@ -182,7 +182,7 @@ def test_torques_keep_to_the_limits_and_lead_back():
     assert limits.guard(q, dq, np.full(5, 4.0))[1] == 4.0
 
 
-def test_limits_may_be_narrowed_only():
+def test_position_limits_may_only_be_narrowed():
     limits = JointLimits(board())
     limits.set_position(ONE, np.array([-0.5]), np.array([0.5]))
     saved, clipped = limits.clip(np.array([0, 1]), np.array([0.7, 0.7]))
@@ -199,7 +199,7 @@ DIFFERENTIAL = [[1.0, 1.0], [1.0, -1.0]]
 
 
 @given(st.tuples(*(st.floats(-5, 5) for _ in range(4))))
-def test_motors_and_joints_do_the_same_work(values):
+def test_motor_and_joint_power_are_equal(values):
     motors = Motors(board(2, DIFFERENTIAL))
     torque, velocity = np.array(values[:2]), np.array(values[2:])
     motor_torque = motors.current(torque) * motors.torque_constant
@@ -221,7 +221,7 @@ def test_motor_encoders_count_through_gear_and_coupling():
     assert motors.speed(q) == pytest.approx(turns * 4096)
 
 
-def test_boards_that_cannot_be_are_refused():
+def test_board_spec_refuses_invalid_boards():
     with pytest.raises(BadValue, match="no motor"):
         board(2, [[1.0, 0.0], [1.0, 0.0]])
     with pytest.raises(BadValue, match="as many motors"):
@@ -231,7 +231,7 @@ def test_boards_that_cannot_be_are_refused():
     assert board(4, chain).coupled(3).tolist() == [3]
 
 
-def test_a_board_without_couplings_needs_no_search(monkeypatch):
+def test_board_spec_without_couplings_needs_no_search(monkeypatch):
     """A rank takes the third power of the number of joints: half a minute for a thousand."""
     monkeypatch.setattr(np.linalg, "matrix_rank", None)
     spec = board(500)
@@ -240,7 +240,7 @@ def test_a_board_without_couplings_needs_no_search(monkeypatch):
         board(3, np.diag([1.0, 0.0, 1.0]))
 
 
-def test_joints_are_found_by_name_or_number():
+def test_board_spec_finds_joints_by_name_or_number():
     select = Selector(("a", "b"))
     assert select.indices(["b", "a"]).tolist() == [1, 0]
     assert select.indices(None).tolist() == [0, 1]
@@ -250,6 +250,6 @@ def test_joints_are_found_by_name_or_number():
 
 
 @pytest.mark.parametrize("wrong", [[1.0], [1.0, np.nan], "x", [1, "y"], None, [[1, 2]], np.inf])
-def test_values_that_are_no_numbers_are_refused(wrong):
+def test_control_law_refuses_non_finite_values(wrong):
     with pytest.raises(BadValue):
         numbers("x", wrong, 2)

@@ -66,7 +66,7 @@ def binary_stl() -> bytes:
         ("a.3ds", THREE_DS, (4, 5, -6), 0),
     ],
 )
-def test_points_and_faces(
+def test_mesh_file_has_points_and_faces(
     tmp_path: Path, name: str, content: bytes, corner: tuple[float, ...], faces: int
 ) -> None:
     path = tmp_path / name
@@ -94,7 +94,7 @@ def test_points_and_faces(
         ("a.osg", b"VertexArray { 1 2 }", "the file is damaged"),
     ],
 )
-def test_what_is_no_mesh_is_told(
+def test_mesh_file_with_faults_is_reported(
     tmp_path: Path, name: str, content: bytes | None, message: str
 ) -> None:
     path = tmp_path / name

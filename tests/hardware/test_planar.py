@@ -7,7 +7,7 @@ from robocomp_dsl.hardware.kinematics.planar import Pose, arc, wrap_angle
 QUARTER = math.pi / 2
 
 
-def near(pose: Pose) -> object:
+def approximately(pose: Pose) -> object:
     return pytest.approx((pose.x, pose.z, pose.alpha), abs=1e-9)
 
 
@@ -25,14 +25,14 @@ def numbers(pose: Pose) -> tuple[float, float, float]:
         (Pose(5, 7, math.pi - 0.1), Pose(0, 0, 0.2), Pose(5, 7, 0.1 - math.pi)),
     ],
 )
-def test_a_step_is_told_in_the_frame_of_the_pose(start: Pose, step: Pose, end: Pose) -> None:
-    assert numbers(start.then(step)) == near(end)
+def test_planar_step_is_in_frame_of_pose(start: Pose, step: Pose, end: Pose) -> None:
+    assert numbers(start.then(step)) == approximately(end)
 
 
-def test_inverse_undoes() -> None:
+def test_planar_inverse_cancels_pose() -> None:
     pose = Pose(120, -45, 2.2)
-    assert numbers(pose.then(pose.inverse())) == near(Pose())
-    assert numbers(pose.inverse().then(pose)) == near(Pose())
+    assert numbers(pose.then(pose.inverse())) == approximately(Pose())
+    assert numbers(pose.inverse().then(pose)) == approximately(Pose())
 
 
 @pytest.mark.parametrize(
@@ -45,10 +45,10 @@ def test_inverse_undoes() -> None:
         (200 * QUARTER, 400 * QUARTER, Pose(-300, 300, -QUARTER)),
     ],
 )
-def test_wheels_make_arcs(left: float, right: float, step: Pose) -> None:
-    assert numbers(arc(left, right, 200)) == near(step)
+def test_planar_arc_follows_from_wheel_distances(left: float, right: float, step: Pose) -> None:
+    assert numbers(arc(left, right, 200)) == approximately(step)
 
 
-def test_angles_are_wrapped_to_one_turn() -> None:
+def test_planar_angles_are_wrapped_to_one_turn() -> None:
     assert wrap_angle(3 * math.pi) == -math.pi
     assert wrap_angle(-0.1) == pytest.approx(-0.1)

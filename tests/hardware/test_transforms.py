@@ -37,7 +37,7 @@ def arm() -> TransformTree:
         ((0, 0, 0), "root", "base", (2000, 0, -1000)),
     ],
 )
-def test_points_between_frames(
+def test_transform_tree_converts_points_between_frames(
     point: tuple[float, ...], source: str, target: str, found: tuple[float, ...]
 ) -> None:
     tree = arm()
@@ -46,7 +46,7 @@ def test_points_between_frames(
     assert many[1] == pytest.approx(found, abs=1e-9)
 
 
-def test_joints_move_what_they_carry() -> None:
+def test_transform_tree_joints_move_their_children() -> None:
     tree = arm()
     assert tree.joint("reach") == 20
     tree.set_joint("reach", 120)
@@ -57,7 +57,7 @@ def test_joints_move_what_they_carry() -> None:
     assert tree.transform((0, 0, 0), "shoulder", "root") == pytest.approx((1000, 500, 2000))
 
 
-def test_the_order_of_turns_is_x_then_y_then_z() -> None:
+def test_transform_tree_rotates_in_order_x_y_z() -> None:
     whole = rotation(0.3, -0.7, 1.1)
     assert whole == pytest.approx(rotation(0.3, 0, 0) @ rotation(0, -0.7, 0) @ rotation(0, 0, 1.1))
     assert rotation(0, 0, QUARTER) @ [1, 0, 0] == pytest.approx([0, 1, 0])
@@ -66,14 +66,14 @@ def test_the_order_of_turns_is_x_then_y_then_z() -> None:
 
 
 @pytest.mark.parametrize("ry", [0.4, -1.2, QUARTER, -QUARTER])
-def test_angles_are_found_again(ry: float) -> None:
+def test_transform_tree_angles_round_trip(ry: float) -> None:
     turned = rotation(0.5, ry, -2.0)
     assert rotation(*angles(turned)) == pytest.approx(turned, abs=1e-9)
     if abs(ry) < QUARTER:
         assert angles(turned) == pytest.approx((0.5, ry, -2.0))
 
 
-def test_a_pose_can_be_told_anywhere() -> None:
+def test_transform_tree_pose_has_any_reference_frame() -> None:
     tree = arm()
     assert tree.pose("base", "root") == pytest.approx((1000, 0, 2000, 0, QUARTER, 0))
     tree.set_pose("base", (0, 0, 0, 0, 0, 0))
@@ -82,7 +82,7 @@ def test_a_pose_can_be_told_anywhere() -> None:
     assert matrix @ inverse(matrix) == pytest.approx(np.eye(4))
 
 
-def test_frames_come_go_and_move() -> None:
+def test_transform_tree_adds_removes_and_moves_frames() -> None:
     tree = arm()
     tree.add(Frame("cup", "hand", (0, 0, 10)))
     assert tree.transform((0, 0, 0), "cup", "root") == pytest.approx((1240, 500, 2000))
@@ -115,7 +115,7 @@ def test_frames_come_go_and_move() -> None:
         (lambda t: jacobian(t, ["base"], "hand"), "`base` is no joint"),
     ],
 )
-def test_what_cannot_be_is_refused_and_changes_nothing(wrong: object, message: str) -> None:
+def test_transform_tree_refuses_invalid_changes_unchanged(wrong: object, message: str) -> None:
     tree = arm()
     with pytest.raises((FrameError, CommandRefused)) as refusal:
         wrong(tree)  # type: ignore[operator]
@@ -124,7 +124,7 @@ def test_what_cannot_be_is_refused_and_changes_nothing(wrong: object, message: s
 
 
 @pytest.mark.parametrize("base", ["root", "base"])
-def test_the_jacobian_is_the_derivative(base: str) -> None:
+def test_transform_tree_jacobian_is_derivative(base: str) -> None:
     random = np.random.default_rng(4)
     names = [f"j{i}" for i in range(9)]
     tree = TransformTree([Frame("base", "root", (10, 20, 30), (0.3, 0.4, 0.5))])
@@ -151,7 +151,7 @@ def test_the_jacobian_is_the_derivative(base: str) -> None:
         assert found[3:, column] == pytest.approx([spin[2, 1], spin[0, 2], spin[1, 0]], abs=1e-6)
 
 
-def test_a_deep_tree_is_no_trouble() -> None:
+def test_transform_tree_may_be_deep() -> None:
     frames = [Frame(f"f{i}", f"f{i - 1}" if i else "root", (0, 0, 1)) for i in range(5000)]
     tree = TransformTree(frames)
     assert tree.transform((0, 0, 0), "f4999", "root") == pytest.approx((0, 0, 5000))

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import BadValue
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.control.variables import RemoteVariables
 from tests.support.simulated_arm import Arm
 
@@ -31,7 +31,7 @@ def ready(name: str, seconds: float, mode: Mode) -> Arm:
 
 @pytest.mark.parametrize("mode", PUSHES)
 @pytest.mark.parametrize("name", ["nao", "icub"])
-def test_joint_holds_position_after_reference_timeout(name: str, mode: Mode) -> None:
+def test_watchdog_holds_joint_position_after_reference_timeout(name: str, mode: Mode) -> None:
     arm = ready(name, 0.2, mode)
     for _ in range(8):
         PUSHES[mode](arm.command)
@@ -54,7 +54,7 @@ def test_joint_holds_position_after_reference_timeout(name: str, mode: Mode) -> 
     assert arm.board.velocity[ELBOW] == pytest.approx(0.0, abs=0.01)
 
 
-def test_who_takes_hold_again_finds_the_joint_as_it_was() -> None:
+def test_watchdog_keeps_joint_state_for_next_client() -> None:
     arm = ready("nao", 0.1, Mode.TORQUE)
     arm.world.advance(0.2)
     assert arm.board.table.interactions[ELBOW] is Interaction.COMPLIANT
@@ -67,7 +67,7 @@ def test_who_takes_hold_again_finds_the_joint_as_it_was() -> None:
     assert arm.board.position[ELBOW] == pytest.approx(arm.inside[ELBOW], abs=0.02)
 
 
-def test_a_mode_that_is_entered_and_never_fed_ends_too() -> None:
+def test_watchdog_ends_mode_without_references() -> None:
     arm = ready("nao", 0.1, Mode.TORQUE)
     arm.world.advance(0.09)
     assert arm.board.table.modes[ELBOW] is Mode.TORQUE
@@ -75,7 +75,7 @@ def test_a_mode_that_is_entered_and_never_fed_ends_too() -> None:
     assert arm.board.table.modes[ELBOW] is Mode.POSITION
 
 
-def test_joints_that_share_motors_are_fed_together_and_let_go_together() -> None:
+def test_watchdog_treats_joints_with_shared_motors_together() -> None:
     arm = Arm("icub")
     arm.settings.set_reference_timeout(0.1)
     arm.command.set_mode([0], Mode.TORQUE)
@@ -88,7 +88,7 @@ def test_joints_that_share_motors_are_fed_together_and_let_go_together() -> None
     assert arm.board.table.modes[ELBOW] is Mode.IDLE
 
 
-def test_patience_changes_at_once_and_0_is_for_ever() -> None:
+def test_watchdog_timeout_changes_at_once_and_0_disables_it() -> None:
     arm = ready("nao", 0.0, Mode.TORQUE)
     arm.world.advance(3.0)
     assert arm.board.table.modes[ELBOW] is Mode.TORQUE

@@ -147,7 +147,7 @@ GOOD["model_range"] = GOOD["ultrasound"]
 
 
 @pytest.mark.parametrize("kind", RULES)
-def test_good_devices_keep_to_all_rules(kind: str) -> None:
+def test_conformance_rules_accept_correct_devices(kind: str) -> None:
     for rule in RULES[kind]:
         clock = Clock()
         device = GOOD[kind](clock)
@@ -271,8 +271,8 @@ SPOILT = [
 ]
 
 
-@pytest.mark.parametrize(("kind", "at", "spoil"), SPOILT, ids=lambda item: str(item)[:20])
-def test_each_rule_finds_the_device_that_breaks_it(
+@pytest.mark.parametrize(("kind", "at", "spoil"), SPOILT, ids=lambda value: str(value)[:20])
+def test_conformance_rule_finds_device_that_breaks_it(
     kind: str, at: int, spoil: Callable[[Device], None]
 ) -> None:
     clock = Clock()
@@ -282,6 +282,6 @@ def test_each_rule_finds_the_device_that_breaks_it(
         RULES[kind][at].check(subject(device), clock.advance)
 
 
-def test_every_rule_has_a_device_that_breaks_it() -> None:
+def test_conformance_rules_each_have_a_device_that_breaks_them() -> None:
     spoilt = {RULES[kind][at] for kind, at, _ in SPOILT}
     assert {rule for rules in RULES.values() for rule in rules} == spoilt

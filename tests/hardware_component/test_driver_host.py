@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 
 import numpy as np
@@ -12,13 +12,14 @@ import pytest
 
 from robocomp_dsl.hardware.conformance.rules import RULES, ConformanceRule, Violation
 from robocomp_dsl.hardware.conformance.trial import MAY_MOVE, on_hardware
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, JointSpec, MotorSpec
-from robocomp_dsl.hardware.control.loops import Loop
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
-from robocomp_dsl.hardware.control.pid import Gains
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
+from robocomp_dsl.hardware.control.regulators.loops import Loop
+from robocomp_dsl.hardware.control.regulators.pid import Gains
 from robocomp_dsl.hardware.devices.errors import DriverMethodMissing, HardwareError
 from robocomp_dsl.hardware.drivers.driver_host import DriverHost
+from tests.support.waiting import wait_until
 
 JOINT = JointSpec("pan", -1.0, 1.0, 3.0, 5.0)
 DEADLINE_S = 60.0
@@ -68,24 +69,15 @@ def hardware(motor: Motor) -> Iterator[DriverHost]:
     result = DriverHost(motor, ("pan",), motors=True)
     yield result
     result.close()
-    assert "motors" not in {item.name for item in threading.enumerate()}
+    assert "motors" not in {thread.name for thread in threading.enumerate()}
 
 
-def until(what: Callable[[], object]) -> None:
-    end = time.monotonic() + DEADLINE_S
-    while not what():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.002)
-
-
-def test_before_it_is_opened_it_is_not_there(hardware: DriverHost) -> None:
+def test_driver_host_refuses_calls_before_device_is_opened(hardware: DriverHost) -> None:
     with pytest.raises(HardwareError, match="`pan` is not there: it has not been opened yet"):
         hardware.devices["pan"]
 
 
-def test_motors_start_idle_where_they_are_and_obey_the_board(
-    hardware: DriverHost, motor: Motor
-) -> None:
+def test_driver_host_motors_start_idle_and_follow_board(hardware: DriverHost, motor: Motor) -> None:
     with hardware.working():
         board = hardware.devices["pan"].board
         commands = hardware.devices["pan"].commands
@@ -96,16 +88,16 @@ def test_motors_start_idle_where_they_are_and_obey_the_board(
         hardware.devices["pan"].settings.set_reference_speed(None, 2.0)
         clipped = commands.position_move(None, 5.0)
     assert clipped.tolist() == [True]
-    until(lambda: abs(motor.position - 1.0) < 0.02)
+    wait_until(lambda: abs(motor.position - 1.0) < 0.02)
 
 
-def test_a_failure_lets_go_of_motors_and_opens_them_again(
+def test_driver_host_releases_motors_after_failure_and_reopens_them(
     hardware: DriverHost, motor: Motor
 ) -> None:
     with hardware.working():
         device = hardware.devices["pan"]
     motor.failing = "the cable is out"
-    until(lambda: device.failure)
+    wait_until(lambda: device.failure)
     assert device.board.table.modes == [Mode.HW_FAULT]
     with pytest.raises(HardwareError, match="the cable is out"), hardware.working():
         pass
@@ -119,7 +111,7 @@ def test_a_failure_lets_go_of_motors_and_opens_them_again(
     assert motor.opened == 2
 
 
-def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
+def test_driver_host_closing_leaves_motors_without_torque(motor: Motor) -> None:
     hardware = DriverHost(motor, ("pan",), motors=True)
     with hardware.working():
         hardware.devices["pan"].commands.set_mode(None, Mode.POSITION)
@@ -128,7 +120,7 @@ def test_closing_leaves_motors_without_torque(motor: Motor) -> None:
     assert motor.torque == 0.0
 
 
-def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
+def test_driver_host_motor_holds_position_after_push_ends(
     hardware: DriverHost, motor: Motor
 ) -> None:
     hardware.set_reference_timeout(3600.0)
@@ -137,18 +129,18 @@ def test_a_motor_that_nobody_pushes_any_more_holds_its_place(
     with hardware.lock:
         device.commands.set_mode(None, Mode.TORQUE)
         device.commands.set_torque(None, 0.05)
-    until(lambda: motor.velocity > 0.1)
+    wait_until(lambda: motor.velocity > 0.1)
     assert device.board.table.modes == [Mode.TORQUE]
     hardware.set_reference_timeout(0.001)
-    until(lambda: device.board.table.modes == [Mode.POSITION])
+    wait_until(lambda: device.board.table.modes == [Mode.POSITION])
     with hardware.lock:
         state = device.board.state()
     assert state.interactions == (Interaction.COMPLIANT,)
     assert state.faults.tolist() == [FaultCode.REFERENCE_TIMEOUT]
-    until(lambda: abs(motor.velocity) < 0.01)
+    wait_until(lambda: abs(motor.velocity) < 0.01)
 
 
-class Feeling(Motor):
+class TorqueSensingMotor(Motor):
     """Its gear keeps a fifth of the torque for itself, which a sensor tells."""
 
     broken = False
@@ -157,8 +149,8 @@ class Feeling(Motor):
         return np.array([np.nan if self.broken else 0.8 * self.torque])
 
 
-def test_a_motor_with_a_sensor_gives_the_torque_that_is_asked_for() -> None:
-    motor = Feeling()
+def test_driver_host_motor_with_sensor_gives_requested_torque() -> None:
+    motor = TorqueSensingMotor()
     hardware = DriverHost(motor, ("pan",), motors=True)
     try:
         with hardware.working():
@@ -168,12 +160,12 @@ def test_a_motor_with_a_sensor_gives_the_torque_that_is_asked_for() -> None:
             gains = Gains(ki=20.0, max_output=5.0, max_integral=5.0, feedforward=1.0)
             device.settings.set_pid("pan", gains, Loop.TORQUE)
             device.commands.set_torque(None, 0.02)
-        until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
+        wait_until(lambda: abs(0.8 * motor.torque - 0.02) < 1e-4)
         assert device.settings.pid_error(None, Loop.TORQUE) == pytest.approx([0.0], abs=1e-3)
         motor.broken = True
-        until(lambda: device.board.table.modes == [Mode.HW_FAULT])
+        wait_until(lambda: device.board.table.modes == [Mode.HW_FAULT])
         assert device.settings.last_fault("pan").message == "the torque sensor reads NaN"
-        until(lambda: motor.torque == 0.0)
+        wait_until(lambda: motor.torque == 0.0)
     finally:
         hardware.close()
 
@@ -187,7 +179,7 @@ def test_motor_driver_conforms(
     assert motor.closed == 1
 
 
-def test_what_moves_is_skipped_unless_there_is_room(
+def test_conformance_skips_moving_rules_without_free_space(
     motor: Motor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv(MAY_MOVE, raising=False)
@@ -198,7 +190,7 @@ def test_what_moves_is_skipped_unless_there_is_room(
     assert motor.opened == 0
 
 
-class Unwritten:
+class UnimplementedMotor:
     """As `rcgen hardware` writes it."""
 
     def open(self) -> None:
@@ -208,13 +200,13 @@ class Unwritten:
         pass
 
 
-def test_what_is_not_written_is_skipped_with_its_name() -> None:
+def test_conformance_skips_unimplemented_driver_by_name() -> None:
     message: list[str] = []
-    on_hardware(RULES["laser"][0], Unwritten(), ("laser",), skip=message.append)
+    on_hardware(RULES["laser"][0], UnimplementedMotor(), ("laser",), skip=message.append)
     assert message == ["`open` of driver.py is not implemented yet"]
 
 
-class Deaf(Unwritten):
+class FailingMotor(UnimplementedMotor):
     """There, and wrong."""
 
     def open(self) -> None:
@@ -224,28 +216,28 @@ class Deaf(Unwritten):
         return -1.0
 
 
-def test_a_broken_rule_is_told_and_the_device_closed() -> None:
+def test_conformance_reports_broken_rule_and_closes_device() -> None:
     with pytest.raises(Violation, match="the value is -1"):
-        on_hardware(RULES["touchsensor"][0], Deaf(), ("bump",), skip=pytest.fail)
+        on_hardware(RULES["touchsensor"][0], FailingMotor(), ("bump",), skip=pytest.fail)
 
 
-def test_a_driver_that_cannot_be_closed_hides_nothing() -> None:
-    class Torn(Deaf):
+def test_conformance_reports_broken_rule_despite_failing_close() -> None:
+    class FailingCloseDevice(FailingMotor):
         def open(self) -> None:
             raise OSError("no such port")
 
         def close(self) -> None:
             raise OSError("never opened")
 
-    hardware = DriverHost(Torn(), ("bump",))
+    hardware = DriverHost(FailingCloseDevice(), ("bump",))
     with pytest.raises(HardwareError, match="no such port"):
         hardware.open()
     with suppress(OSError):
         hardware.close()
 
 
-def test_a_call_that_fails_closes_the_device_and_the_next_work_opens_it() -> None:
-    class Loose(Deaf):
+def test_driver_host_closes_device_after_failed_call_and_reopens_it() -> None:
+    class FreeMotor(FailingMotor):
         opened = 0
 
         def open(self) -> None:
@@ -256,7 +248,7 @@ def test_a_call_that_fails_closes_the_device_and_the_next_work_opens_it() -> Non
                 raise OSError("the plug is loose")
             return 0.0
 
-    driver = Loose()
+    driver = FreeMotor()
     hardware = DriverHost(driver, ("bump",))
     with hardware.working():
         device = hardware.devices["bump"]

@@ -1,4 +1,4 @@
-"""`rcgen hardware`: the twin of each device is clean, typed and tested; code runs on both alike."""
+"""`rcgen hardware`: the component of a device, from a world or a model file."""
 
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.hardware_component.driver_programs import BUS, CLIENT, SIMULATED_DRIVER
 from tests.support.generated_package import package_in, with_package
 
 RCGEN = Path(sys.executable).with_name("rcgen")
+
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
+
 WORLD = """\
 <innerModel>
   <transform id="floor">
@@ -38,15 +41,17 @@ WORLD = """\
   </transform>
 </innerModel>
 """
+
 DEVICES = ("laser", "eye", "depth", "sonar", "robot", "inertia", "sat", "cell", "bump",
            "nod,neck", "platform")  # fmt: skip
+
 TYPED = ("laser", "nod,neck", "robot")
 """Those whose types are checked; it takes seconds each."""
 
 
 def run(*command: str | Path, cwd: Path, **env: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [str(item) for item in command],
+        [str(argument) for argument in command],
         cwd=cwd,
         capture_output=True,
         text=True,
@@ -89,140 +94,7 @@ def test_hardware_component_is_clean_typed_and_tested(home: Path, ids: str) -> N
     assert "`open` of driver.py is not implemented yet" in done.stdout
 
 
-PLAYED = '''
-    def open(self) -> None:
-        """Another process' worth of physics stands for the device."""
-        if Path(self.params.address).exists():
-            raise OSError("the cable is out")
-        self.world = Simulation.read(Path(__file__).parent / "PACKAGE" / "scene.json")
-        self.world.start()
-
-    def close(self) -> None:
-        """Let go of it."""
-        if hasattr(self, "world"):
-            self.world.stop()
-            del self.world
-
-    @property
-    def settings(self) -> LaserSettings:
-        """How the laser scans."""
-        return LaserSettings(101, 57.2958, 100.0, 30000.0)
-
-    def scan(self) -> Scan:
-        """The latest scan."""
-        if Path(self.params.address).exists():
-            raise OSError("the cable is out")
-        with self.world.lock:
-            return self.world.devices["laser"].scan()
-'''
-CLIENT = """
-import sys, time
-from robocomp_dsl.runtime.component.component_interface import COMPONENT, LifeState
-from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.registry import open_middleware
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
-from robocomp_dsl.runtime.component.statistics import Statistics
-from PACKAGE.interfaces import LASER
-from pathlib import Path
-
-name, domain, cable = sys.argv[1:]
-context = MiddlewareContext("client", domain, CallbackGroup(), Statistics())
-middleware = open_middleware("zenoh", context)
-
-def bound(interface, port, operation):
-    link = middleware.proxy(Endpoint(interface, "client", "x", (f"{name}.{port}",)))
-    assert link.wait(100), port
-    return link.bind(next(o for o in interface.operations if o.name == operation))
-
-def until(what):
-    end = time.monotonic() + 100
-    while True:
-        try:
-            if what():
-                return
-        except Exception:
-            if time.monotonic() > end:
-                raise
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
-
-def work():
-    scan = bound(LASER, "laser", "getLaserData")
-    until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
-    assert bound(LASER, "laser", "getLaserConfData")().maxMeasures == 101
-    if cable:
-        info = bound(COMPONENT, "Component", "getInfo")
-        Path(cable).touch()
-        until(lambda: info().state == LifeState.Emergency)
-        try:
-            scan()
-            raise SystemExit("a scan without a cable")
-        except Exception as error:
-            assert "the cable is out" in str(getattr(error, "what", error)), error
-        Path(cable).unlink()
-        until(lambda: info().state == LifeState.Compute)
-        until(lambda: abs(float(scan().dist[50]) - 2775) < 2)
-
-try:
-    work()
-finally:
-    middleware.close()
-"""
-
-
-BUS = """
-import time
-import numpy as np
-from driver import Driver
-from PACKAGE import interfaces as i
-from PACKAGE.hardware import IDS, PORTS
-from PACKAGE.params import ArmParams
-from robocomp_dsl.hardware.drivers.driver_host import DriverHost
-from robocomp_dsl.hardware.devices.errors import HardwareError
-from robocomp_dsl.runtime import ServedPort
-
-class Free(Driver):
-    "Joints without load."
-    torque = np.zeros(6)
-    at, speed, last = np.array([1.2, 0.2, 0, -0.5, 0, 0.5]), np.zeros(6), time.perf_counter()
-
-    def open(self):
-        self.last = time.perf_counter()
-
-    def read(self):
-        now = time.perf_counter()
-        for _ in range(min(round((now - self.last) / 5e-4), 100)):
-            self.speed = self.speed + (self.torque - 0.02 * self.speed) / 5e-3 * 5e-4
-            self.at = self.at + self.speed * 5e-4
-        self.last = now
-        return self.at.copy(), self.speed.copy()
-
-    def write(self, torque):
-        self.torque = torque
-
-hardware = DriverHost(Free(ArmParams()), IDS, motors=True)
-served = [ServedPort("LArm", i.CONTROLBOARD), ServedPort("JointMotor", i.JOINTMOTOR)]
-ports = hardware.serve(served, PORTS)
-try:
-    ports["LArm"].getState()
-    raise SystemExit("a state of motors that are not there")
-except HardwareError as error:
-    assert "has not been opened yet" in str(error), error
-hardware.open()
-assert [joint.name for joint in ports["LArm"].getJoints()] == IDS
-ports["LArm"].setControlMode([], i.ControlMode.Position)
-ports["LArm"].setReferenceSpeed(["LShoulderPitch"], np.array([1.0]))
-ports["LArm"].positionMove(["LShoulderPitch"], np.array([0.9]))
-end = time.monotonic() + 60
-while abs(ports["LArm"].getState().position[0] - 0.9) > 0.02:
-    assert time.monotonic() < end, ports["LArm"].getState().position
-    time.sleep(0.01)
-assert abs(ports["JointMotor"].getMotorState("LShoulderPitch").pos - 0.9) < 0.05
-hardware.close()
-"""
-
-
-def talk(folder: Path, name: str, domain: str, cable: str) -> None:
+def run_client(folder: Path, name: str, domain: str, cable: str) -> None:
     """The client against the component in `folder`, which ends in order."""
     options = ("--name", name, "--domain", domain, "--middleware", "zenoh")
     extra = ("--set", f"address={cable}") if cable else ()
@@ -237,11 +109,11 @@ def talk(folder: Path, name: str, domain: str, cable: str) -> None:
     assert component.wait(timeout=60) == 0
 
 
-def test_code_for_the_simulated_laser_runs_on_the_real_one(home: Path, tmp_path: Path) -> None:
+def test_hardware_component_runs_user_code_of_simulated_laser(home: Path, tmp_path: Path) -> None:
     """The same client; and when the cable is out the component is in Emergency until it is back."""
     assert run(RCGEN, "simulator", "world.xml", cwd=home).returncode == 0
     domain = f"twin-{os.getpid()}"
-    talk(home / "world_simulator", "laser_here", domain, "")
+    run_client(home / "world_simulator", "laser_here", domain, "")
     folder = twin(home, "laser", "front")
     driver = folder / "driver.py"
     head, _, _ = driver.read_text().partition("    def open(self)")
@@ -250,22 +122,24 @@ def test_code_for_the_simulated_laser_runs_on_the_real_one(home: Path, tmp_path:
         "from robocomp_dsl.simulation.world.simulation import Simulation\n"
     )
     head = head.replace("from robocomp", f"{needed}from robocomp", 1)
-    driver.write_text(head + with_package(folder, PLAYED))
-    talk(folder, "laser_there", domain, str(tmp_path / "cable"))
+    driver.write_text(head + with_package(folder, SIMULATED_DRIVER))
+    run_client(folder, "laser_there", domain, str(tmp_path / "cable"))
 
 
 def test_rcgen_hardware_keeps_user_files(home: Path) -> None:
     folder = twin(home, "bump", "bumper")
-    mine = [folder / item for item in ("driver.py", "test_bumper.py", "bumper.pdsl", "bumper.cdsl")]
-    for item in mine:
-        item.write_text(f"{item.read_text()}\n")
-    before = [item.read_bytes() for item in mine]
+    user_files = [
+        folder / name for name in ("driver.py", "test_bumper.py", "bumper.pdsl", "bumper.cdsl")
+    ]
+    for path in user_files:
+        path.write_text(f"{path.read_text()}\n")
+    before = [path.read_bytes() for path in user_files]
     done = run(RCGEN, "hardware", "bumper", "--like", "world.xml#bump", cwd=home)
     assert "0 of" in done.stdout
-    assert [item.read_bytes() for item in mine] == before
+    assert [path.read_bytes() for path in user_files] == before
 
 
-def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
+def test_hardware_component_motors_keep_configured_order(home: Path) -> None:
     folder = twin(home, "nod,neck", "head")
     driver = (folder / "driver.py").read_text()
     assert driver.index('name="nod"') < driver.index('name="neck"')
@@ -273,7 +147,7 @@ def test_motors_keep_the_order_in_which_they_are_named(home: Path) -> None:
     assert sorted(ports) == ["ControlBoard", "JointMotor"]
 
 
-def test_board_of_model_file_has_a_hardware_component(home: Path) -> None:
+def test_board_of_model_file_has_hardware_component(home: Path) -> None:
     """Its motors are known from the file; the rules are held against them alone."""
     model = Path(__file__).parents[2] / "components" / "nao_simulator" / "nao.xml"
     done = run(RCGEN, "hardware", "arm", "--like", f"{model}#LArm", cwd=home)

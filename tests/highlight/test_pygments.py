@@ -1,4 +1,4 @@
-"""The Pygments lexers: where a word is a keyword, and that any text comes back whole."""
+"""The Pygments lexers: contexts of keywords, and lossless tokens of any text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files that a world of another machine names are found beside it and above it."""
+"""Files with paths of another computer are searched beside the world and above it."""
 
 from pathlib import Path
 
@@ -9,12 +9,12 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.simulator.simulator import simulator
 
-ELSEWHERE = "/home/robocomp/robocomp/files/osgModels"
+OTHER_COMPUTER = "/home/robocomp/robocomp/files/osgModels"
 
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Of a world in a copy of RoboComp's files."""
+    """The folder of a world in a copy of the files of RoboComp."""
     result = tmp_path / "rc" / "files" / "innermodel"
     for name in ("files/osgModels/table.obj", "files/innermodel/near.obj", "alone.obj"):
         file = tmp_path / "rc" / name
@@ -26,28 +26,30 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("written", "there"),
     [
-        (f"{ELSEWHERE}/table.obj", "rc/files/osgModels/table.obj"),
+        (f"{OTHER_COMPUTER}/table.obj", "rc/files/osgModels/table.obj"),
         ("../osgModels/table.obj", "rc/files/innermodel/../osgModels/table.obj"),
-        (f"{ELSEWHERE}/near.obj", "rc/files/innermodel/near.obj"),
+        (f"{OTHER_COMPUTER}/near.obj", "rc/files/innermodel/near.obj"),
         ("near.obj", "rc/files/innermodel/near.obj"),
     ],
 )
-def test_a_file_is_found(folder: Path, tmp_path: Path, written: str, there: str) -> None:
-    assert named(folder, written) == (str(tmp_path / there), str(tmp_path / there))
+def test_scene_file_of_other_computer_is_found(
+    folder: Path, tmp_path: Path, written: str, there: str
+) -> None:
+    assert resolved_paths(folder, written) == (str(tmp_path / there), str(tmp_path / there))
 
 
-@pytest.mark.parametrize("written", [f"{ELSEWHERE}/alone.obj", f"{ELSEWHERE}/gone.obj"])
-def test_a_bare_name_above_the_world_is_not_meant(folder: Path, written: str) -> None:
-    assert named(folder, written) == (written, written)
+@pytest.mark.parametrize("written", [f"{OTHER_COMPUTER}/alone.obj", f"{OTHER_COMPUTER}/gone.obj"])
+def test_scene_file_search_skips_bare_name_above_world(folder: Path, written: str) -> None:
+    assert resolved_paths(folder, written) == (written, written)
 
 
-def test_relative_paths_become_absolute(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_scene_file_paths_become_absolute(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder.parent)
-    assert named(Path("innermodel"), "near.obj") == (str(folder / "near.obj"),) * 2
+    assert resolved_paths(Path("innermodel"), "near.obj") == (str(folder / "near.obj"),) * 2
 
 
-def named(folder: Path, written: str) -> tuple[str, str]:
-    """The paths of a mesh and of a picture that are written so."""
+def resolved_paths(folder: Path, written: str) -> tuple[str, str]:
+    """The resolved paths of a mesh and a texture."""
     world = folder / "world.xml"
     world.write_text(
         f'<innerModel><mesh id="m" file="{written}"/><plane id="p" texture="{written}"/>'

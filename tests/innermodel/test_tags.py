@@ -1,4 +1,4 @@
-"""Every tag of InnerModel with all its attributes, and what it is without them."""
+"""Every tag of InnerModel with all its attributes, and their defaults."""
 
 import math
 from pathlib import Path
@@ -27,7 +27,7 @@ FRAME = STILL | {"engine": "static", "mass": 0}
 DRIVEN = STILL | {"port": 0, "noise": 0, "collide": False}
 IMAGE: dict[str, object] = {"width": 0, "height": 0, "focal": 0}
 
-# tag, all its attributes (RoboComp's, and noise), what they are where they are left out
+# tag, all its attributes (RoboComp's, and noise), their defaults
 HISTORY: list[tuple[str, str, dict[str, object]]] = [
     ("transform", f'{MOVED} {TURNED} engine="bullet" mass="2"', FRAME),
     ("translation", f'{MOVED} engine="static" mass="2"', FRAME),
@@ -93,7 +93,7 @@ def messages(report: Report) -> list[str]:
 
 
 @pytest.mark.parametrize(("tag", "attributes", "defaults"), HISTORY, ids=[h[0] for h in HISTORY])
-def test_a_historical_tag(
+def test_innermodel_tag_accepts_all_historical_attributes(
     tmp_path: Path, tag: str, attributes: str, defaults: dict[str, object]
 ) -> None:
     for written in (tag, tag.upper()):
@@ -107,7 +107,7 @@ def test_a_historical_tag(
     assert {name: getattr(node, name) for name in defaults} == defaults
 
 
-def test_the_table_is_whole() -> None:
+def test_innermodel_tag_table_is_complete() -> None:
     new = {"motor", "skin", "patch", "taxel", "gps", "ultrasound", "battery"}
     assert {tag for tag, _, _ in HISTORY} == set(TAGS) - new
     for tag, attributes, _ in HISTORY:
@@ -119,7 +119,7 @@ HOLDERS = "transform rotation translation joint touchsensor prismaticjoint diffe
 
 
 @pytest.mark.parametrize("tag", [*HOLDERS.split(), "omnirobot"])
-def test_frames_hold_nodes(tmp_path: Path, tag: str) -> None:
+def test_innermodel_frame_tags_accept_children(tmp_path: Path, tag: str) -> None:
     found, report = read(tmp_path, f'<{tag} id="a"><imu id="b"/></{tag}>')
     assert messages(report) == []
     assert len(list(found.nodes())) == 3
@@ -138,14 +138,16 @@ def test_frames_hold_nodes(tmp_path: Path, tag: str) -> None:
         ('<plane id="a" py="1.5 m"/>', "py", 1500),
     ],
 )
-def test_units(tmp_path: Path, text: str, name: str, value: float) -> None:
+def test_innermodel_attributes_accept_units(
+    tmp_path: Path, text: str, name: str, value: float
+) -> None:
     found, report = read(tmp_path, text)
     assert messages(report) == []
     assert getattr(found.root.children[0], name) == pytest.approx(value)
 
 
 @pytest.mark.parametrize("text", ["5 deg", "5 km", "m", "1 m m", "90 rad", "inf m"])
-def test_a_wrong_unit_is_told(tmp_path: Path, text: str) -> None:
+def test_innermodel_check_reports_wrong_unit(tmp_path: Path, text: str) -> None:
     _, report = read(tmp_path, f'<transform id="a" tx="{text}"/>')
     assert messages(report) == [f'RC803 "{text}"']
 
@@ -167,7 +169,7 @@ TAXEL = "0 0 0.01 0 0 1\n"
 """One row of a file of positions."""
 
 
-def test_skin(tmp_path: Path) -> None:
+def test_innermodel_skin_has_patches_and_taxels(tmp_path: Path) -> None:
     (tmp_path / "left_forearm.txt").write_text(TAXEL)
     found, report = read(tmp_path, SKIN)
     assert messages(report) == []
@@ -185,7 +187,7 @@ def test_skin(tmp_path: Path) -> None:
     assert len(nodes) == 10
 
 
-def test_a_frame_has_one_skin(tmp_path: Path) -> None:
+def test_innermodel_check_reports_second_skin_of_frame(tmp_path: Path) -> None:
     second = '</skin><skin id="t"><patch id="p"><taxel nx="1"/></patch></skin>'
     _, report = read(tmp_path, SKIN.replace("</skin>", second))
     found = [item.message for item in report if "already" in item.message]
@@ -217,13 +219,15 @@ CONE = 'x0="0" x1="9" r0="5" r1="5"'
         ('<patch id="p" file="a"/><include path="a.xml"/>', ["RC807 include"]),
     ],
 )
-def test_what_a_skin_may_not_say(tmp_path: Path, inside: str, findings: list[str]) -> None:
+def test_innermodel_check_reports_invalid_skin(
+    tmp_path: Path, inside: str, findings: list[str]
+) -> None:
     (tmp_path / "a").write_text(TAXEL)
     _, report = read(tmp_path, f'<transform id="a"><skin id="s">{inside}</skin></transform>')
     assert messages(report) == findings
 
 
-def test_patches_stand_in_skins(tmp_path: Path) -> None:
+def test_innermodel_check_reports_patch_outside_skin(tmp_path: Path) -> None:
     found, report = read(tmp_path, '<patch id="p" file="a"/><taxel x="1"/><imu id="i"/>')
     assert messages(report) == ["RC807 patch", "RC807 taxel"]
     assert [node.id for node in found.root.children] == ["i"]

@@ -1,4 +1,4 @@
-"""A real client of the server: what a user of an editor sees and does."""
+"""A client of the server with the operations of an editor."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DEADLINE_S = 120
 
 
 class Editor:
-    """What a user sees and does. A place is written as `|` in a text."""
+    """An editor with open documents. `|` in a text marks a position."""
 
     def __init__(
         self, client: LanguageClient, folder: Path, offered: lsp.ServerCapabilities
@@ -59,7 +59,7 @@ class Editor:
     async def until(
         self, name: str, condition: Callable[[list[lsp.Diagnostic]], bool]
     ) -> list[lsp.Diagnostic]:
-        """The diagnostics of a file once they are as wanted."""
+        """The diagnostics of a file, as soon as they satisfy `condition`."""
         async with asyncio.timeout(DEADLINE_S):
             while True:
                 found = self.client.diagnostics.get(self.uri(name))

@@ -65,7 +65,7 @@ FILES = {
 
 
 def write(editor: Editor) -> None:
-    """Put the files on the disk."""
+    """Write the files."""
     for name, text in FILES.items():
         editor.write(name, text)
 

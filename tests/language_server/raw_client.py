@@ -1,4 +1,4 @@
-"""A client without manners: it sends any bytes, and reads what comes back."""
+"""A client that sends any bytes and reads all messages."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ class RawClient:
 
     def __init__(self, process: Process) -> None:
         self.process = process
-        self.heard: list[dict[str, Any]] = []
+        self.received: list[dict[str, Any]] = []
 
     @classmethod
     async def start(cls) -> RawClient:
         return cls(await asyncio.create_subprocess_exec(*SERVER, stdin=PIPE, stdout=PIPE))
 
     async def initialize(self) -> dict[str, Any]:
-        answer = await self.ask("initialize", {"capabilities": {}}, 0)
-        self.tell("initialized", {})
+        answer = await self.request("initialize", {"capabilities": {}}, 0)
+        self.notify("initialized", {})
         return answer
 
-    def tell(self, method: str, params: Any = None, **more: Any) -> None:
+    def notify(self, method: str, params: Any = None, **more: Any) -> None:
         body = {"jsonrpc": "2.0", "method": method, **more}
         self.send(json.dumps(body if params is None else {**body, "params": params}).encode())
 
@@ -34,18 +34,18 @@ class RawClient:
         assert self.process.stdin is not None
         self.process.stdin.write(b"Content-Length: %d\r\n\r\n%b" % (len(body), body))
 
-    async def ask(self, method: str, params: Any = None, number: int = 1) -> dict[str, Any]:
-        """The answer to a request; what comes before it is kept in `heard`."""
-        self.tell(method, params, id=number)
-        return await self.answer(number)
+    async def request(self, method: str, params: Any = None, number: int = 1) -> dict[str, Any]:
+        """The response to a request; messages before it are appended to `received`."""
+        self.notify(method, params, id=number)
+        return await self.response(number)
 
-    async def answer(self, number: int | None) -> dict[str, Any]:
+    async def response(self, number: int | None) -> dict[str, Any]:
         async with asyncio.timeout(DEADLINE_S):
             while True:
                 message = await self._read()
                 if "method" not in message and message.get("id") == number:
                     return message
-                self.heard.append(message)
+                self.received.append(message)
 
     async def _read(self) -> dict[str, Any]:
         assert self.process.stdout is not None
@@ -54,7 +54,7 @@ class RawClient:
         message: dict[str, Any] = json.loads(await self.process.stdout.readexactly(size))
         return message
 
-    async def code(self) -> int:
+    async def exit_code(self) -> int:
         """The exit code of the server."""
         async with asyncio.timeout(DEADLINE_S):
             return await self.process.wait()

@@ -1,4 +1,4 @@
-"""Call hierarchy: who uses whom, through interfaces and through the wires of a deployment."""
+"""Call hierarchy: through interfaces and through the connections of a deployment."""
 
 from __future__ import annotations
 

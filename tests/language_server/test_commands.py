@@ -1,4 +1,4 @@
-"""Commands: generation beside the editor, and places to look at."""
+"""Commands: generation, and references."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Completion: what is offered at a place, and what is not."""
+"""Completion: offered and omitted items at a position."""
 
 from __future__ import annotations
 

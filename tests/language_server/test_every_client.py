@@ -1,4 +1,4 @@
-"""Every feature, as VS Code, Neovim and Emacs ask for it: with the capabilities that each has."""
+"""Every feature with the capabilities of VS Code, Neovim and Emacs."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def at(editor: Editor, name: str, word: str) -> dict[str, Any]:
     return editor.place(name, marked(name, word))
 
 
-EVERYTHING = lsp.Range(lsp.Position(0, 0), lsp.Position(8, 0))
+WHOLE_RANGE = lsp.Range(lsp.Position(0, 0), lsp.Position(8, 0))
 
 
 @feature(lsp.TEXT_DOCUMENT_HOVER)
@@ -206,7 +206,9 @@ async def call_hierarchy(editor: Editor) -> object:
 
 
 @pytest.mark.parametrize("client", CLIENTS)
-async def test_every_feature(start: Any, tmp_path: Path, client: str) -> None:
+async def test_server_features_work_with_every_client(
+    start: Any, tmp_path: Path, client: str
+) -> None:
     editor: Editor = await start(tmp_path, client)
     project.write(editor)
     for name, text in FILES.items():
@@ -216,7 +218,7 @@ async def test_every_feature(start: Any, tmp_path: Path, client: str) -> None:
         assert await check(editor), method
 
 
-async def test_every_server_feature_has_a_check() -> None:
+async def test_server_features_all_have_a_check() -> None:
     from robocomp_dsl.language_server.server import FEATURES  # noqa: PLC0415 - the table itself
 
     tested_elsewhere = {

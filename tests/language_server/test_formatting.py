@@ -1,4 +1,4 @@
-"""Formatting in an editor: small edits that together do what `rcgen fmt` does."""
+"""Formatting in an editor: small edits with the result of `rcgen fmt`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bodies in an editor: every feature, on an arm that includes its hand."""
+"""InnerModel in an editor: every feature, on an arm that includes its hand."""
 
 from __future__ import annotations
 

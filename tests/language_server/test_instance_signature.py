@@ -1,4 +1,4 @@
-"""What is shown of an instance of a deployment where its name is pointed at."""
+"""The signature of an instance in the hover text of a deployment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Symbols, tokens, folds, hints, lenses: what is shown of a whole file."""
+"""Symbols, semantic tokens, folding, inlay hints and code lenses of a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The protocol at its edges: messages that no proper client sends, and how a session ends."""
+"""The protocol with invalid messages, and the end of a session."""
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ async def ready(client: RawClient) -> RawClient:
 
 def opened(client: RawClient, uri: str, text: str) -> None:
     item = {"uri": uri, "languageId": "x", "version": 0, "text": text}
-    client.tell("textDocument/didOpen", {"textDocument": item})
+    client.notify("textDocument/didOpen", {"textDocument": item})
 
 
 def change(client: RawClient, uri: str, *changes: dict[str, Any]) -> None:
     params = {"textDocument": {"uri": uri, "version": 1}, "contentChanges": list(changes)}
-    client.tell("textDocument/didChange", params)
+    client.notify("textDocument/didChange", params)
 
 
 def span(start: tuple[int, int], end: tuple[int, int]) -> dict[str, Any]:
@@ -48,14 +48,16 @@ def span(start: tuple[int, int], end: tuple[int, int]) -> dict[str, Any]:
 
 
 async def is_alive(client: RawClient) -> None:
-    answer = await client.ask("workspace/symbol", {"query": ""}, 4711)
-    assert "result" in answer, answer
+    response = await client.request("workspace/symbol", {"query": ""}, 4711)
+    assert "result" in response, response
 
 
 async def text_of(client: RawClient, uri: str) -> str:
     """The text that the server has, read from the outline: the name of the parameter set."""
-    answer = await client.ask("textDocument/documentSymbol", {"textDocument": {"uri": uri}}, 99)
-    return " ".join(message_["name"] for message_ in answer["result"])
+    response = await client.request(
+        "textDocument/documentSymbol", {"textDocument": {"uri": uri}}, 99
+    )
+    return " ".join(message_["name"] for message_ in response["result"])
 
 
 HOVER = "textDocument/hover"
@@ -99,17 +101,17 @@ async def test_malformed_requests_get_error_responses(ready: RawClient, tmp_path
     uri = f"{folder}/a.pdsl"
     opened(ready, uri, "ComponentParams a { };")
     for number, (method, params) in enumerate(ODD, 1):
-        answer = await ready.ask(method, filled(params, uri, folder), number)
-        assert "error" in answer, (method, params, answer)
-        assert "Traceback" not in answer["error"]["message"], answer
+        response = await ready.request(method, filled(params, uri, folder), number)
+        assert "error" in response, (method, params, response)
+        assert "Traceback" not in response["error"]["message"], response
     await is_alive(ready)
 
 
 async def test_unknown_methods_get_error_responses(ready: RawClient) -> None:
-    answer = await ready.ask("textDocument/tea", {})
-    assert answer["error"]["code"] == METHOD_NOT_FOUND
-    ready.tell("textDocument/tea", {})
-    ready.tell("$/tea", {})
+    response = await ready.request("textDocument/tea", {})
+    assert response["error"]["code"] == METHOD_NOT_FOUND
+    ready.notify("textDocument/tea", {})
+    ready.notify("$/tea", {})
     await is_alive(ready)
 
 
@@ -123,11 +125,11 @@ async def test_unsupported_documents_are_ignored(ready: RawClient) -> None:
     for uri in ("untitled:Untitled-1", "git:/a/b.cdsl", "vscode-notebook-cell:/a.cdsl#1", "x", ""):
         opened(ready, uri, "Component")
         change(ready, uri, {"text": "Component x"})
-        ready.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
+        ready.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
     await is_alive(ready)
     assert not [
         message_
-        for message_ in ready.heard
+        for message_ in ready.received
         if message_.get("method", "").endswith("publishDiagnostics")
     ]
 
@@ -150,8 +152,8 @@ async def test_second_open_replaces_text(ready: RawClient, tmp_path: Path) -> No
     opened(ready, uri, "ComponentParams first { };")
     opened(ready, uri, "ComponentParams second { };")
     assert await text_of(ready, uri) == "second"
-    ready.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
-    ready.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
+    ready.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
+    ready.notify("textDocument/didClose", {"textDocument": {"uri": uri}})
     await is_alive(ready)
 
 
@@ -160,7 +162,7 @@ async def test_text_with_lone_surrogate(ready: RawClient, tmp_path: Path) -> Non
     opened(ready, uri, 'ComponentParams a { text string "\ud83d"; };')
     change(ready, uri, {"range": span((0, 0), (0, 0)), "text": "\udc00"})
     params = {"textDocument": {"uri": uri}, "position": {"line": 0, "character": 22}}
-    assert "result" in await ready.ask(HOVER, params)
+    assert "result" in await ready.request(HOVER, params)
     await is_alive(ready)
 
 
@@ -169,48 +171,48 @@ async def test_cancelled_request_gets_cancelled_error(ready: RawClient, tmp_path
         (tmp_path / name).write_text(text, encoding="utf-8")
     uri = from_fs_path(str(tmp_path / "reader.cdsl")) or ""
     params = {"command": "rcgen.generate", "arguments": [uri]}
-    ready.tell("workspace/executeCommand", params, id=5)
-    ready.tell("$/cancelRequest", {"id": 5})
-    answer = await ready.answer(5)
-    assert answer["error"]["code"] == CANCELLED
-    ready.tell("$/cancelRequest", {"id": 5})
-    ready.tell("$/cancelRequest", {"id": "unheard of"})
+    ready.notify("workspace/executeCommand", params, id=5)
+    ready.notify("$/cancelRequest", {"id": 5})
+    response = await ready.response(5)
+    assert response["error"]["code"] == CANCELLED
+    ready.notify("$/cancelRequest", {"id": 5})
+    ready.notify("$/cancelRequest", {"id": "unheard of"})
     await is_alive(ready)
 
 
 async def test_requests_before_initialize_are_rejected(client: RawClient) -> None:
-    answer = await client.ask("workspace/symbol", {"query": ""})
-    assert answer["error"]["code"] == NOT_INITIALIZED
+    response = await client.request("workspace/symbol", {"query": ""})
+    assert response["error"]["code"] == NOT_INITIALIZED
     opened(client, "file:///a.pdsl", "x")
     await client.initialize()
     await is_alive(client)
 
 
 async def test_second_initialize_is_rejected(ready: RawClient) -> None:
-    answer = await ready.ask("initialize", {"capabilities": {}})
-    assert answer["error"]["code"] == INVALID_REQUEST
+    response = await ready.request("initialize", {"capabilities": {}})
+    assert response["error"]["code"] == INVALID_REQUEST
     await is_alive(ready)
 
 
 async def test_requests_after_shutdown_are_rejected(ready: RawClient) -> None:
-    assert (await ready.ask("shutdown"))["result"] is None
-    answer = await ready.ask("workspace/symbol", {"query": ""}, 2)
-    assert answer["error"]["code"] == INVALID_REQUEST
-    ready.tell("exit")
-    assert await ready.code() == 0
+    assert (await ready.request("shutdown"))["result"] is None
+    response = await ready.request("workspace/symbol", {"query": ""}, 2)
+    assert response["error"]["code"] == INVALID_REQUEST
+    ready.notify("exit")
+    assert await ready.exit_code() == 0
 
 
 async def test_exit_without_shutdown_has_code_1(ready: RawClient) -> None:
-    ready.tell("exit")
-    assert await ready.code() == 1
+    ready.notify("exit")
+    assert await ready.exit_code() == 1
 
 
 async def test_exit_before_initialize_ends_server(client: RawClient) -> None:
-    client.tell("exit")
-    assert await client.code() == 1
+    client.notify("exit")
+    assert await client.exit_code() == 1
 
 
 async def test_disconnect_of_client_ends_server(ready: RawClient) -> None:
     assert ready.process.stdin is not None
     ready.process.stdin.close()
-    assert await ready.code() in (0, 1)
+    assert await ready.exit_code() in (0, 1)

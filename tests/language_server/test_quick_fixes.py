@@ -1,4 +1,4 @@
-"""Quick fixes: the text after the edit is what the user wanted."""
+"""Quick fixes: the text after the edit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rename: across files, with the forms that keep the meaning of short ones, and refusals."""
+"""Rename: across files, with qualified names where needed, and errors."""
 
 from __future__ import annotations
 

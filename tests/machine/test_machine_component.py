@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import threading
-import time
 import uuid
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -21,6 +20,7 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.machine.test_machine import GAME
+from tests.support.waiting import wait_until
 
 DEADLINE = 60.0
 
@@ -66,14 +66,6 @@ class Waiter(Component):
     SPEC = ComponentSpec(name="waiter", period=0, middleware="inproc", machine=MACHINE)
 
 
-def wait_for(condition: Callable[[], object]) -> None:
-    until = time.monotonic() + DEADLINE
-    turn = threading.Event()
-    while not condition():
-        assert time.monotonic() < until, "it did not come true in time"
-        turn.wait(0.002)
-
-
 @pytest.fixture
 def runner() -> Iterator[Runner]:
     component = Runner(Player, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
@@ -83,10 +75,10 @@ def runner() -> Iterator[Runner]:
     component.wait()
 
 
-def test_the_machine_lives_with_the_component(runner: Runner) -> None:
+def test_machine_runs_with_its_component(runner: Runner) -> None:
     player = runner.worker
     assert isinstance(player, Player)
-    wait_for(lambda: runner.worker.machine.is_in("playing"))
+    wait_until(lambda: runner.worker.machine.is_in("playing"))
     assert player.happened[:3] == ["initialize", "enter waiting", "compute"]
     host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
     middleware = open_middleware("inproc", host)
@@ -95,11 +87,11 @@ def test_the_machine_lives_with_the_component(runner: Runner) -> None:
     )
     assert about.getInfo().states == ["playing", "music", "loud", "moves"]
     player.stop_playing.set()
-    wait_for(lambda: about.getInfo().states == ["paused"])
+    wait_until(lambda: about.getInfo().states == ["paused"])
     middleware.close()
 
 
-def test_the_end_of_the_machine_is_that_of_the_component() -> None:
+def test_machine_end_ends_component() -> None:
     runner = Runner(Waiter, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     assert runner.wait()
@@ -147,7 +139,7 @@ class Stumbler(Component):
         self.restored += 1
 
 
-def test_failures_are_emergencies_and_it_goes_on() -> None:
+def test_machine_failures_are_emergencies_and_component_recovers() -> None:
     runner = Runner(Stumbler, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     assert runner.wait()
@@ -164,12 +156,12 @@ class Reacting(Stumbler):
     SPEC = replace(Stumbler.SPEC, period=0)
 
 
-def test_failures_without_a_period() -> None:
+def test_machine_failures_without_period_are_emergencies() -> None:
     runner = Runner(Reacting, Parameters.load(), RunSettings(domain=uuid.uuid4().hex[:8]))
     runner.start()
     worker = runner.worker
     assert isinstance(worker, Reacting)
-    wait_for(lambda: worker.restored and worker.machine.is_in("b"))
+    wait_until(lambda: worker.restored and worker.machine.is_in("b"))
     assert worker.failed == ["on_enter_b"]
     worker.machine.send("on")
     assert runner.wait()

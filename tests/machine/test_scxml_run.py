@@ -11,7 +11,8 @@ from typing import NamedTuple
 import pytest
 
 from robocomp_dsl.runtime.machine import Machine, MachineSpec, StateSpec
-from tests.machine.test_machine import HandClock, Worker
+from robocomp_dsl.runtime.machine.machine import EndlessTransitions
+from tests.machine.machine_samples import ManualClock, Worker
 
 OPEN = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript"'
 
@@ -161,9 +162,9 @@ def spec(body: str, states: str, events: str) -> MachineSpec:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_documents(name: str) -> None:
+def test_scxml_document_runs_as_specified(name: str) -> None:
     case = CASES[name]
-    clock = HandClock()
+    clock = ManualClock()
     machine = Machine(spec(case.body, case.states, case.events), Worker(), clock, lambda: None)
     machine.start()
     for event, leads in case.ways:
@@ -184,8 +185,26 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("name", REFUSED)
-def test_nothing_of_a_document_is_run_as_code(name: str) -> None:
-    machine = Machine(spec(REFUSED[name], "a", ""), Worker(), HandClock(), lambda: None)
+def test_scxml_executes_no_code_of_document(name: str) -> None:
+    machine = Machine(spec(REFUSED[name], "a", ""), Worker(), ManualClock(), lambda: None)
     with pytest.raises(Exception, match=r".") as failed:
         machine.start()
     assert not isinstance(failed.value, AssertionError)
+
+
+ENDLESS = {
+    "states": "<state id='b'><transition target='c'/></state>"
+    "<state id='c'><transition target='b'/></state>",
+    "actions": "<state id='b'><transition cond='1 &lt; 2'><raise event='x'/></transition></state>",
+    "raised events": "<state id='b'><onentry><raise event='x'/></onentry>"
+    "<transition event='x' target='b'/></state>",
+}
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_machine_ends_endless_loop_of_transitions(name: str) -> None:
+    body = f"><state id='a'><transition event='e' target='b'/></state>{ENDLESS[name]}"
+    machine = Machine(spec(body, "a b c", "e x"), Worker(), ManualClock(), lambda: None)
+    machine.start()
+    with pytest.raises(EndlessTransitions, match=r"more than 1000 transitions, last from `[bc]`"):
+        machine.send("e")

@@ -13,8 +13,8 @@ from tests.middleware.network import DEADLINE, Network
 MIDDLEWARES = ("inproc", "zenoh")
 
 
-def grace_is(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """So long do calls wait for a server that has not been there yet."""
+def set_discovery_timeout(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Set how long calls wait for a server that has not been discovered yet."""
     for module in ("inproc", "zenoh.client"):
         monkeypatch.setattr(
             f"robocomp_dsl.runtime.middleware.{module}.DISCOVERY_TIMEOUT_S", seconds
@@ -22,15 +22,15 @@ def grace_is(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(autouse=True)
-def grace(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Who is to come is waited for, however busy the machine is; longer than any test waits."""
-    grace_is(3 * DEADLINE, monkeypatch)
+def long_discovery_timeout(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Calls wait for servers longer than any test does, however busy the machine is."""
+    set_discovery_timeout(3 * DEADLINE, monkeypatch)
 
 
 @pytest.fixture
-def hasty(grace: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    """For those who wait for nobody, or know that all are there."""
-    grace_is(0.1, monkeypatch)
+def short_discovery_timeout(long_discovery_timeout: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Calls wait shortly: the test has no server, or knows that all are discovered."""
+    set_discovery_timeout(0.1, monkeypatch)
 
 
 @pytest.fixture(params=MIDDLEWARES)

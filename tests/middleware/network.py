@@ -1,9 +1,7 @@
-"""Components of a test: made of a few lines, all ended when the test ends."""
+"""Components of a test, defined in a few lines; all end with the test."""
 
 from __future__ import annotations
 
-import threading
-import time
 import uuid
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -16,15 +14,6 @@ from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
-
-
-def wait_for(condition: Callable[[], Any]) -> None:
-    """Until `condition`, at most `DEADLINE` s; looks at it again and again."""
-    until = time.monotonic() + DEADLINE
-    turn = threading.Event()
-    while not condition():
-        assert time.monotonic() < until, "it did not come true in time"
-        turn.wait(0.002)
 
 
 class Node:
@@ -52,11 +41,11 @@ class Node:
     def news(self) -> NewsProxy:
         return NewsProxy(self.middleware.advertise(Endpoint(NEWS, self.name, "News")))
 
-    def hear(
+    def subscribe(
         self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
     ) -> None:
         at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
-        self.middleware.subscribe(at, {"spoke": handler}, self.execution)
+        self.middleware.subscribe(at, {"announced": handler}, self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:
         return self.statistics.of(port, operation)

@@ -29,10 +29,10 @@ PROBE = rt.Interface(
 )
 NEWS = rt.Interface(
     "Test::News",
-    rt.Operation("spoke", rt.Pattern.PUBLISH, inputs={"who": rt.String, "n": rt.Int}),
+    rt.Operation("announced", rt.Pattern.PUBLISH, inputs={"who": rt.String, "n": rt.Int}),
 )
 OTHER_NEWS = rt.Interface(
-    "Test::News", rt.Operation("spoke", rt.Pattern.PUBLISH, inputs={"who": rt.String})
+    "Test::News", rt.Operation("announced", rt.Pattern.PUBLISH, inputs={"who": rt.String})
 )
 OTHER_PROBE = rt.Interface("Test::Probe", *PROBE.operations[:1])
 
@@ -70,5 +70,5 @@ class NewsProxy(rt.Proxy):
     __slots__ = ()
     INTERFACE = NEWS
 
-    def spoke(self, who: str, n: int) -> None:
-        self._call("spoke", who, n)
+    def announced(self, who: str, n: int) -> None:
+        self._call("announced", who, n)

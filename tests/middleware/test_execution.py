@@ -5,19 +5,20 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import ProbeProxy
+from tests.support.waiting import wait_until
 
 
 def blocked(free: threading.Event) -> None:
     free.wait(DEADLINE)
 
 
-def met(both: threading.Barrier) -> None:
+def wait_for_both(both: threading.Barrier) -> None:
     both.wait()
 
 
-def test_handlers_of_a_component_do_not_overlap(network: Network) -> None:
+def test_handlers_of_one_component_do_not_overlap(network: Network) -> None:
     inside = 0
     most = 0
 
@@ -37,7 +38,7 @@ def test_handlers_of_a_component_do_not_overlap(network: Network) -> None:
     assert most == 1
 
 
-def test_two_components_that_query_each_other(network: Network) -> None:
+def test_two_components_query_each_other(network: Network) -> None:
     a, b = network.node("a"), network.node("b")
     to_a, to_b = a.probe("b"), b.probe("a")
     a.serve({"nested": lambda depth: to_a.nested(depth - 1) + 1 if depth else 0})
@@ -49,14 +50,14 @@ def test_two_components_that_query_each_other(network: Network) -> None:
         assert [job.result(DEADLINE) for job in jobs] == [8, 8]
 
 
-def test_a_component_that_queries_itself(network: Network) -> None:
+def test_component_queries_itself(network: Network) -> None:
     a = network.node("a")
     own: ProbeProxy = a.probe("a")
     a.serve({"nested": lambda depth: own.nested(depth - 1) + 1 if depth else 0})
     assert network.node("outside").probe("a").nested(5) == 5
 
 
-def test_others_run_while_a_handler_waits(network: Network) -> None:
+def test_handlers_of_others_run_while_one_waits(network: Network) -> None:
     free = threading.Event()
     slow = network.node("slow")
     slow.serve({"block": lambda: blocked(free)})
@@ -66,17 +67,17 @@ def test_others_run_while_a_handler_waits(network: Network) -> None:
     first, second = network.node("first"), network.node("second")
     with ThreadPoolExecutor(1) as pool:
         waiting = pool.submit(first.probe("middle").block)
-        wait_for(lambda: slow.execution.busy)
+        wait_until(lambda: slow.execution.busy)
         assert second.probe("middle").add(1, 2) == 3
         free.set()
         waiting.result(DEADLINE)
 
 
-def test_with_several_threads_handlers_do_overlap(network: Network) -> None:
+def test_handlers_overlap_with_several_threads(network: Network) -> None:
     both = threading.Barrier(2, timeout=DEADLINE)
     server = network.node("server", threads=2)
-    server.serve({"block": lambda: met(both)})
-    server.serve({"block": lambda: met(both)}, port="Second")
+    server.serve({"block": lambda: wait_for_both(both)})
+    server.serve({"block": lambda: wait_for_both(both)}, port="Second")
     clients = [network.node(f"c{i}") for i in range(2)]
     probes = [clients[0].probe("server.Probe"), clients[1].probe("server.Second")]
     with ThreadPoolExecutor(2) as pool:

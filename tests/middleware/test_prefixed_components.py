@@ -16,8 +16,9 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
-from tests.middleware.network import DEADLINE, wait_for
+from tests.middleware.network import DEADLINE
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+from tests.support.waiting import wait_until
 
 
 class Base(Component):
@@ -37,7 +38,7 @@ class Base(Component):
         return v
 
     def compute(self) -> None:
-        self.news.spoke(self.name, 0)
+        self.news.announced(self.name, 0)
 
 
 class Arm(Component):
@@ -45,14 +46,14 @@ class Arm(Component):
         name="arm",
         period=0,
         requires=(CalledPort("Probe", ProbeProxy, "probe"),),
-        subscribes=(ServedPort("News", NEWS, {"spoke": "heard"}),),
+        subscribes=(ServedPort("News", NEWS, {"announced": "received"}),),
     )
     probe: ProbeProxy
 
     def __init__(self) -> None:
         self.publishers: set[str] = set()
 
-    def heard(self, who: str, _n: int) -> None:
+    def received(self, who: str, _n: int) -> None:
         self.publishers.add(who)
 
 
@@ -86,7 +87,7 @@ def start(middleware: str, domain: str) -> Iterator[Start]:
         runner.wait()
 
 
-def test_two_copies_of_a_set(start: Start) -> None:
+def test_prefixed_copies_of_components_are_independent(start: Start) -> None:
     arms = {}
     for prefix, offset in (("left", 100), ("right", 200)):
         base = start(Base, prefix=prefix)
@@ -98,11 +99,11 @@ def test_two_copies_of_a_set(start: Start) -> None:
         assert isinstance(arm, Arm)
         assert arm.name == f"{prefix}/arm"
         assert arm.probe.add(1, 2) == offset + 3
-        wait_for(lambda arm=arm: arm.publishers)
+        wait_until(lambda arm=arm: arm.publishers)
         assert arm.publishers == {f"{prefix}/base"}
 
 
-def test_a_wire_is_under_the_prefix(start: Start) -> None:
+def test_prefix_applies_to_connection(start: Start) -> None:
     for name, offset in (("first", 1), ("second", 2)):
         base = start(Base, prefix="left", name=name)
         assert isinstance(base, Base)
@@ -110,11 +111,11 @@ def test_a_wire_is_under_the_prefix(start: Start) -> None:
     arm = start(Arm, prefix="left", connections={"Probe": ("second",), "News": ("/left/first",)})
     assert isinstance(arm, Arm)
     assert arm.probe.add(0, 0) == 2
-    wait_for(lambda: arm.publishers)
+    wait_until(lambda: arm.publishers)
     assert arm.publishers == {"left/first"}
 
 
-def test_ports_by_other_names(start: Start) -> None:
+def test_prefixed_ports_may_have_other_names(start: Start) -> None:
     for name, front in (("a", "Probe"), ("b", "front")):
         base = start(Base, name=name, remaps={"Probe": front, "News": f"{front}-news"})
         assert isinstance(base, Base)
@@ -122,11 +123,11 @@ def test_ports_by_other_names(start: Start) -> None:
     arm = start(Arm, remaps={"Probe": "front", "News": "front-news"})
     assert isinstance(arm, Arm)
     assert arm.probe.add(0, 0) == ord("b")
-    wait_for(lambda: arm.publishers)
+    wait_until(lambda: arm.publishers)
     assert arm.publishers == {"b"}
 
 
-def test_introspection_tells_whole_names(start: Start, middleware: str, domain: str) -> None:
+def test_introspection_reports_prefixed_names(start: Start, middleware: str, domain: str) -> None:
     start(Base, prefix="left", remaps={"Probe": "front"})
     start(Arm, prefix="left", connections={"Probe": ("base",)}, remaps={"Probe": "front"})
     looker = open_middleware(

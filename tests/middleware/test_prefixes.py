@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint
-from tests.middleware.network import DEADLINE, Network, Node, wait_for
+from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+from tests.support.waiting import wait_until
 
 
 def serve(network: Network, *names: str) -> None:
@@ -24,7 +26,7 @@ def asked(network: Network, client: str, *peers: str) -> int:
 
 def asked_when_all_are_known(network: Network, client: str, count: int) -> int:
     probe = network.node(client).probe()
-    wait_for(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
+    wait_until(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
     return probe.add(0, 0)
 
 
@@ -40,7 +42,7 @@ SERVERS = ("base", "left/base", "right/base", "left/hand/base")
         ("left/hand/arm", "left/hand/base"),
     ],
 )
-def test_the_one_beside_is_found(network: Network, client: str, server: str) -> None:
+def test_prefix_selects_server_beside(network: Network, client: str, server: str) -> None:
     serve(network, *SERVERS)
     assert SERVERS[asked(network, client)] == server
 
@@ -55,28 +57,28 @@ def test_the_one_beside_is_found(network: Network, client: str, server: str) -> 
         ("arm", ("left/base",), "left/base"),
     ],
 )
-@pytest.mark.usefixtures("hasty")
-def test_else_one_around_it_and_then_one_inside(
+@pytest.mark.usefixtures("short_discovery_timeout")
+def test_prefix_selects_outer_server_then_inner_server(
     network: Network, client: str, there: tuple[str, ...], server: str
 ) -> None:
     serve(network, *there)
     assert there[asked_when_all_are_known(network, client, len(there))] == server
 
 
-@pytest.mark.usefixtures("hasty")
-def test_one_on_another_branch_is_not_found(network: Network) -> None:
+@pytest.mark.usefixtures("short_discovery_timeout")
+def test_prefix_excludes_server_on_another_branch(network: Network) -> None:
     serve(network, "right/base", "leftish/base")
     with pytest.raises(NoServer, match=r"no component serves Test::Probe, which left/arm requires"):
         asked_when_all_are_known(network, "left/arm", 2)
 
 
-def test_one_on_another_branch_is_reached_by_its_name(network: Network) -> None:
+def test_prefix_reaches_server_on_another_branch_by_name(network: Network) -> None:
     serve(network, "left/base", "right/base")
     assert asked(network, "left/arm", "right/base") == 1
     assert asked(network, "left/arm2", "right/base.Probe") == 1
 
 
-def test_the_one_beside_that_starts_later_is_waited_for(network: Network) -> None:
+def test_prefix_waits_for_server_beside_that_starts_later(network: Network) -> None:
     serve(network, "base")
     client, beside = network.node("left/arm"), network.node("left/base")
     probe = client.probe()
@@ -86,10 +88,10 @@ def test_the_one_beside_that_starts_later_is_waited_for(network: Network) -> Non
         assert answer.result(DEADLINE) == 7
 
 
-def test_two_beside_are_ambiguous_and_the_way_out_works(network: Network) -> None:
+def test_prefix_with_two_servers_beside_is_ambiguous_until_connected(network: Network) -> None:
     serve(network, "left/a", "left/b", "c")
     probe = network.node("left/arm").probe()
-    wait_for(lambda: len(_known(probe, network)) == 3)
+    wait_until(lambda: len(_known(probe, network)) == 3)
     with pytest.raises(AmbiguousServer, match=r"left/a\.Probe, left/b\.Probe all .*=/left/a$"):
         probe.add(0, 0)
 
@@ -104,40 +106,40 @@ def _known(probe: ProbeProxy, network: Network) -> list[object]:
     return found
 
 
-def test_topics_stay_on_their_branch(network: Network) -> None:
+def test_prefix_keeps_topics_on_their_branch(network: Network) -> None:
     names = ("base", "left/base", "right/base", "left/hand/base")
-    heard: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
-    for name, into in heard.items():
-        network.node(name).hear(lambda who, _n, into=into: into.add(who))
+    received: dict[str, set[str]] = {"arm": set(), "left/arm": set(), "right/arm": set()}
+    for name, into in received.items():
+        network.node(name).subscribe(lambda who, _n, into=into: into.add(who))
     proxies = {name: network.node(name).news() for name in names}
-    _publish(proxies, lambda: sum(map(len, heard.values())) == 4 + 3 + 2)
-    assert heard["arm"] == set(names)
-    assert heard["left/arm"] == {"base", "left/base", "left/hand/base"}
-    assert heard["right/arm"] == {"base", "right/base"}
+    _publish(proxies, lambda: sum(map(len, received.values())) == 4 + 3 + 2)
+    assert received["arm"] == set(names)
+    assert received["left/arm"] == {"base", "left/base", "left/hand/base"}
+    assert received["right/arm"] == {"base", "right/base"}
 
 
-def _publish(proxies: dict[str, NewsProxy], until: object) -> None:
-    """Everybody again and again, so that whoever was heard by mistake has been heard often."""
+def _publish(proxies: dict[str, NewsProxy], condition: Callable[[], object]) -> None:
+    """Publish on all proxies repeatedly, so that a message on a wrong branch is received, too."""
 
     def again() -> bool:
         for name, proxy in proxies.items():
-            proxy.spoke(name, 0)
-        return until()  # type: ignore[operator,no-any-return]
+            proxy.announced(name, 0)
+        return bool(condition())
 
-    wait_for(again)
+    wait_until(again)
     for _ in range(3):
         again()
 
 
-def test_a_publisher_does_not_wait_for_another_branch(network: Network) -> None:
-    network.node("right/arm").hear(lambda *_: None)
+def test_prefix_publisher_does_not_wait_for_another_branch(network: Network) -> None:
+    network.node("right/arm").subscribe(lambda *_: None)
     publisher = network.node("left/base").news()
     assert not publisher.wait_for_server(0.2)
-    network.node("left/arm").hear(lambda *_: None)
+    network.node("left/arm").subscribe(lambda *_: None)
     assert publisher.wait_for_server(DEADLINE)
 
 
-def test_a_port_of_a_name_of_whomever_is_beside(network: Network) -> None:
+def test_prefix_selects_named_port_beside(network: Network) -> None:
     """What `--remap` gives: `*.front`."""
     for prefix, result in (("left", 1), ("right", 2)):
         base = network.node(f"{prefix}/base")
@@ -147,16 +149,16 @@ def test_a_port_of_a_name_of_whomever_is_beside(network: Network) -> None:
     assert asked(network, "right/arm", "*.front") == 2
 
 
-def test_publications_of_a_port_of_a_name(network: Network) -> None:
-    heard: set[str] = set()
-    network.node("left/arm").hear(lambda who, _n: heard.add(who), "*.scan")
+def test_prefix_routes_publications_of_named_port(network: Network) -> None:
+    received: set[str] = set()
+    network.node("left/arm").subscribe(lambda who, _n: received.add(who), "*.scan")
     proxies = {}
     for name in ("left/base", "right/base"):
         node = network.node(name)
         for port in ("scan", "other"):
             proxies[f"{name}.{port}"] = _news(node, port)
-    _publish(proxies, lambda: heard)
-    assert heard == {"left/base.scan"}
+    _publish(proxies, lambda: received)
+    assert received == {"left/base.scan"}
 
 
 def _news(node: Node, port: str) -> NewsProxy:

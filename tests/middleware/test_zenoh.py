@@ -21,8 +21,9 @@ from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
 from robocomp_dsl.runtime.middleware.zenoh.liveliness_monitor import LivelinessMonitor
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
-from tests.middleware.network import DEADLINE, Network, wait_for
+from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import OTHER_NEWS, PROBE
+from tests.support.waiting import wait_until
 
 ROOT = Path(__file__).parents[2]
 SERVER = """
@@ -65,7 +66,7 @@ def server(network: Network) -> Iterator[subprocess.Popen[str]]:
     [b"", b"\0", b"\0\1\0\0", b"\0\1\0\0\1\0\0\0", b"\xff" * 100, os.urandom(3000)],
     ids=["empty", "one byte", "header", "half", "ones", "random"],
 )
-def test_malformed_requests_are_refused_and_counted(network: Network, payload: bytes) -> None:
+def test_zenoh_refuses_and_counts_malformed_requests(network: Network, payload: bytes) -> None:
     server = network.node("server")
     server.serve({"add": lambda a, b: a + b})
     at = Endpoint(PROBE, "server", "Probe")
@@ -73,7 +74,7 @@ def test_malformed_requests_are_refused_and_counted(network: Network, payload: b
     raw = open_session(network.domain)
     try:
         querier = raw.session.declare_querier(key, timeout=DEADLINE)
-        wait_for(lambda: querier.matching_status.matching)
+        wait_until(lambda: querier.matching_status.matching)
         reply = querier.get(payload=payload).recv()
         assert reply.err is not None
         assert reply.err.payload.to_bytes().startswith(b"RCM")
@@ -86,24 +87,24 @@ def test_malformed_requests_are_refused_and_counted(network: Network, payload: b
     assert network.node("client").probe().add(1, 2) == 3
 
 
-def test_malformed_commands_are_counted(network: Network) -> None:
-    heard: list[str] = []
+def test_zenoh_counts_malformed_commands(network: Network) -> None:
+    received: list[str] = []
     server = network.node("server")
-    server.serve({"note": heard.append})
+    server.serve({"note": received.append})
     key = f"{keys.port_key(network.domain, 'c', Endpoint(PROBE, 'server', 'Probe'))}/note"
     raw = open_session(network.domain)
     try:
         publisher = raw.session.declare_publisher(key)
-        wait_for(lambda: publisher.matching_status.matching)
+        wait_until(lambda: publisher.matching_status.matching)
         publisher.put(b"\0\1\0\0\xff\xff\xff\xff")
-        wait_for(lambda: server.count("note").malformed)
+        wait_until(lambda: server.count("note").malformed)
     finally:
         raw.close()
     network.node("client").probe().note("still here")
-    wait_for(lambda: heard == ["still here"])
+    wait_until(lambda: received == ["still here"])
 
 
-def test_a_malformed_reply_is_told_to_the_caller(network: Network) -> None:
+def test_zenoh_reports_malformed_reply_to_caller(network: Network) -> None:
     raw = open_session(network.domain)
     try:
         at = Endpoint(PROBE, "liar", "Probe")
@@ -118,14 +119,12 @@ def test_a_malformed_reply_is_told_to_the_caller(network: Network) -> None:
         raw.close()
 
 
-def test_another_process_is_found_without_being_told(
-    network: Network, server: subprocess.Popen[str]
-) -> None:
+def test_zenoh_discovers_other_process(network: Network, server: subprocess.Popen[str]) -> None:
     assert server.pid
     assert network.node("client").probe().add(20, 22) == 42
 
 
-def test_a_killed_server_is_no_server_at_once(
+def test_zenoh_reports_killed_server_at_once(
     network: Network, server: subprocess.Popen[str]
 ) -> None:
     probe = network.node("client").probe()
@@ -148,7 +147,7 @@ def test_a_killed_server_is_no_server_at_once(
         probe.add(1, 1)
 
 
-def test_a_call_of_a_server_that_went_after_it_was_chosen_ends_at_once(network: Network) -> None:
+def test_zenoh_ends_call_at_once_when_chosen_server_exits(network: Network) -> None:
     network.node("server").serve({"block": threading.Event().wait})
     client = network.node("client")
     directory: PortRegistry = client.middleware._registry  # type: ignore[attr-defined]
@@ -158,21 +157,23 @@ def test_a_call_of_a_server_that_went_after_it_was_chosen_ends_at_once(network: 
     assert directory.cancellation_token(replace(there, component="gone")).is_cancelled
 
 
-def test_a_watch_sees_states_and_death(network: Network, server: subprocess.Popen[str]) -> None:
+def test_zenoh_watch_reports_states_and_exit(
+    network: Network, server: subprocess.Popen[str]
+) -> None:
     seen: list[tuple[str, int, str]] = []
     watch = LivelinessMonitor(network.domain)
     try:
         watch.start(lambda *what: seen.append(what))
-        wait_for(lambda: seen)
+        wait_until(lambda: seen)
         assert seen == [("server", server.pid, "compute")]
         server.send_signal(signal.SIGKILL)
-        wait_for(lambda: len(seen) == 2)
+        wait_until(lambda: len(seen) == 2)
         assert seen[1] == ("server", server.pid, "")
     finally:
         watch.close()
 
 
-def test_who_comes_to_another_state_after_the_end_is_not_told_of_it(network: Network) -> None:
+def test_zenoh_watch_ignores_states_after_its_end(network: Network) -> None:
     node = network.node("late")
     node.middleware.publish_state("compute")
     node.middleware.close()
@@ -180,7 +181,7 @@ def test_who_comes_to_another_state_after_the_end_is_not_told_of_it(network: Net
     node.middleware.publish_state("")
 
 
-def test_sockets_of_killed_processes_are_swept(
+def test_zenoh_removes_sockets_of_killed_processes(
     network: Network, server: subprocess.Popen[str]
 ) -> None:
     opened = open_session(network.domain)
@@ -200,7 +201,7 @@ def test_sockets_of_killed_processes_are_swept(
     assert not folder.exists()
 
 
-def test_all_who_start_at_once_find_each_other(network: Network) -> None:
+def test_zenoh_connects_processes_that_start_together(network: Network) -> None:
     opened = []
     guard = threading.Lock()
 
@@ -215,24 +216,24 @@ def test_all_who_start_at_once_find_each_other(network: Network) -> None:
     for thread in threads:
         thread.join(DEADLINE)
     try:
-        wait_for(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
+        wait_until(lambda: all(len(list(o.session.info.peers_zid())) == 5 for o in opened))
     finally:
         for opened_session in opened:
             opened_session.close()
 
 
-def test_both_sides_of_a_topic_are_told_that_their_interfaces_differ(
+def test_zenoh_reports_interface_mismatch_on_both_sides_of_topic(
     network: Network, caplog: pytest.LogCaptureFixture
 ) -> None:
     subscriber, publisher = network.node("listener"), network.node("speaker")
-    subscriber.hear(lambda *_: None)
+    subscriber.subscribe(lambda *_: None)
     publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
-    wait_for(lambda: "listener and speaker cannot communicate" in caplog.text)
-    wait_for(lambda: "speaker and listener cannot communicate" in caplog.text)
+    wait_until(lambda: "listener and speaker cannot communicate" in caplog.text)
+    wait_until(lambda: "speaker and listener cannot communicate" in caplog.text)
     assert "different versions of Test::News" in caplog.text
 
 
-def test_a_taken_port_is_told_in_words() -> None:
+def test_zenoh_reports_occupied_port() -> None:
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
@@ -241,7 +242,7 @@ def test_a_taken_port_is_told_in_words() -> None:
             open_session(Network("zenoh").domain, port)
 
 
-def test_nothing_but_loopback_is_listened_to(network: Network) -> None:
+def test_zenoh_listens_on_loopback_only(network: Network) -> None:
     node = network.node("server")
     opened = node.middleware._opened  # type: ignore[attr-defined]
     assert opened.socket.is_socket()

@@ -13,7 +13,7 @@ from pathlib import Path
 DEADLINE_S = 240.0
 
 
-class Process:
+class ComponentProcess:
     """A component process; its output lines are collected."""
 
     def __init__(self, folder: Path, *options: str) -> None:
@@ -63,9 +63,9 @@ class Process:
 
 
 @contextmanager
-def running(folder: Path, *options: str) -> Iterator[Process]:
+def running(folder: Path, *options: str) -> Iterator[ComponentProcess]:
     """A component that runs during the block."""
-    process = Process(folder, *options)
+    process = ComponentProcess(folder, *options)
     try:
         yield process
     finally:

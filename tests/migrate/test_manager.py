@@ -169,7 +169,10 @@ def test_migrate_does_not_connect_same_components_in_cycle(rcgen, tmp_path: Path
         "    Communications { implements Laser; requires Laser; };\n    language Python;\n};\n"
     )
     # Both call an unknown server; then one calls the other.
-    for called, wires in ((10008, {"front": "laser", "back": "laser"}), (11991, {"back": "laser"})):
+    for called, connections in (
+        (10008, {"front": "laser", "back": "laser"}),
+        (11991, {"back": "laser"}),
+    ):
         for name, port in (("front", 11990), ("back", 11991)):
             to = 10008 if name == "back" else called
             (etc / f"config_{name}").write_text(
@@ -182,4 +185,4 @@ def test_migrate_does_not_connect_same_components_in_cycle(rcgen, tmp_path: Path
         connected = {
             connection.source.name: connection.target.name for connection in deployment.connections
         }
-        assert connected == {"front": "back", **wires}
+        assert connected == {"front": "back", **connections}

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.regeneration.regenerated import Talker
+from tests.regeneration.talker_component import TalkerComponent
 
 
 @pytest.fixture
-def talker(tmp_path: Path) -> Talker:
+def talker(tmp_path: Path) -> TalkerComponent:
     """A component with one operation, generated once."""
-    component = Talker(tmp_path / "talker")
+    component = TalkerComponent(tmp_path / "talker")
     component.folder.mkdir()
     component.describe("int say(Word w);")
     assert component.generate() == []

@@ -1,6 +1,6 @@
 """A program that runs components: a folder a line in, the exit code and its output out.
 
-Each runs in a fork, so that the imports of the runtime are paid for once.
+Each runs in a fork, so that the runtime is imported once.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Files that are written once: both sides' changes come together, or the user's stay."""
+"""Files that are written once: changes of rcgen and the user are merged, or the user's remain."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ import pytest
 
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.write import CannotWrite, write
-from tests.regeneration.regenerated import Talker
+from tests.regeneration.talker_component import TalkerComponent
 
 RATE = "/** How often. */ rate float 1;"
 
 
 @pytest.fixture
-def config(talker: Talker) -> Path:
+def config(talker: TalkerComponent) -> Path:
     talker.describe("int say(Word w);", parameters=f'{RATE} name string "a";')
     talker.generate()
     return talker.folder / "etc" / "config.yaml"
 
 
-def test_untouched_is_written_anew(talker: Talker, config: Path) -> None:
+def test_merge_rewrites_unchanged_config(talker: TalkerComponent, config: Path) -> None:
     talker.describe("int say(Word w);", parameters=f"{RATE} size int 3;")
     assert talker.generate() == []
     assert "size: 3" in config.read_text()
     assert "name:" not in config.read_text()
 
 
-def test_both_sides_in_different_places(talker: Talker, config: Path) -> None:
+def test_merge_combines_changes_in_different_places(talker: TalkerComponent, config: Path) -> None:
     config.write_text(config.read_text().replace("rate: 1.0", "rate: 7.5  # measured"))
     talker.describe("int say(Word w);", parameters=f'{RATE} name string "a"; size int 3;')
     (found,) = talker.generate()
@@ -39,7 +39,7 @@ def test_both_sides_in_different_places(talker: Talker, config: Path) -> None:
     assert talker.generate() == []
 
 
-def test_line_ends_stay(talker: Talker, config: Path) -> None:
+def test_merge_keeps_line_ends(talker: TalkerComponent, config: Path) -> None:
     text = config.read_text().replace("rate: 1.0", "rate: 7.5").replace("\n", "\r\n")
     config.write_bytes(text.encode())
     talker.describe("int say(Word w);", parameters=f'{RATE} name string "a"; size int 3;')
@@ -49,7 +49,9 @@ def test_line_ends_stay(talker: Talker, config: Path) -> None:
     assert b"\n" not in data.replace(b"\r\n", b"")
 
 
-def test_the_same_lines(talker: Talker, config: Path) -> None:
+def test_merge_conflict_keeps_user_file_and_writes_proposal(
+    talker: TalkerComponent, config: Path
+) -> None:
     mine = config.read_text().replace('name: "a"', 'name: "mine"')
     config.write_text(mine)
     talker.describe("int say(Word w);", parameters=f'{RATE} name string "b";')
@@ -65,7 +67,9 @@ def test_the_same_lines(talker: Talker, config: Path) -> None:
     assert talker.generate() == []
 
 
-def test_without_git(talker: Talker, config: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_merge_without_git_keeps_user_file(
+    talker: TalkerComponent, config: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     mine = config.read_text() + "# mine\n"
     config.write_text(mine)
     monkeypatch.setenv("PATH", str(talker.folder))
@@ -76,13 +80,13 @@ def test_without_git(talker: Talker, config: Path, monkeypatch: pytest.MonkeyPat
     assert config.read_text() == mine
 
 
-def test_deleted_comes_again(talker: Talker, config: Path) -> None:
+def test_deleted_config_is_written_again(talker: TalkerComponent, config: Path) -> None:
     config.unlink()
     talker.generate()
     assert config.is_file()
 
 
-def test_no_bytes_are_lost(talker: Talker, config: Path) -> None:
+def test_merge_keeps_invalid_bytes(talker: TalkerComponent, config: Path) -> None:
     config.write_bytes(b"# \xff\xfe\n" + config.read_bytes())
     talker.describe("int say(Word w);", parameters=f'{RATE} name string "a"; size int 3;')
     talker.generate()
@@ -91,7 +95,7 @@ def test_no_bytes_are_lost(talker: Talker, config: Path) -> None:
     assert b"size: 3\n" in data
 
 
-def test_saved_by_somebody_else_meanwhile(tmp_path: Path) -> None:
+def test_write_rejects_file_changed_meanwhile(tmp_path: Path) -> None:
     (tmp_path / "a.txt").write_text("newer")
     with pytest.raises(CannotWrite, match="meanwhile; run rcgen again"):
         write(tmp_path, [OutputFile("a.txt", "merged", expected_bytes=b"older")])

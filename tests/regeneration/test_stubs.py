@@ -1,4 +1,4 @@
-"""Stubs: where they go, and that nothing of the user's changes."""
+"""Stubs: their place and text; user code does not change."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import ast
 
 import pytest
 
-from tests.regeneration.regenerated import Talker
+from tests.regeneration.talker_component import TalkerComponent
 
 HEAD = "from talker_generated.genericworker import GenericWorker\n"
 
-# The user's module before, and behind it with `say` and `sing` as new operations.
+# The module of the user, and the expected text after `say` and `sing` are added.
 CASES = {
     "spaces": (
         f"{HEAD}\n\nclass SpecificWorker(GenericWorker):\n    x = 1  # one\n\n# the end\n",
@@ -75,7 +75,7 @@ def is_within(before: str, after: str) -> bool:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_where_they_go(talker: Talker, case: str) -> None:
+def test_stub_is_appended_to_worker_class(talker: TalkerComponent, case: str) -> None:
     before, inside = CASES[case]
     talker.worker.write_bytes(before.encode())
     talker.describe("int say(Word w); [command] void sing(Word w, Tone t);")
@@ -89,23 +89,23 @@ def test_where_they_go(talker: Talker, case: str) -> None:
     if "\r\n" in before:
         assert "\n" not in after.replace("\r\n", "")
     if "final" not in before:
-        talker.imports()
+        talker.check_import()
     ast.parse(after.removeprefix("\ufeff"))
     assert talker.generate() == []
     assert talker.worker.read_bytes().decode() == after
 
 
-def test_an_encoding_of_old(talker: Talker) -> None:
+def test_stub_keeps_declared_encoding(talker: TalkerComponent) -> None:
     text = f"# -*- coding: latin-1 -*-\n{HEAD}class SpecificWorker(GenericWorker):\n    x = 'ä'\n"
     talker.worker.write_bytes(text.encode("latin-1"))
     assert [d.code.id for d in talker.generate()] == ["RC611"]
     after = talker.worker.read_bytes()
     assert is_within(text, after.decode("latin-1"))
     assert b"def Talk_say" in after
-    talker.imports()
+    talker.check_import()
 
 
-def test_a_syntax_error_is_left_alone(talker: Talker) -> None:
+def test_stub_is_not_added_to_file_with_syntax_error(talker: TalkerComponent) -> None:
     talker.worker.write_bytes(b"class SpecificWorker(GenericWorker):\n  def x(:\n")
     talker.describe("void other();")
     (found,) = talker.generate()
@@ -114,7 +114,7 @@ def test_a_syntax_error_is_left_alone(talker: Talker) -> None:
     assert talker.worker.read_bytes() == b"class SpecificWorker(GenericWorker):\n  def x(:\n"
 
 
-def test_a_link_stays_a_link(talker: Talker) -> None:
+def test_stub_is_not_written_through_link(talker: TalkerComponent) -> None:
     target = talker.folder.parent / "mine.py"
     target.write_text(f"{HEAD}class SpecificWorker(GenericWorker):\n    pass\n")
     talker.worker.unlink()
@@ -127,7 +127,7 @@ def test_a_link_stays_a_link(talker: Talker) -> None:
     assert talker.worker.is_symlink()
 
 
-def test_a_read_only_file_stays(talker: Talker) -> None:
+def test_stub_is_not_added_to_read_only_file(talker: TalkerComponent) -> None:
     talker.worker.write_text(f"{HEAD}class SpecificWorker(GenericWorker):\n    pass\n")
     talker.worker.chmod(0o444)
     before = talker.worker.read_bytes()
@@ -136,17 +136,17 @@ def test_a_read_only_file_stays(talker: Talker) -> None:
     assert talker.worker.read_bytes() == before
 
 
-DECOYS = {
+LOOKALIKES = {
     "a remark": "# def Talk_say(self)\n",
     "a text": "x = '''\n    def Talk_say(self): ...\n'''\n",
     "another class": "class Other:\n    def Talk_say(self): ...\n",
 }
 
 
-@pytest.mark.parametrize("case", DECOYS)
-def test_the_place_of_a_stub_is_told(talker: Talker, case: str) -> None:
-    text = f"{HEAD}{DECOYS[case]}class SpecificWorker(GenericWorker):\n    pass\n"
-    talker.worker.write_text(text + DECOYS[case])
+@pytest.mark.parametrize("case", LOOKALIKES)
+def test_stub_finding_has_position_of_stub(talker: TalkerComponent, case: str) -> None:
+    text = f"{HEAD}{LOOKALIKES[case]}class SpecificWorker(GenericWorker):\n    pass\n"
+    talker.worker.write_text(text + LOOKALIKES[case])
     (found,) = talker.generate()
     lines = talker.worker.read_text().splitlines()
     row, column = found.span.start_position
@@ -165,12 +165,10 @@ def test_the_place_of_a_stub_is_told(talker: Talker, case: str) -> None:
         ),
     ],
 )
-def test_all_types_of_a_stub_have_their_local_names(
-    talker: Talker, operation: str, stub: str
-) -> None:
+def test_stub_uses_local_names_of_types(talker: TalkerComponent, operation: str, stub: str) -> None:
     text = f"{HEAD}class Word: pass\nclass SpecificWorker(GenericWorker):\n    pass\n"
     talker.worker.write_text(text)
     talker.describe(operation)
     talker.generate()
     assert stub in talker.worker.read_text()
-    talker.imports()
+    talker.check_import()

@@ -1,4 +1,4 @@
-"""Messages byte by byte, and the forms in which values come and go."""
+"""The bytes of messages, and the types of decoded values."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ CASES: list[tuple[str, Any, Any, str]] = [
     ("dictionary", rt.Dictionary(rt.BYTE, rt.INT), {7: 1}, "01000000 07 000000 01000000"),
     ("points", array_of(POINT), [POINT(0.0, 1.5)], "01000000 00000000 0000c03f"),
     (
-        "the first element lies otherwise than the second",
+        "first element with other padding than the second",
         array_of(ODD),
         [ODD(1, 0.0), ODD(2, 0.0)],
         "02000000 01 000000" + 8 * "00" + "02" + 7 * "00" + 8 * "00",
@@ -57,7 +57,7 @@ CASES: list[tuple[str, Any, Any, str]] = [
         "02000000 00000000" + 8 * "00" + "01" + 7 * "00" + 8 * "00" + "02",
     ),
     (
-        "elements that begin at odd places",
+        "elements at unaligned offsets",
         array_of(SHIFTED),
         [SHIFTED(1, 2, 3), SHIFTED(4, 5, 6), SHIFTED(7, 8, 9)],
         "03000000 0100 0000 02000000 0300 0400 05000000 0600 0700 08000000 0900",
@@ -74,7 +74,7 @@ CASES: list[tuple[str, Any, Any, str]] = [
 @pytest.mark.parametrize(
     ("type_", "value", "expected"), [case[1:] for case in CASES], ids=[case[0] for case in CASES]
 )
-def test_bytes(type_: Any, value: Any, expected: str) -> None:
+def test_encode_produces_expected_bytes(type_: Any, value: Any, expected: str) -> None:
     data = b"\0\1\0\0" + bytes.fromhex(expected)
     message = struct_of([type_])
     assert codec.encode(message(value)) == data
@@ -89,7 +89,7 @@ relaxed = settings(max_examples=200)
 
 @relaxed
 @given(messages(nan=False))
-def test_what_is_encoded_is_decoded(message: Any) -> None:
+def test_decode_inverts_encode(message: Any) -> None:
     data, type_ = codec.encode(message), type(message)
     assert codec.decode(type_, data) == message
     assert codec.decode(type_, bytearray(data)) == message
@@ -99,7 +99,7 @@ def test_what_is_encoded_is_decoded(message: Any) -> None:
 
 @relaxed
 @given(messages(nan=False))
-def test_the_explanation_finds_nothing_in_what_can_be_encoded(message: Any) -> None:
+def test_explain_reports_unknown_error_for_valid_message(message: Any) -> None:
     error = explain((("", type(message)),), "one", message, OSError("unknown"))
     assert str(error) == "cannot be encoded: unknown"
 
@@ -114,7 +114,7 @@ REPLIES: list[tuple[Any, Any, str]] = [
 
 
 @pytest.mark.parametrize(("outputs", "result", "expected"), REPLIES)
-def test_replies(outputs: Any, result: Any, expected: str) -> None:
+def test_encode_reply_produces_expected_bytes(outputs: Any, result: Any, expected: str) -> None:
     operation = rt.Operation("f", rt.Pattern.QUERY, outputs=outputs)
     data = operation.encode_reply(result)
     assert data[4:] == bytes.fromhex(expected)
@@ -130,14 +130,14 @@ REQUESTS: list[tuple[Any, Any, str]] = [
 
 
 @pytest.mark.parametrize(("inputs", "arguments", "expected"), REQUESTS)
-def test_requests(inputs: Any, arguments: Any, expected: str) -> None:
+def test_encode_request_produces_expected_bytes(inputs: Any, arguments: Any, expected: str) -> None:
     operation = rt.Operation("f", rt.Pattern.QUERY, inputs=inputs)
     data = operation.encode_request(arguments)
     assert data[4:] == bytes.fromhex(expected)
     assert operation.decode_request(data) == arguments
 
 
-def test_declared_exceptions_travel_as_themselves() -> None:
+def test_declared_exceptions_survive_encode_and_decode() -> None:
     broken, late = struct_of([rt.STRING], rt.DeclaredError), struct_of([], rt.DeclaredError)
     operation = rt.Operation("f", rt.Pattern.QUERY, throws=(broken, late))
     for error in (broken("motor 3"), late()):
@@ -166,7 +166,7 @@ def test_decoded_arrays_are_read_only_views(kind: Any) -> None:
     assert decoded.f1 == points
 
 
-def test_padding_that_memory_has_is_not_sent() -> None:
+def test_encode_clears_padding_of_array_memory() -> None:
     rows = array_of(TAIL)([TAIL(1.0, 2), TAIL(3.0, 4)])
     expected = codec.encode(struct_of([array_of(TAIL)])(rows))
     dirty = np.asarray(rows).copy()
@@ -175,16 +175,16 @@ def test_padding_that_memory_has_is_not_sent() -> None:
     assert codec.encode(struct_of([array_of(TAIL)])(dirty)) == expected
 
 
-def test_strided_and_foreign_arrays_are_taken() -> None:
+def test_encode_accepts_strided_and_foreign_byte_order_arrays() -> None:
     message = struct_of([rt.Array(rt.INT), array_of(POINT)])
     points = array_of(POINT).from_columns(f0=np.arange(6), f1=0)
-    given_ = message(np.arange(6, dtype=">i8")[::2], points[::2])
-    decoded = codec.decode(message, codec.encode(given_))
+    message_in = message(np.arange(6, dtype=">i8")[::2], points[::2])
+    decoded = codec.decode(message, codec.encode(message_in))
     assert decoded.f0.tolist() == [0, 2, 4]
     assert decoded.f1.column("f0").tolist() == [0, 2, 4]
 
 
-def test_fifteen_sequences_within_each_other_are_the_limit() -> None:
+def test_codec_limits_sequence_nesting_to_fifteen() -> None:
     type_: Any = rt.STRING
     value: Any = "x"
     for _ in range(15):
@@ -195,6 +195,6 @@ def test_fifteen_sequences_within_each_other_are_the_limit() -> None:
         codec.encode(struct_of([rt.Sequence(type_)])([value]))
 
 
-def test_a_thousand_fields_are_one_number_after_the_other() -> None:
+def test_encode_packs_thousand_fields_without_gaps() -> None:
     message = struct_of([rt.SHORT] * 1000)
     assert codec.encode(message(*range(1000)))[4:] == struct.pack("<1000h", *range(1000))

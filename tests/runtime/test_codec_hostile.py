@@ -1,4 +1,4 @@
-"""Whatever the bytes are, a decoder gives a value or `MalformedMessage`."""
+"""A decoder returns a value or raises `MalformedMessage`, for any bytes."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def outcome(type_: type[Any], data: bytes | memoryview) -> Any:
 
 @relaxed
 @given(st.binary(max_size=200))
-def test_random_bytes(data: bytes) -> None:
+def test_decode_survives_random_bytes(data: bytes) -> None:
     for kind in (b"", HEADER, b"\0\0\0\0", b"\0\1\0\3"):
         outcome(EVERYTHING, kind + data)
 
@@ -77,7 +77,7 @@ def damaged(draw: st.DrawFn) -> tuple[Any, bytes]:
 
 @relaxed
 @given(damaged())
-def test_damaged_messages(case: tuple[Any, bytes]) -> None:
+def test_decode_and_read_agree_on_damaged_messages(case: tuple[Any, bytes]) -> None:
     message, data = case
     type_ = type(message)
     fast = outcome(type_, data)
@@ -93,7 +93,7 @@ def test_damaged_messages(case: tuple[Any, bytes]) -> None:
 
 @relaxed
 @given(messages(), st.data())
-def test_every_truncation_is_noticed(message: Any, data: st.DataObject) -> None:
+def test_decode_rejects_truncated_message(message: Any, data: st.DataObject) -> None:
     whole = codec.encode(message)
     cut = data.draw(st.integers(0, len(whole) - 1))
     with pytest.raises(rt.MalformedMessage):
@@ -104,7 +104,7 @@ COUNT = b"\xff\xff\xff\xff"
 ONE = b"\1\0\0\0"
 LITTLE = bytes.fromhex
 
-# type, bytes behind the header, field, offset, what is wrong
+# type, bytes after the header, field, offset, reason
 CASES: list[tuple[str, Any, bytes, str, int, str]] = [
     ("truncated int", rt.INT, b"\1\2", "f0", 4, "4 bytes expected, 2 left"),
     ("truncated double", rt.DOUBLE, b"", "f0", 4, "8 bytes expected, 0 left"),
@@ -147,7 +147,9 @@ CASES: list[tuple[str, Any, bytes, str, int, str]] = [
     [case[1:] for case in CASES],
     ids=[case[0] for case in CASES],
 )
-def test_what_is_told(type_: Any, data: bytes, path: str, offset: int, reason: str) -> None:
+def test_malformed_message_names_field_offset_and_reason(
+    type_: Any, data: bytes, path: str, offset: int, reason: str
+) -> None:
     with pytest.raises(rt.MalformedMessage) as caught:
         codec.decode(struct_of([type_]), HEADER + data)
     assert (caught.value.path, caught.value.offset) == (path, offset)
@@ -164,17 +166,17 @@ def test_what_is_told(type_: Any, data: bytes, path: str, offset: int, reason: s
         (b"\0\1\0\3", "3 bytes of padding announced"),
     ],
 )
-def test_headers(data: bytes, reason: str) -> None:
+def test_decode_rejects_bad_header(data: bytes, reason: str) -> None:
     with pytest.raises(rt.MalformedMessage, match=reason):
         codec.decode(struct_of([rt.INT]), data)
 
 
-def test_padding_that_the_header_announces_is_skipped() -> None:
+def test_decode_skips_padding_announced_in_header() -> None:
     text = struct_of([rt.STRING])
     assert codec.decode(text, b"\0\1\0\2\2\0\0\0a\0\xaa\xbb") == text("a")
 
 
-def test_a_text_of_length_zero_is_empty() -> None:
+def test_decode_reads_zero_length_string_as_empty() -> None:
     pair = struct_of([rt.STRING, rt.BYTE])
     assert codec.decode(pair, HEADER + b"\0\0\0\0\5") == pair("", 5)
 
@@ -192,7 +194,7 @@ def test_a_text_of_length_zero_is_empty() -> None:
     ],
 )
 @pytest.mark.parametrize("count", [2**32 - 1, 2**31, 2**24])
-def test_no_memory_is_taken_for_what_is_only_claimed(type_: Any, count: int) -> None:
+def test_decode_allocates_nothing_for_claimed_length(type_: Any, count: int) -> None:
     message, cls = HEADER + count.to_bytes(4, "little") + bytes(64), struct_of([type_])
     outcome(cls, message)  # compiles
     tracemalloc.start()

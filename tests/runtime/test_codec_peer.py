@@ -1,4 +1,4 @@
-"""Our bytes are those of another implementation of CDR (rosbags), for random types and values."""
+"""Another implementation of CDR (rosbags) gives the same bytes, for random types and values."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROS_NAMES = {
 
 
 class Peer:
-    """The types of one message, told to the other implementation in its own language.
+    """The types of one message, declared to the other implementation in its own language.
 
     It has no enums (int32 here), dictionaries (sequences of pairs) and sequences of sequences
     (a struct of one field between them, which leaves no trace on the wire).
@@ -116,7 +116,7 @@ class Peer:
         return bytes(self.store.serialize_cdr(value, self.name, little_endian=little))
 
     def reencode(self, data: bytes) -> bytes:
-        """The bytes again, after the peer has understood them."""
+        """The bytes again, after the peer has decoded them."""
         value = self.store.deserialize_cdr(data, self.name)
         return bytes(self.store.serialize_cdr(value, self.name))
 
@@ -124,7 +124,7 @@ class Peer:
 # The peer compiles its own code for every schema, so no deadline.
 @settings(max_examples=150)
 @given(messages())
-def test_each_side_understands_the_other(message: rt.Struct) -> None:
+def test_codec_matches_rosbags_in_both_directions(message: rt.Struct) -> None:
     peer = Peer(type(message))
     ours, theirs = codec.encode(message), peer.encode(message)
     assert ours == theirs
@@ -135,6 +135,6 @@ def test_each_side_understands_the_other(message: rt.Struct) -> None:
     assert codec.encode(codec.decode(type(message), big)) == ours
 
 
-def test_the_comparison_can_fail() -> None:
+def test_codec_comparison_detects_different_types() -> None:
     ours, theirs = struct_of([rt.INT, rt.DOUBLE]), struct_of([rt.DOUBLE, rt.INT])
     assert codec.encode(ours(1, 2.0)) != Peer(theirs).encode(theirs(2.0, 1))

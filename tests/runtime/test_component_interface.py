@@ -1,4 +1,4 @@
-"""The Python side of the interfaces that the library itself calls is what rcgen makes of IDSL."""
+"""The interface modules of the library equal the output of rcgen."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ Component x { Communications { requires Simulation, InnerModelManager; }; langua
         (SIMULATION, "simulation/simulation_interface"),
     ],
 )
-def test_the_generated_module_is_fresh(tmp_path: Path, cdsl: str, name: str) -> None:
+def test_generated_interface_module_is_up_to_date(tmp_path: Path, cdsl: str, name: str) -> None:
     (tmp_path / "x.cdsl").write_text(cdsl)
     result = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
     assert result.exit_code == 0, result.output

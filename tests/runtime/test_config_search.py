@@ -1,4 +1,4 @@
-"""Which configuration wins, where it is looked for, and what is said when there is none."""
+"""The search for a configuration: precedence, folders, and the message when there is none."""
 
 from __future__ import annotations
 
@@ -8,8 +8,6 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-
 from robocomp_dsl.runtime.config import (
     ConfigRequest,
     ConfigResult,
@@ -17,7 +15,7 @@ from robocomp_dsl.runtime.config import (
     resolve_config,
 )
 from robocomp_dsl.runtime.parameters import ConfigError
-from tests.runtime.config_machine import Machine
+from tests.runtime.search_folders import SearchFolders
 
 ORDER = [
     "work/{}",
@@ -43,34 +41,36 @@ ORDER = [
     "share2/{}",
     "dropped/{}",
 ]
-"""The whole search for a file of `--from`, with the robot `twin` and the context `lab`."""
+"""The whole search for a file of `--config-name`, with the robot `twin` and the context `lab`."""
 
 
 @pytest.fixture
-def machine(tmp_path: Path) -> Machine:
-    computer = Machine(tmp_path)
-    computer.environment["ROBOCOMP_ROBOT_NAME"] = "twin"
-    computer.put("share2/path.d/more.conf", "# where another package is\n\n../../dropped  # here\n")
-    return computer
+def folders(tmp_path: Path) -> SearchFolders:
+    search_folders = SearchFolders(tmp_path)
+    search_folders.environment["ROBOCOMP_ROBOT_NAME"] = "twin"
+    search_folders.put(
+        "share2/path.d/more.conf", "# folder of another package\n\n../../dropped  # here\n"
+    )
+    return search_folders
 
 
-def chosen(machine: Machine, context: str = "", file: str = "", *names: str) -> ConfigResult:
+def resolve(folders: SearchFolders, context: str = "", file: str = "", *names: str) -> ConfigResult:
     return resolve_config(
         ConfigRequest(context, file, names),
-        SearchEnvironment.from_environ(machine.environment, machine.work),
+        SearchEnvironment.from_environ(folders.environment, folders.work),
     )
 
 
-def test_every_place_in_its_order(machine: Machine) -> None:
-    """All have the file; the winner is taken away, again and again."""
-    files = [machine.put(place.format("arm.yaml")) for place in ORDER]
+def test_resolve_config_searches_folders_in_order(folders: SearchFolders) -> None:
+    """Every folder has the file; the test removes each match in turn."""
+    files = [folders.put(place.format("arm.yaml")) for place in ORDER]
     for file in files:
-        found = chosen(machine, "lab", "arm.yaml")
+        found = resolve(folders, "lab", "arm.yaml")
         assert found.path is not None
         assert found.path.resolve() == file
         file.unlink()
     with pytest.raises(ConfigError) as caught:
-        chosen(machine, "lab", "arm.yaml")
+        resolve(folders, "lab", "arm.yaml")
     lines = str(caught.value).splitlines()
     assert lines[:4] == [
         "error: configuration not found: `arm.yaml`",
@@ -90,97 +90,105 @@ def test_every_place_in_its_order(machine: Machine) -> None:
             ["share1/contexts/lab/arm.yaml", "user/data/contexts/lab/arm.yaml"],
             "user/data/contexts/lab/arm.yaml",
         ),
-        # The name that fits best counts more than whose file it is.
+        # The best matching name takes precedence over the owner of the folder.
         (
             ["share1/contexts/lab/left-arm.yaml", "user/data/contexts/lab/arm.yaml"],
             "share1/contexts/lab/left-arm.yaml",
         ),
         (["user/data/contexts/lab/config.yaml"], "user/data/contexts/lab/config.yaml"),
         (["share1/contexts/lab/arm.toml"], "share1/contexts/lab/arm.toml"),
-        # Only the context is asked; what else lies around is not meant.
+        # Only the context is searched; other folders do not count.
         (["work/arm.yaml", "user/data/arm.yaml", "share1/contexts/other/arm.yaml"], None),
         ([], None),
     ],
 )
-def test_a_context_without_a_file(machine: Machine, there: list[str], winner: str | None) -> None:
+def test_resolve_config_in_context_without_file_name(
+    folders: SearchFolders, there: list[str], winner: str | None
+) -> None:
     for path in there:
-        machine.put(path)
-    found = chosen(machine, "lab", "", "left-arm", "arm")
-    assert found.path == (machine.top / winner if winner else None)
+        folders.put(path)
+    found = resolve(folders, "lab", "", "left-arm", "arm")
+    assert found.path == (folders.top / winner if winner else None)
 
 
-def test_a_folder_of_the_name_is_no_file(machine: Machine) -> None:
-    (machine.work / "arm.yaml").mkdir()
-    below = machine.put("share1/arm.yaml")
-    found = chosen(machine, "", "arm.yaml")
+def test_resolve_config_skips_folder_with_file_name(folders: SearchFolders) -> None:
+    (folders.work / "arm.yaml").mkdir()
+    below = folders.put("share1/arm.yaml")
+    found = resolve(folders, "", "arm.yaml")
     assert found.path == below
     assert found.candidates[0].skip_reason == "a folder"
 
 
-def test_files_in_folders_of_a_context(machine: Machine) -> None:
-    file = machine.put("share1/contexts/lab/left/arm.yaml")
-    assert chosen(machine, "lab", "left/arm.yaml").path == file
-    assert chosen(machine, "lab/left", "", "arm").path == file
+def test_resolve_config_finds_file_in_subfolder_of_context(folders: SearchFolders) -> None:
+    file = folders.put("share1/contexts/lab/left/arm.yaml")
+    assert resolve(folders, "lab", "left/arm.yaml").path == file
+    assert resolve(folders, "lab/left", "", "arm").path == file
 
 
 @pytest.mark.parametrize(
     "context", ["../x", "/etc", "a/../b", "a//b", ".", "..", ".hidden", "a/", "a\0b", "a b", "é"]
 )
-def test_contexts_that_lead_elsewhere(machine: Machine, context: str) -> None:
-    machine.put("share1/x/arm.yaml")
+def test_resolve_config_rejects_context_outside_search_path(
+    folders: SearchFolders, context: str
+) -> None:
+    folders.put("share1/x/arm.yaml")
     with pytest.raises(ConfigError, match="is not a valid context: use letters, digits"):
-        chosen(machine, context, "", "arm")
+        resolve(folders, context, "", "arm")
 
 
 @pytest.mark.parametrize("file", ["../arm.yaml", "/etc/passwd", "a/../../x.yaml", ".", "a\0b"])
-def test_files_that_lead_elsewhere(machine: Machine, file: str) -> None:
-    machine.put("arm.yaml")
+def test_resolve_config_rejects_file_outside_search_path(folders: SearchFolders, file: str) -> None:
+    folders.put("arm.yaml")
     with pytest.raises(
         ConfigError,
         match=r"cannot be searched for: it leaves the search paths; `--config` accepts any path",
     ):
-        chosen(machine, "", file)
+        resolve(folders, "", file)
 
 
-def test_a_robot_that_leads_elsewhere(machine: Machine) -> None:
-    machine.environment["ROBOCOMP_ROBOT_NAME"] = "../../x"
+def test_resolve_config_rejects_robot_name_outside_search_path(folders: SearchFolders) -> None:
+    folders.environment["ROBOCOMP_ROBOT_NAME"] = "../../x"
     with pytest.raises(ConfigError, match=r"ROBOCOMP_ROBOT_NAME:1:1\n"):
-        chosen(machine, "", "arm.yaml")
+        resolve(folders, "", "arm.yaml")
 
 
-def test_near_names_are_told(machine: Machine) -> None:
-    machine.put("share1/contexts/laboratory/armature.yaml")
+def test_resolve_config_suggests_similar_name(folders: SearchFolders) -> None:
+    folders.put("share1/contexts/laboratory/armature.yaml")
     with pytest.raises(ConfigError, match=r"did you mean `armature\.yaml`"):
-        chosen(machine, "laboratory", "armatur.yaml")
-    assert chosen(machine, "laboratry").warnings == (
+        resolve(folders, "laboratory", "armatur.yaml")
+    assert resolve(folders, "laboratry").warnings == (
         "no folder has the context `laboratry`; did you mean `laboratory`?",
     )
 
 
-def test_xdg_folders(machine: Machine, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without variables of ours; `platformdirs` reads the process's own environment."""
+def test_search_environment_reads_xdg_variables(
+    folders: SearchFolders, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without variables of RoboComp; `platformdirs` reads the environment of the process."""
     for name in ("CONFIG_HOME", "DATA_HOME", "CONFIG_DIRS", "DATA_DIRS"):
-        listed = ":".join(str(machine.top / f"{name}{i}") for i in ("", 2)[: 1 + ("S" in name[-1])])
+        listed = ":".join(str(folders.top / f"{name}{i}") for i in ("", 2)[: 1 + ("S" in name[-1])])
         monkeypatch.setenv(f"XDG_{name}", listed)
-    around = SearchEnvironment.from_environ({}, machine.work)
-    assert around.config_home == machine.top / "CONFIG_HOME/robocomp"
-    assert around.data_home == machine.top / "DATA_HOME/robocomp"
-    assert around.config_dirs == tuple(machine.top / f"CONFIG_DIRS{i}/robocomp" for i in ("", 2))
-    assert around.data_dirs == (
-        *(machine.top / f"DATA_DIRS{i}/robocomp" for i in ("", 2)),
+    environment = SearchEnvironment.from_environ({}, folders.work)
+    assert environment.config_home == folders.top / "CONFIG_HOME/robocomp"
+    assert environment.data_home == folders.top / "DATA_HOME/robocomp"
+    assert environment.config_dirs == tuple(
+        folders.top / f"CONFIG_DIRS{i}/robocomp" for i in ("", 2)
+    )
+    assert environment.data_dirs == (
+        *(folders.top / f"DATA_DIRS{i}/robocomp" for i in ("", 2)),
         Path(sys.prefix) / "share/robocomp",
     )
-    assert around.robot == "default"
+    assert environment.robot == "default"
 
 
-def test_drop_ins(machine: Machine) -> None:
-    machine.put("share1/path.d/b.yaml", f"path: [{machine.top}/two, three]\n")
-    machine.put("user/config/path.d/more.conf", "")  # shadows that of `share2`
-    machine.put("two/path.d/x.conf", str(machine.top / "never"))  # not searched again
+def test_resolve_config_searches_path_drop_ins(folders: SearchFolders) -> None:
+    folders.put("share1/path.d/b.yaml", f"path: [{folders.top}/two, three]\n")
+    folders.put("user/config/path.d/more.conf", "")  # shadows that of `share2`
+    folders.put("two/path.d/x.conf", str(folders.top / "never"))  # not searched again
     for folder in ("two", "share1/path.d/three", "dropped", "never"):
-        machine.put(f"{folder}/contexts/lab/{Path(folder).name}.yaml")
+        folders.put(f"{folder}/contexts/lab/{Path(folder).name}.yaml")
     for name, there in {"two": True, "three": True, "dropped": False, "never": False}.items():
-        assert bool(chosen(machine, "lab", "", name).path) is there, name
+        assert bool(resolve(folders, "lab", "", name).path) is there, name
 
 
 @pytest.mark.parametrize(
@@ -194,19 +202,19 @@ def test_drop_ins(machine: Machine) -> None:
         ("a.conf", "ok\n  ~nobody-at-all/x\n", "a.conf:2:3"),
     ],
 )
-def test_wrong_drop_ins_are_told_and_the_rest_counts(
-    machine: Machine, name: str, text: str, message: str
+def test_resolve_config_warns_of_bad_drop_in_and_continues(
+    folders: SearchFolders, name: str, text: str, message: str
 ) -> None:
-    machine.put(f"user/config/path.d/{name}", text)
-    machine.put("dropped/contexts/lab/arm.yaml")
-    found = chosen(machine, "lab", "", "arm")
+    folders.put(f"user/config/path.d/{name}", text)
+    folders.put("dropped/contexts/lab/arm.yaml")
+    found = resolve(folders, "lab", "", "arm")
     assert found.path
     assert len(found.warnings) == 1
     assert message in found.warnings[0]
 
 
 @pytest.mark.parametrize(
-    ("there", "file", "keeps"),
+    ("there", "file", "save_path"),
     [
         ("work/etc/arm.yaml", "arm.yaml", "work/etc/arm.yaml"),
         ("user/data/contexts/lab/arm.yaml", "", "user/data/contexts/lab/arm.yaml"),
@@ -218,6 +226,8 @@ def test_wrong_drop_ins_are_told_and_the_rest_counts(
         ("work/other.yaml", "", "user/data/contexts/lab/arm.yaml"),
     ],
 )
-def test_where_live_values_are_kept(machine: Machine, there: str, file: str, keeps: str) -> None:
-    machine.put(there)
-    assert chosen(machine, "lab", file, "left-arm", "arm").save_beside == machine.top / keeps
+def test_resolve_config_selects_folder_for_saved_values(
+    folders: SearchFolders, there: str, file: str, save_path: str
+) -> None:
+    folders.put(there)
+    assert resolve(folders, "lab", file, "left-arm", "arm").save_beside == folders.top / save_path

@@ -1,4 +1,4 @@
-"""Programs that search for their configuration, keep live values, and run under prefixes."""
+"""Programs that search for their configuration, save live values, and run under prefixes."""
 
 from __future__ import annotations
 
@@ -11,16 +11,7 @@ from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-
-from robocomp_dsl.runtime.component.settings import (
-    InvalidSetting,
-    RunSettings,
-    parse_peer,
-    parse_prefix,
-    parse_remaps,
-)
-from tests.runtime.config_machine import Machine
+from tests.runtime.search_folders import SearchFolders
 
 PROGRAM = """
 from robocomp_dsl.runtime import Component, ComponentSpec, ServedPort, main
@@ -44,18 +35,18 @@ raise SystemExit(main(C))
 
 
 @pytest.fixture
-def machine(tmp_path: Path) -> Machine:
-    computer = Machine(tmp_path)
-    computer.put("work/main.py", PROGRAM)
-    return computer
+def folders(tmp_path: Path) -> SearchFolders:
+    search_folders = SearchFolders(tmp_path)
+    search_folders.put("work/main.py", PROGRAM)
+    return search_folders
 
 
-def run(machine: Machine, *arguments: str) -> tuple[int, str, str]:
+def run(folders: SearchFolders, *arguments: str) -> tuple[int, str, str]:
     domain = f"test-{uuid.uuid4().hex[:8]}"
     done = subprocess.run(
         [sys.executable, "main.py", "--domain", domain, *arguments],
-        cwd=machine.work,
-        env=os.environ | machine.environment,
+        cwd=folders.work,
+        env=os.environ | folders.environment,
         capture_output=True,
         text=True,
         timeout=60,
@@ -64,86 +55,86 @@ def run(machine: Machine, *arguments: str) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-def test_without_options_all_is_as_ever(machine: Machine) -> None:
-    machine.put("share1/config.yaml", "rate: 3\n")
-    assert run(machine)[1] == "rate 50.0 as arm\n"
-    machine.put("work/etc/config.yaml", "rate: 2\n")
-    _, out, err = run(machine, "--verbose-search")
+def test_program_without_options_reads_default_config(folders: SearchFolders) -> None:
+    folders.put("share1/config.yaml", "rate: 3\n")
+    assert run(folders)[1] == "rate 50.0 as arm\n"
+    folders.put("work/etc/config.yaml", "rate: 2\n")
+    _, out, err = run(folders, "--verbose-search")
     assert out == "rate 2.0 as arm\n"
     assert "configuration etc/config.yaml; no search: neither --context nor --config-name" in err
 
 
-def test_a_context_wins_over_the_default(machine: Machine) -> None:
-    machine.put("work/etc/config.yaml", "rate: 2\n")
-    file = machine.put("share1/contexts/lab/arm.yaml", "rate: 7\n")
-    code, out, err = run(machine, "--context", "lab")
+def test_program_context_takes_precedence_over_default_config(folders: SearchFolders) -> None:
+    folders.put("work/etc/config.yaml", "rate: 2\n")
+    file = folders.put("share1/contexts/lab/arm.yaml", "rate: 7\n")
+    code, out, err = run(folders, "--context", "lab")
     assert (code, out) == (0, "rate 7.0 as arm\n")
     assert f"configuration {file} (installed, contexts/lab)" in err
     assert "looked for" not in err
-    mine = machine.put("user/data/contexts/lab/arm.yaml", "rate: 8\n")
-    code, out, err = run(machine, "--context", "lab", "--verbose-search")
+    mine = folders.put("user/data/contexts/lab/arm.yaml", "rate: 8\n")
+    code, out, err = run(folders, "--context", "lab", "--verbose-search")
     assert out == "rate 8.0 as arm\n"
     assert f"candidate {mine} (user, contexts/lab): used" in err
     assert f"candidate {file} (installed, contexts/lab): shadowed" in err
     assert ": not found\n" in err
 
 
-def test_a_context_without_a_file_for_it(machine: Machine) -> None:
-    machine.put("share1/contexts/lab/base.yaml")
-    machine.put("work/etc/config.yaml", "rate: 2\n")
-    code, out, err = run(machine, "--context", "lab")
+def test_program_context_without_file_uses_default_config(folders: SearchFolders) -> None:
+    folders.put("share1/contexts/lab/base.yaml")
+    folders.put("work/etc/config.yaml", "rate: 2\n")
+    code, out, err = run(folders, "--context", "lab")
     assert (code, out) == (0, "rate 2.0 as arm\n")
     assert "context lab has no configuration for this component; using etc/config.yaml" in err
-    code, _, err = run(machine, "--context", "labb")
+    code, _, err = run(folders, "--context", "labb")
     assert "warning: no folder has the context `labb`; did you mean `lab`?" in err
 
 
-def test_a_file_that_is_nowhere(machine: Machine) -> None:
-    machine.put("share1/arm.yaml")
-    code, out, err = run(machine, "--config-name", "amr.yaml")
+def test_program_reports_config_not_found(folders: SearchFolders) -> None:
+    folders.put("share1/arm.yaml")
+    code, out, err = run(folders, "--config-name", "amr.yaml")
     assert (code, out) == (1, "")
     assert "error: configuration not found: `amr.yaml`\n  --> --config-name:1:1" in err
     assert "did you mean `arm.yaml`" in err
-    assert f"  {machine.top}/share2/amr.yaml (installed): not found" in err
+    assert f"  {folders.top}/share2/amr.yaml (installed): not found" in err
     assert "Traceback" not in err
 
 
-def test_what_is_wrong_in_a_file_that_was_found_is_told_there(machine: Machine) -> None:
-    file = machine.put("share1/arm.yaml", "rat: 1\n")
-    code, _, err = run(machine, "--config-name", "arm.yaml")
+def test_program_locates_error_in_found_config(folders: SearchFolders) -> None:
+    file = folders.put("share1/arm.yaml", "rat: 1\n")
+    code, _, err = run(folders, "--config-name", "arm.yaml")
     assert code == 1
     assert f"--> {file}:1:1" in err
 
 
-def test_values_of_an_installed_configuration_are_kept_with_the_user(machine: Machine) -> None:
-    machine.put("share1/contexts/lab/arm.yaml", "rate: 7\n")
-    code, out, _ = run(machine, "--context", "lab", "--set", "keep=9")
-    saved = machine.top / "user/data/contexts/lab/arm.saved.yaml"
+def test_program_saves_values_of_installed_config_in_user_folder(folders: SearchFolders) -> None:
+    folders.put("share1/contexts/lab/arm.yaml", "rate: 7\n")
+    code, out, _ = run(folders, "--context", "lab", "--set", "keep=9")
+    saved = folders.top / "user/data/contexts/lab/arm.saved.yaml"
     assert (code, out) == (0, f"rate 7.0 as arm\nkept {saved}\n")
     assert saved.is_file()
-    assert run(machine, "--context", "lab")[1] == "rate 9.0 as arm\n"
-    assert [p.name for p in (machine.top / "share1/contexts/lab").iterdir()] == ["arm.yaml"]
-    assert run(machine)[1] == "rate 50.0 as arm\n"
+    assert run(folders, "--context", "lab")[1] == "rate 9.0 as arm\n"
+    assert [p.name for p in (folders.top / "share1/contexts/lab").iterdir()] == ["arm.yaml"]
+    assert run(folders)[1] == "rate 50.0 as arm\n"
 
 
-def test_copies_keep_their_own_values(machine: Machine) -> None:
-    machine.put("work/etc/config.yaml", "rate: 2\n")
+def test_program_saves_values_per_prefix(folders: SearchFolders) -> None:
+    folders.put("work/etc/config.yaml", "rate: 2\n")
     for prefix, value in (("left", 3), ("/right/", 4)):
-        out = run(machine, "--prefix", prefix, "--set", f"keep={value}")[1]
+        out = run(folders, "--prefix", prefix, "--set", f"keep={value}")[1]
         assert out.startswith(f"rate 2.0 as {prefix.strip('/')}/arm\n")
-    assert run(machine, "--prefix", "left")[1] == "rate 3.0 as left/arm\n"
-    assert run(machine, "--prefix", "right")[1] == "rate 4.0 as right/arm\n"
-    assert run(machine)[1] == "rate 2.0 as arm\n"
+    assert run(folders, "--prefix", "left")[1] == "rate 3.0 as left/arm\n"
+    assert run(folders, "--prefix", "right")[1] == "rate 4.0 as right/arm\n"
+    assert run(folders)[1] == "rate 2.0 as arm\n"
 
 
-def test_the_file_of_an_instance(machine: Machine) -> None:
-    machine.put("share1/contexts/lab/arm.yaml", "rate: 1\n")
-    machine.put("share1/contexts/lab/second.yaml", "rate: 2\n")
-    machine.put("share1/contexts/lab/left/arm.yaml", "rate: 3\n")
+def test_program_prefers_config_of_instance_name(folders: SearchFolders) -> None:
+    folders.put("share1/contexts/lab/arm.yaml", "rate: 1\n")
+    folders.put("share1/contexts/lab/second.yaml", "rate: 2\n")
+    folders.put("share1/contexts/lab/left/arm.yaml", "rate: 3\n")
     lab = ("--context", "lab")
-    assert run(machine, *lab, "--name", "second")[1] == "rate 2.0 as second\n"
-    assert run(machine, *lab, "--prefix", "left")[1] == "rate 3.0 as left/arm\n"
-    assert run(machine, *lab, "--prefix", "right")[1] == "rate 1.0 as right/arm\n"
+    assert run(folders, *lab, "--name", "second")[1] == "rate 2.0 as second\n"
+    assert run(folders, *lab, "--prefix", "left")[1] == "rate 3.0 as left/arm\n"
+    assert run(folders, *lab, "--prefix", "right")[1] == "rate 1.0 as right/arm\n"
 
 
 @pytest.mark.parametrize(
@@ -163,64 +154,14 @@ def test_the_file_of_an_instance(machine: Machine) -> None:
         (["--remap", "A=x", "--remap", "A=y"], 2, "`A` has two names, x and y"),
     ],
 )
-def test_wrong_options(machine: Machine, arguments: list[str], code: int, message: str) -> None:
-    ended, out, err = run(machine, *arguments)
+def test_program_rejects_wrong_options(
+    folders: SearchFolders, arguments: list[str], code: int, message: str
+) -> None:
+    ended, out, err = run(folders, *arguments)
     assert (ended, out) == (code, "")
     assert message in re.sub(r"\s+", " ", err)
     assert "Traceback" not in err
 
 
-def test_two_ports_may_change_their_names(machine: Machine) -> None:
-    assert run(machine, "--remap", "A=B", "--remap", "B=A")[0] == 0
-
-
-@pytest.mark.parametrize(
-    ("prefix", "wires", "remaps", "peers"),
-    [
-        ("", (), {}, ()),
-        ("left", (), {}, ()),
-        ("", ("base",), {}, ("base",)),
-        ("left", ("base",), {}, ("left/base",)),
-        ("left", ("base.Front",), {}, ("left/base.Front",)),
-        (
-            "left",
-            ("/base", "hand/base", "/right/base"),
-            {},
-            ("base", "left/hand/base", "right/base"),
-        ),
-        ("left", (), {"Laser": "scan"}, ("*.scan",)),
-        ("left", ("base", "/b.Front"), {"Laser": "scan"}, ("left/base.scan", "b.Front")),
-    ],
-)
-def test_peers_under_a_prefix(
-    prefix: str, wires: tuple[str, ...], remaps: dict[str, str], peers: tuple[str, ...]
-) -> None:
-    settings = RunSettings(
-        prefix=prefix, connections={"Laser": wires} if wires else {}, remaps=remaps
-    )
-    assert settings.peers_of("Laser") == peers
-
-
-@pytest.mark.parametrize(
-    ("text", "prefix"), [("left", "left"), ("/left/hand/", "left/hand"), ("/", ""), ("", "")]
-)
-def test_prefixes(text: str, prefix: str) -> None:
-    assert parse_prefix(text) == prefix
-
-
-@pytest.mark.parametrize("text", ["a//b", "a b", "*", "a/*", "/".join("abcdefghi"), "é"])
-def test_prefixes_that_are_none(text: str) -> None:
-    with pytest.raises(InvalidSetting):
-        parse_prefix(text)
-
-
-@pytest.mark.parametrize("text", ["", "/", "//a", "a/", "a//b", "*", "*.x", "../a"])
-def test_peers_that_are_none(text: str) -> None:
-    with pytest.raises(InvalidSetting):
-        parse_peer(text)
-
-
-@pytest.mark.parametrize("text", ["", "A=", "=x", "A=a/b", "A=*", "A=1", "A"])
-def test_remaps_that_are_none(text: str) -> None:
-    with pytest.raises(InvalidSetting):
-        parse_remaps([text])
+def test_program_remap_may_swap_port_names(folders: SearchFolders) -> None:
+    assert run(folders, "--remap", "A=B", "--remap", "B=A")[0] == 0

@@ -1,4 +1,4 @@
-"""Files that parameters name: where they are looked for, and what is said where they are not."""
+"""Files that parameters name: the search path, and the message when there is no such file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PLACES = (  # in the order of the search, below a folder of the test
 )
 
 
-def machine(folder: Path):
+def search_environment(folder: Path):
     for place in PLACES:
         (folder / place).mkdir(parents=True, exist_ok=True)
     environment = {
@@ -35,45 +35,45 @@ def machine(folder: Path):
     return SearchEnvironment.from_environ(environment, folder / "working")
 
 
-def found(name: str, folder: Path) -> Path:
-    return data_file(name, "map", folder / "beside" / "config.yaml", machine(folder))
+def find_beside_config(name: str, folder: Path) -> Path:
+    return data_file(name, "map", folder / "beside" / "config.yaml", search_environment(folder))
 
 
 @pytest.mark.parametrize("first", range(len(PLACES)))
-def test_the_first_place_that_has_it_wins(first: int, tmp_path: Path) -> None:
-    around = machine(tmp_path)
+def test_data_file_returns_first_match_of_search_path(first: int, tmp_path: Path) -> None:
+    environment = search_environment(tmp_path)
     for place in PLACES[first:]:
         (tmp_path / place / "map.yaml").write_text(place)
-    path = data_file("map.yaml", "map", tmp_path / "beside" / "config.yaml", around)
+    path = data_file("map.yaml", "map", tmp_path / "beside" / "config.yaml", environment)
     assert path == tmp_path / PLACES[first] / "map.yaml"
 
 
-def test_without_a_configuration_the_working_folder_is_first(tmp_path: Path) -> None:
-    around = machine(tmp_path)
+def test_data_file_without_config_searches_working_folder_first(tmp_path: Path) -> None:
+    environment = search_environment(tmp_path)
     (tmp_path / "working" / "map.yaml").write_text("")
-    assert data_file("map.yaml", "map", None, around) == tmp_path / "working" / "map.yaml"
+    assert data_file("map.yaml", "map", None, environment) == tmp_path / "working" / "map.yaml"
 
 
 @pytest.mark.parametrize("name", ["{}/far/map.yaml", "../far/map.yaml", "../far/../far/map.yaml"])
-def test_paths_that_lead_somewhere_are_taken_as_they_are(name: str, tmp_path: Path) -> None:
+def test_data_file_accepts_explicit_path(name: str, tmp_path: Path) -> None:
     (tmp_path / "far").mkdir()
     (tmp_path / "far" / "map.yaml").write_text("")
-    path = found(name.format(tmp_path), tmp_path)
+    path = find_beside_config(name.format(tmp_path), tmp_path)
     assert path.resolve() == tmp_path / "far" / "map.yaml"
 
 
-def test_the_home_folder_is_known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_data_file_expands_home_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HOME", str(tmp_path))
     (tmp_path / "map.yaml").write_text("")
-    assert found("~/map.yaml", tmp_path) == tmp_path / "map.yaml"
+    assert find_beside_config("~/map.yaml", tmp_path) == tmp_path / "map.yaml"
 
 
-def test_what_is_nowhere_is_told_with_every_place_and_the_nearest_name(tmp_path: Path) -> None:
+def test_data_file_not_found_lists_folders_and_similar_name(tmp_path: Path) -> None:
     (tmp_path / "home").mkdir()
     (tmp_path / "home" / "mapp.yaml").write_text("")
     (tmp_path / "home" / "other.toml").write_text("")
     with pytest.raises(ConfigError) as caught:
-        found("map.yaml", tmp_path)
+        find_beside_config("map.yaml", tmp_path)
     message = str(caught.value)
     assert "file not found: `map.yaml`" in message
     assert "parameter map:1:1" in message
@@ -83,7 +83,7 @@ def test_what_is_nowhere_is_told_with_every_place_and_the_nearest_name(tmp_path:
 
 
 @pytest.mark.parametrize("name", ["", ".", "/", "..", "a\0b", "x" * 300, "folder"])
-def test_names_that_can_be_no_file(name: str, tmp_path: Path) -> None:
+def test_data_file_rejects_name_that_is_no_file(name: str, tmp_path: Path) -> None:
     (tmp_path / "beside" / "folder").mkdir(parents=True)
     with pytest.raises(ConfigError, match="file not found"):
-        found(name, tmp_path)
+        find_beside_config(name, tmp_path)

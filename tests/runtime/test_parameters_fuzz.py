@@ -1,4 +1,4 @@
-"""Whatever a file, a command line or a caller says: values within their ranges, or findings."""
+"""Random files, overrides and changes give values within their ranges, or findings."""
 
 from __future__ import annotations
 
@@ -80,17 +80,17 @@ RELAXED = settings(
 )
 
 
-def judged(path: Path, overrides: list[str]) -> None:
-    found = loaded(path, overrides)
+def assert_loads_or_reports(path: Path, overrides: list[str]) -> None:
+    found = load_or_error(path, overrides)
     if isinstance(found, Params):
         assert_sound(found)
         return
     assert found.findings
-    assert all(f.place.line >= 1 and f.place.column >= 1 for f in found.findings)
+    assert all(f.location.line >= 1 and f.location.column >= 1 for f in found.findings)
     assert "error: " in str(found)
 
 
-def loaded(path: Path, overrides: list[str]) -> Params | ConfigError:
+def load_or_error(path: Path, overrides: list[str]) -> Params | ConfigError:
     try:
         return Params.load(path, overrides)
     except ConfigError as error:
@@ -103,18 +103,22 @@ def loaded(path: Path, overrides: list[str]) -> Params | ConfigError:
     overrides=st.lists(st.builds("{}={}".format, st.sampled_from(NAMES), SCALARS), max_size=3),
     suffix=st.sampled_from([".yaml", ".toml"]),
 )
-def test_texts(tmp_path: Path, lines: list[str], overrides: list[str], suffix: str) -> None:
+def test_parameters_load_gives_sound_values_or_findings_for_random_text(
+    tmp_path: Path, lines: list[str], overrides: list[str], suffix: str
+) -> None:
     path = tmp_path / f"config{suffix}"
     path.write_text("\n".join(lines), encoding="utf-8", errors="surrogatepass")
-    judged(path, overrides)
+    assert_loads_or_reports(path, overrides)
 
 
 @RELAXED
 @given(data=st.binary(max_size=200), suffix=st.sampled_from([".yaml", ".toml"]))
-def test_bytes(tmp_path: Path, data: bytes, suffix: str) -> None:
+def test_parameters_load_gives_sound_values_or_findings_for_random_bytes(
+    tmp_path: Path, data: bytes, suffix: str
+) -> None:
     path = tmp_path / f"config{suffix}"
     path.write_bytes(data)
-    judged(path, [])
+    assert_loads_or_reports(path, [])
 
 
 OBJECTS = st.one_of(
@@ -126,10 +130,10 @@ OBJECTS = st.one_of(
 
 @RELAXED
 @given(changes=st.dictionaries(st.sampled_from(NAMES), OBJECTS, max_size=4))
-def test_live_changes(changes: dict[str, Any]) -> None:
+def test_parameters_set_applies_or_rejects_random_changes(changes: dict[str, Any]) -> None:
     params = Params.load(None, ["joints[0].name=x"])
     before = params.values()
-    reason = refused(params, changes)
+    reason = rejection_reason(params, changes)
     if reason is None:
         assert all(name in before for name in changes)
     else:
@@ -138,7 +142,7 @@ def test_live_changes(changes: dict[str, Any]) -> None:
     assert_sound(params)
 
 
-def refused(params: Params, changes: dict[str, Any]) -> str | None:
+def rejection_reason(params: Params, changes: dict[str, Any]) -> str | None:
     try:
         params.set(changes)
     except ParameterRejected as refusal:

@@ -1,4 +1,4 @@
-"""Live changes: all or none, with the say of the worker, and seen whole by other threads."""
+"""Live changes: atomic, with hooks of the worker, and consistent for other threads."""
 
 from __future__ import annotations
 
@@ -63,7 +63,9 @@ def params() -> Params:
         ({}, {}),
     ],
 )
-def test_a_change_is_seen(params: Params, change: dict[str, Any], expected: dict[str, Any]) -> None:
+def test_parameters_set_changes_values(
+    params: Params, change: dict[str, Any], expected: dict[str, Any]
+) -> None:
     before = params.values()
     params.set(change)
     assert params.values() == {**before, **expected}
@@ -93,7 +95,7 @@ def test_a_change_is_seen(params: Params, change: dict[str, Any], expected: dict
         ({"motors": []}, "`motors` is a group: change one of its members, as in `motors[0].name`"),
     ],
 )
-def test_a_refused_value_changes_nothing(
+def test_parameters_set_rejects_whole_change_with_invalid_value(
     params: Params, change: dict[str, Any], reason: str
 ) -> None:
     before = params.values()
@@ -103,20 +105,20 @@ def test_a_refused_value_changes_nothing(
     assert params.values() == before
 
 
-def test_all_reasons_are_told_at_once(params: Params) -> None:
+def test_parameters_set_reports_all_reasons_at_once(params: Params) -> None:
     with pytest.raises(ParameterRejected) as caught:
         params.set({"rate": 0, "count": 99, "device": "y"})
     assert len(caught.value.reason.splitlines()) == 3
 
 
-def test_texts_are_understood_as_on_a_command_line(params: Params) -> None:
+def test_parameters_set_text_parses_as_command_line(params: Params) -> None:
     params.set_text({"rate": "1e2", "on": "yes", "label": "5", "motors[0].max": "3"})
     assert (params.rate, params.on, params.label, params.motors[0].max) == (100.0, True, "5", 3.0)
     with pytest.raises(ParameterRejected, match="must be a number"):
         params.set_text({"rate": "fast"})
 
 
-def test_assignment_is_refused_with_the_right_way(params: Params) -> None:
+def test_parameters_reject_assignment_and_suggest_set(params: Params) -> None:
     with pytest.raises(AttributeError, match=r'self\.params\.set\(\{"rate": 3\}\)'):
         params.rate = 3
     with pytest.raises(AttributeError, match="cannot be assigned"):
@@ -127,7 +129,7 @@ def test_assignment_is_refused_with_the_right_way(params: Params) -> None:
 
 
 class Worker:
-    """Records what it is asked and told."""
+    """Records the calls of its hooks."""
 
     def __init__(self, params: Params) -> None:
         self.params = params
@@ -158,7 +160,7 @@ class Worker:
         raise ValueError("a bug of the user")
 
 
-def test_hooks_are_asked_before_and_told_after(params: Params) -> None:
+def test_parameters_set_calls_will_set_before_and_did_set_after(params: Params) -> None:
     worker = Worker(params)
     params.set({"rate": 20, "motors[1].min": -2, "label": ""})
     assert worker.log == [
@@ -177,7 +179,7 @@ def test_hooks_are_asked_before_and_told_after(params: Params) -> None:
         ({"motors[0].min": 5}, "min must be below max"),
     ],
 )
-def test_a_hook_refuses_the_whole_change(
+def test_will_set_hook_rejects_whole_change(
     params: Params, change: dict[str, Any], reason: str
 ) -> None:
     before = params.values()
@@ -189,13 +191,13 @@ def test_a_hook_refuses_the_whole_change(
     assert not any(entry[0].startswith("did") for entry in worker.log)
 
 
-def test_several_change_together_where_one_alone_would_be_refused(params: Params) -> None:
+def test_parameters_set_validates_combined_change(params: Params) -> None:
     Worker(params)
     params.set({"motors[0].min": 5, "motors[0].max": 6})
     assert (params.motors[0].min, params.motors[0].max) == (5.0, 6.0)
 
 
-def test_a_failing_did_set_is_logged_and_the_change_stays(
+def test_failing_did_set_hook_is_logged_and_change_stays(
     params: Params, caplog: pytest.LogCaptureFixture
 ) -> None:
     Worker(params)
@@ -204,7 +206,7 @@ def test_a_failing_did_set_is_logged_and_the_change_stays(
     assert "did_set of `count` failed" in caplog.text
 
 
-def test_descriptions(params: Params) -> None:
+def test_parameters_describe_lists_attributes(params: Params) -> None:
     rows = {row.name: row for row in params.describe()}
     assert list(rows)[-3:] == ["motors[1].name", "motors[1].min", "motors[1].max"]
     rate = rows["rate"]
@@ -216,7 +218,7 @@ def test_descriptions(params: Params) -> None:
     assert rows["motors[0].name"].default is None
 
 
-def test_values_never_shows_half_of_a_change(params: Params) -> None:
+def test_parameters_values_is_atomic(params: Params) -> None:
     stop = threading.Event()
     torn: list[tuple[Any, Any]] = []
 
@@ -238,7 +240,7 @@ def test_values_never_shows_half_of_a_change(params: Params) -> None:
     assert torn == []
 
 
-def test_a_parameter_may_be_set_from_its_own_hook(params: Params) -> None:
+def test_parameters_set_may_be_called_from_did_set_hook(params: Params) -> None:
     class Clamp:
         def did_set_rate(self, old: float) -> None:
             if params.rate > 100:

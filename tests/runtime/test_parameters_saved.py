@@ -1,4 +1,4 @@
-"""Live values that are kept: beside the configuration, above it, below the command line."""
+"""Saved live values: they override the configuration, and the command line overrides them."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ def load(config: Path, *overrides: str) -> Params:
     return Params.load(config, overrides, save_beside=config)
 
 
-def test_what_was_changed_is_there_again(config: Path) -> None:
+def test_saved_parameters_are_loaded_again(config: Path) -> None:
     params = load(config)
     params.set({"rate": 20, "motors[0].min": -3, "label": 'a "b" # c: \n é', "on": True})
-    assert load(config).rate == 30, "nothing is kept that nobody asked for"
+    assert load(config).rate == 30, "only `save` writes a file"
     assert params.save() == saved_path(config)
     again = load(config)
     assert (again.rate, again.motors[0].min, again.on) == (20.0, -3.0, True)
@@ -43,7 +43,7 @@ def test_what_was_changed_is_there_again(config: Path) -> None:
     ]
 
 
-def test_what_was_kept_before_is_kept_on(config: Path) -> None:
+def test_saved_parameters_keep_earlier_values(config: Path) -> None:
     first = load(config)
     first.set({"rate": 20})
     first.save()
@@ -56,7 +56,9 @@ def test_what_was_kept_before_is_kept_on(config: Path) -> None:
 
 
 @given(value=st.floats(1, 1000), text=st.text(st.characters(codec="utf-8"), max_size=20))
-def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text: str) -> None:
+def test_saved_parameters_round_trip_random_values(
+    tmp_path_factory: pytest.TempPathFactory, value: float, text: str
+) -> None:
     config = tmp_path_factory.mktemp("any") / "c.yaml"
     config.write_text(CONFIG)
     params = load(config)
@@ -81,7 +83,9 @@ def test_any_value(tmp_path_factory: pytest.TempPathFactory, value: float, text:
         ("rate: {\n", "config.saved.yaml"),
     ],
 )
-def test_a_damaged_file_is_a_located_finding(config: Path, text: str, message: str) -> None:
+def test_saved_parameters_report_damaged_file_with_position(
+    config: Path, text: str, message: str
+) -> None:
     saved_path(config).write_text(text)
     with pytest.raises(ConfigError) as caught:
         load(config)
@@ -89,7 +93,7 @@ def test_a_damaged_file_is_a_located_finding(config: Path, text: str, message: s
     assert "config.saved.yaml:" in str(caught.value)
 
 
-def test_no_place_for_it(config: Path, tmp_path: Path) -> None:
+def test_save_without_writable_file_is_rejected(config: Path, tmp_path: Path) -> None:
     with pytest.raises(ParameterRejected, match="without a file"):
         Params.load(config).save()
     blocked = tmp_path / "file"

@@ -17,7 +17,7 @@ module Sums
 {
     exception TooMany { int limit; };
     struct Numbers { int a; int b; };
-    interface Adder { int add(Numbers given) throws TooMany; };
+    interface Adder { int add(Numbers numbers) throws TooMany; };
 };
 """
 CDSL = """\
@@ -35,10 +35,10 @@ from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 
 class Adder(AdderBase):
-    def Adder_add(self, given: served.Numbers) -> int:
-        if given.a > 9:
+    def Adder_add(self, numbers: served.Numbers) -> int:
+        if numbers.a > 9:
             raise served.TooMany(limit=9)
-        return given.a + given.b
+        return numbers.a + numbers.b
 
 class Asker(AskerBase):
     def initialize(self):

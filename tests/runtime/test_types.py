@@ -29,7 +29,7 @@ def pose(last: float = 2.0) -> Pose:
     return Pose(np.array([1.0, last]), "a", {"b": np.array([3], np.int32)})
 
 
-def test_structs_compare_by_value() -> None:
+def test_struct_compares_by_value() -> None:
     assert pose() == pose()
     assert pose() != pose(3.0)
     assert pose() != HardwareFailed("a")
@@ -37,31 +37,31 @@ def test_structs_compare_by_value() -> None:
     assert hash(Pose([1.0, 2.0])) == hash(Pose(np.array([1.0, 2.0])))  # type: ignore[arg-type]
 
 
-def test_structs_are_slotted() -> None:
+def test_struct_rejects_unknown_attribute() -> None:
     with pytest.raises(AttributeError):
         pose().joint = 5  # type: ignore[attr-defined]
 
 
-def test_structs_are_shown_as_they_are_made() -> None:
+def test_struct_repr_is_constructor_call() -> None:
     assert repr(pose()) == "Pose(joints=[1.0, 2.0], None_='a', parts={'b': [3]})"
     assert "… 100 float64]" in repr(Pose(np.zeros(100)))
 
 
 @pytest.mark.parametrize("value", [pose(), HardwareFailed("x")], ids=["struct", "exception"])
-def test_records_are_copied_and_pickled(value: Any) -> None:
+def test_struct_and_exception_are_copied_and_pickled(value: Any) -> None:
     for again in (copy.copy(value), copy.deepcopy(value), pickle.loads(pickle.dumps(value))):
         assert again == value
         assert type(again) is type(value)
 
 
-def test_declared_exceptions_are_raised_and_told() -> None:
+def test_declared_exception_message_shows_fields() -> None:
     with pytest.raises(HardwareFailed) as caught:
         raise HardwareFailed(what="motor 3")
     assert str(caught.value) == "HardwareFailed(what='motor 3')"
     assert caught.value == HardwareFailed("motor 3")
 
 
-def test_struct_fields_have_the_names_of_the_wire() -> None:
+def test_struct_fields_use_names_of_idsl() -> None:
     assert Pose._names_ == ("joints", "None_", "parts")
     assert [name for name, _ in Pose._fields_] == ["joints", "None", "parts"]
     assert dict(Pose._fields_)["parts"] == rt.Dictionary(rt.STRING, rt.Array(rt.INT))
@@ -90,7 +90,7 @@ def test_struct_is_constructed_by_position_and_by_name() -> None:
             assert (low, high) == (1, 2)
 
 
-def test_struct_subclass_of_a_user_has_the_fields_of_the_struct() -> None:
+def test_struct_subclass_of_user_inherits_fields() -> None:
     class Marked(Pose):
         mark: int
 
@@ -106,14 +106,14 @@ def wrong(**annotations: Any) -> Any:
     return type("Wrong", (rt.Struct,), {"__annotations__": annotations, "__module__": __name__})
 
 
-def test_struct_takes_types_of_idsl_only() -> None:
+def test_struct_rejects_annotation_that_is_no_idsl_type() -> None:
     with pytest.raises(TypeError, match=r"float.* is no type of IDSL"):
         wrong(x=float)
     with pytest.raises(TypeError, match="must be defined above"):
         wrong(x="Missing")
 
 
-def test_struct_refuses_a_default_that_structs_would_share() -> None:
+def test_struct_rejects_shared_mutable_default() -> None:
     class Shared(rt.Struct):
         names: list[rt.String] = []  # noqa: RUF012 - that is the mistake
 
@@ -133,7 +133,7 @@ def test_struct_refuses_a_default_that_structs_would_share() -> None:
         lambda: rt.Dictionary(rt.Array(rt.INT), rt.INT),
     ],
 )
-def test_types_that_do_not_exist(make: Any) -> None:
+def test_container_types_reject_invalid_element(make: Any) -> None:
     with pytest.raises(TypeError):
         make()
 
@@ -149,7 +149,7 @@ def interface(**changed: Any) -> rt.Interface:
     return rt.Interface("Arm::Arm", rt.Operation(**{**spec, **changed}))
 
 
-def test_equal_shapes_have_equal_hashes_whatever_their_types_are_called() -> None:
+def test_interface_hash_ignores_type_names() -> None:
     assert interface().hash == interface().hash
     assert len(interface().hash) == 8
     assert interface(idempotent=True).hash == interface().hash
@@ -172,23 +172,23 @@ def test_equal_shapes_have_equal_hashes_whatever_their_types_are_called() -> Non
         {"throws": (struct_of([rt.INT], rt.DeclaredError),)},
     ],
 )
-def test_the_hash_sees_a_change(changed: dict[str, Any]) -> None:
+def test_interface_hash_detects_change(changed: dict[str, Any]) -> None:
     assert interface(**changed).hash != interface().hash
 
 
-def test_the_hash_is_that_of_other_processes() -> None:
+def test_interface_hash_is_stable_across_releases() -> None:
     # Fixed here, for components of different releases of this project must understand each other.
     operation = rt.Operation("stop", rt.Pattern.COMMAND, inputs=(("hard", rt.BOOL),))
     assert rt.Interface("A::B", operation).hash.hex() == "f63fcdb396d27f2d"
 
 
-def test_the_order_of_operations_means_nothing() -> None:
+def test_interface_hash_ignores_order_of_operations() -> None:
     first, second = rt.Operation("a", rt.Pattern.QUERY), rt.Operation("b", rt.Pattern.QUERY)
     assert rt.Interface("A::B", first, second).hash == rt.Interface("A::B", second, first).hash
     assert rt.Interface("A::B", first, second).operation("b") is second
 
 
-def test_types_load_nothing_heavy() -> None:
+def test_types_module_imports_nothing_heavy() -> None:
     code = "import sys, robocomp_dsl.runtime.types; print(*sys.modules)"
     loaded = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True

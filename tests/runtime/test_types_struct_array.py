@@ -44,7 +44,7 @@ def contacts(count: int = 3) -> Contacts:
     return Contacts([Contact(i, Point(i, -i), Mode.On, i % 2 == 1) for i in range(count)])
 
 
-def test_a_row_is_a_live_view_of_the_array() -> None:
+def test_struct_array_row_is_live_view() -> None:
     rows = contacts()
     row = rows[1]
     assert isinstance(row, Contact)
@@ -60,14 +60,14 @@ def test_a_row_is_a_live_view_of_the_array() -> None:
     ("name", "value"),
     [("id", 256), ("id", 1.5), ("mode", 1), ("firm", "no"), ("at", 5), ("at", Point(1e40, 0.0))],
 )
-def test_a_row_refuses_what_does_not_fit(name: str, value: Any) -> None:
+def test_struct_array_row_rejects_invalid_value(name: str, value: Any) -> None:
     rows = contacts()
     with pytest.raises(rt.EncodeError):
         setattr(rows[1], name, value)
     assert rows == contacts()
 
 
-def test_a_copied_row_is_a_value_of_its_own() -> None:
+def test_struct_array_copied_row_is_independent() -> None:
     rows = contacts()
     for duplicate in (
         copy.copy(rows[1]),
@@ -80,7 +80,7 @@ def test_a_copied_row_is_a_value_of_its_own() -> None:
     assert rows == contacts()
 
 
-def test_columns_are_writable_views() -> None:
+def test_struct_array_columns_are_writable_views() -> None:
     rows = contacts()
     assert rows.column("mode").dtype == np.int32
     rows.column("id")[:] = 5
@@ -88,7 +88,7 @@ def test_columns_are_writable_views() -> None:
     assert [(row.id, row.at.y) for row in rows] == [(5, 0.0), (5, 2.5), (5, 2.5)]
 
 
-def test_from_columns() -> None:
+def test_struct_array_from_columns() -> None:
     at = Points.from_columns(x=[1, 2], y=np.array([3.0, 4.0]))
     rows = Contacts.from_columns(id=[1, 2], at=at, mode=Mode.On)
     assert rows == [
@@ -106,17 +106,19 @@ def test_from_columns() -> None:
         ({"x": [1, 1e40]}, rt.EncodeError, r"x\[1\]: 1e\+40 does not fit into float32"),
     ],
 )
-def test_columns_that_do_not_fit(columns: Any, error: type[Exception], message: str) -> None:
+def test_struct_array_from_columns_rejects_invalid_columns(
+    columns: Any, error: type[Exception], message: str
+) -> None:
     with pytest.raises(error, match=message):
         Points.from_columns(**columns)
 
 
-def test_column_and_nested_tell_each_other() -> None:
+def test_struct_array_nested_suggests_column() -> None:
     with pytest.raises(TypeError, match="column"):
         contacts().nested("id")
 
 
-def test_made_from_a_numpy_array() -> None:
+def test_struct_array_is_constructed_from_numpy_array() -> None:
     mine = np.array([(1, 2), (3, 4)], [("y", "<f8"), ("x", "<i4")])
     assert Points(mine) == [Point(2.0, 1.0), Point(4.0, 3.0)]
     shared = np.asarray(Points([Point(1.0, 2.0)]))
@@ -124,14 +126,14 @@ def test_made_from_a_numpy_array() -> None:
     assert shared["x"].tolist() == [5.0]
 
 
-def test_a_list_made_from_another_shares_nothing() -> None:
+def test_struct_array_constructor_copies_other_array() -> None:
     rows = contacts()
     Contacts(rows)[0].id = 99
     assert rows == contacts()
 
 
 class Pair:
-    """A struct array and a list of the same structs, to which the same is done."""
+    """A struct array and a list of the same structs; actions apply to both."""
 
     def __init__(self, values: list[float]) -> None:
         self.array = Points([Point(v, 0.0) for v in values])
@@ -182,14 +184,14 @@ actions = st.one_of(
 
 @settings(max_examples=200)
 @given(st.lists(numbers, max_size=5), st.lists(actions, max_size=8))
-def test_behaves_as_a_list(start: list[float], todo: list[Any]) -> None:
+def test_struct_array_behaves_as_list(start: list[float], todo: list[Any]) -> None:
     pair = Pair(start)
     for action in todo:
         pair.do(action)
     pair.do(lambda a: a.clear())
 
 
-def test_slices_share_and_selections_copy() -> None:
+def test_struct_array_slices_share_and_selections_copy() -> None:
     rows = Points.from_columns(x=np.arange(6), y=0)
     rows[::2].column("y")[:] = 1
     assert rows.column("y").tolist() == [1, 0, 1, 0, 1, 0]
@@ -198,7 +200,7 @@ def test_slices_share_and_selections_copy() -> None:
     assert rows[np.argsort(-rows.column("x"))][0].x == 5
 
 
-def test_appending_to_a_part_does_not_touch_the_rest() -> None:
+def test_struct_array_append_to_slice_leaves_original() -> None:
     rows = contacts(4)
     rows.append(Contact(9))  # now there is room behind
     part = rows[:2]
@@ -207,13 +209,13 @@ def test_appending_to_a_part_does_not_touch_the_rest() -> None:
     assert [row.id for row in part] == [0, 1, 77]
 
 
-def test_extended_by_itself() -> None:
+def test_struct_array_extends_by_itself() -> None:
     rows = contacts(2)
     rows.extend(rows)
     assert [row.id for row in rows] == [0, 1, 0, 1]
 
 
-def test_what_python_calls_it() -> None:
+def test_struct_array_implements_sequence_protocol() -> None:
     rows = Points([Point(1.0, 2.0)] * 9)
     assert isinstance(rows, MutableSequence)
     assert repr(Points([Point(1.0, 2.0)])) == "Points([Point(x=1.0, y=2.0)])"
@@ -226,7 +228,7 @@ def test_what_python_calls_it() -> None:
         hash(rows)
 
 
-def test_copied_and_pickled() -> None:
+def test_struct_array_is_copied_and_pickled() -> None:
     for rows in (contacts(), contacts()[::2], contacts().nested("at")):
         for again in (copy.copy(rows), copy.deepcopy(rows), pickle.loads(pickle.dumps(rows))):
             assert type(again) is type(rows)
@@ -235,7 +237,7 @@ def test_copied_and_pickled() -> None:
             assert len(rows)
 
 
-def test_only_numbers_have_arrays() -> None:
+def test_struct_array_rejects_struct_with_string_field() -> None:
     class Named(rt.Struct):
         name: rt.String = ""
 

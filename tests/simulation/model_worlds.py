@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from tests.simulation.served_worlds import Served
+
 ARM = """\
 <mujoco model="arm">
   <option timestep="0.001"/>
@@ -79,3 +83,8 @@ BOT = """\
     <limit lower="-1.5" upper="1.5" effort="40" velocity="2"/></joint>
 </robot>
 """
+
+
+def goal(world: Served, name: str, position: float, speed: float = 0.0) -> Any:
+    """A command for one motor; a speed of 0 is the default speed."""
+    return world.types.MotorGoalPosition(name, position, speed)

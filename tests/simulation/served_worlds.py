@@ -30,6 +30,7 @@ from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.servants.serving import DevicePort
 from robocomp_dsl.runtime import ServedPort
 from robocomp_dsl.simulation.world.simulation import Simulation, SimulationOptions
+from tests.support import waiting
 from tests.support.generated_package import with_package
 
 MYPY = [sys.executable, "-m", "mypy", "--strict", "--config-file=", "--no-error-summary"]
@@ -64,7 +65,7 @@ def scene_of(path: Path, text: str) -> Scene:
     path.write_text(text)
     report = Report()
     body = check_innermodel(path, Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert body is not None
     return Scene.of_data(lower_body(body))
 
@@ -94,6 +95,8 @@ def rcgen(*arguments: str | Path, cwd: Path) -> subprocess.CompletedProcess[str]
 
 CLIENT = """
 import os, sys, time, traceback
+sys.path.append("SUPPORT")
+from waiting import wait_until
 from types import SimpleNamespace
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.middleware.registry import open_middleware
@@ -109,19 +112,13 @@ def proxy(interface, port):
     assert link.wait(100), port
     return SimpleNamespace(**{o.name: link.bind(o) for o in interface.operations})
 
-def until(what):
-    end = time.monotonic() + 100
-    while not what():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.01)
-
-def refused(kind, call, *given):
+def refusal_of(kind, call, *arguments):
     try:
-        call(*given)
+        call(*arguments)
     except kind as error:
         return error
-    raise AssertionError(f"{given} were taken")
-"""
+    raise AssertionError(f"{arguments} were accepted")
+""".replace("SUPPORT", str(Path(waiting.__file__).parent))
 
 
 def run(folder: Path, code: str, *arguments: str) -> str:
@@ -174,7 +171,7 @@ def with_simulator(middleware: str, body: str) -> str:
 
 
 def assert_clean(folder: Path) -> None:
-    """A generated component as the linter, the formatter and the type checker see it."""
+    """Check a generated component with the linter, the formatter and the type checker."""
     for command in (
         [RUFF, "check", "--isolated", "--no-cache", "."],
         [RUFF, "format", "--diff", "--isolated", "--no-cache", "."],
@@ -192,23 +189,23 @@ class Served:
     ports: dict[str, DevicePort]
     types: Any
 
-    def until(self, what: Callable[[], object], limit: float = 20.0) -> None:
-        """Let simulated time pass until `what` is so."""
-        while not what():
-            assert self.simulation.world.time < limit, "it did not come true in time"
+    def advance_until(self, condition: Callable[[], object], limit: float = 20.0) -> None:
+        """Advance simulated time until the condition is true."""
+        while not condition():
+            assert self.simulation.world.time < limit, f"not reached within {limit} s: {condition}"
             self.simulation.advance(0.02)
 
 
 def served(
     folder: Path, text: str, options: SimulationOptions | None = None, also: tuple[str, ...] = ()
 ) -> Served:
-    """All that `rcgen simulator` makes of a world, without a process and without a thread."""
+    """What `rcgen simulator` generates for a world, without a process and without a thread."""
     path = folder / "world.xml"
     path.write_text(text)
     report = Report()
     body = check_innermodel(path, Workspace(environ={}), report)
     assert body is not None
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     return _served(folder, serving_also(simulator(body), also), options)
 
 
@@ -217,10 +214,10 @@ def served_model(folder: Path, text: str, name: str = "robot.xml") -> Served:
     path = folder / name
     path.write_text(text)
     report = Report()
-    result = model_world(path, (), report, lambda result: result)
-    assert [item.message for item in report] == []
-    assert result is not None
-    return _served(folder, result, SimulationOptions(step=result.step / 1000))
+    simulator = model_world(path, (), report, lambda simulator: simulator)
+    assert [finding.message for finding in report] == []
+    assert simulator is not None
+    return _served(folder, simulator, SimulationOptions(step=simulator.step / 1000))
 
 
 def _served(folder: Path, simulator: Simulator, options: SimulationOptions | None) -> Served:
@@ -229,7 +226,7 @@ def _served(folder: Path, simulator: Simulator, options: SimulationOptions | Non
     for description in descriptions(simulator):
         workspace.sources.set_overlay(folder / description.path, description.text)
     component = check_cdsl(folder / f"{simulator.name}.cdsl", workspace, report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert component is not None
     written = {file.path: file.text for file in files(simulator, component)}
     package = folder / package_of(component.name)

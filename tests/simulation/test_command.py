@@ -26,7 +26,7 @@ bump         touchsensor        TouchSensor         TouchSensor
 """
 
 
-def test_a_dry_run_lists_what_is_served_and_writes_nothing(tmp_path: Path) -> None:
+def test_simulation_command_dry_run_lists_servants_and_writes_nothing(tmp_path: Path) -> None:
     (tmp_path / "room.xml").write_text(ROOM)
     done = rcgen("simulator", "room.xml", "--dry-run", cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, TABLE, "")
@@ -96,9 +96,7 @@ WRONG = {
 
 
 @pytest.mark.parametrize("text", WRONG)
-def test_what_is_wrong_does_not_keep_the_rest_from_being_simulated(
-    tmp_path: Path, text: str
-) -> None:
+def test_simulation_command_simulates_rest_despite_errors(tmp_path: Path, text: str) -> None:
     (tmp_path / "world.xml").write_text(text)
     done = rcgen("simulator", "world.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
     assert done.returncode == 0
@@ -108,7 +106,7 @@ def test_what_is_wrong_does_not_keep_the_rest_from_being_simulated(
     assert "InnerModelManager" in done.stdout
 
 
-def test_a_strict_run_makes_nothing_of_errors(tmp_path: Path) -> None:
+def test_simulation_command_strict_run_writes_nothing_on_errors(tmp_path: Path) -> None:
     text = '<innerModel><imu id="i"/><lazer id="l"/></innerModel>'
     (tmp_path / "world.xml").write_text(text)
     done = rcgen("simulator", "world.xml", "--strict", "--format", "concise", cwd=tmp_path)
@@ -125,7 +123,7 @@ IMPOSSIBLE = {
 
 
 @pytest.mark.parametrize("text", IMPOSSIBLE)
-def test_impossible_worlds_are_told_with_their_place(tmp_path: Path, text: str) -> None:
+def test_simulation_command_reports_invalid_worlds_with_position(tmp_path: Path, text: str) -> None:
     (tmp_path / "world.xml").write_text(text)
     done = rcgen("simulator", "world.xml", "--format", "concise", cwd=tmp_path)
     assert done.returncode == 1
@@ -135,13 +133,13 @@ def test_impossible_worlds_are_told_with_their_place(tmp_path: Path, text: str) 
     assert not (tmp_path / "world_simulator").exists()
 
 
-def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+def test_simulation_command_reports_missing_file(tmp_path: Path) -> None:
     done = rcgen("simulator", "none.xml", cwd=tmp_path)
     assert done.returncode == 1
     assert "none.xml" in done.stderr
 
 
-def test_what_is_simplified_is_a_warning_at_its_place(tmp_path: Path) -> None:
+def test_simulation_command_warns_about_simplifications_with_position(tmp_path: Path) -> None:
     text = '<innerModel>\n <mesh id="m" file="gone.stl"/>\n</innerModel>'
     (tmp_path / "world.xml").write_text(text)
     done = rcgen("simulator", "world.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
@@ -150,7 +148,7 @@ def test_what_is_simplified_is_a_warning_at_its_place(tmp_path: Path) -> None:
     assert "RC633" in done.stderr
 
 
-def test_a_world_may_be_called_world(tmp_path: Path) -> None:
+def test_simulation_command_accepts_world_called_world(tmp_path: Path) -> None:
     """MuJoCo has a body of that name itself; most worlds of RoboComp have one, too."""
     (tmp_path / "world.xml").write_text(
         '<innerModel><transform id="world"><laser id="l"/></transform></innerModel>'
@@ -178,7 +176,9 @@ APART = """\
         (37.5, "world.xml:4:2: warning[RC653]: `crate` and `ground` overlap by 12.5 mm\n"),
     ],
 )
-def test_what_begins_in_something_else_is_told(tmp_path: Path, y: float, message: str) -> None:
+def test_simulation_command_reports_overlap_at_start(
+    tmp_path: Path, y: float, message: str
+) -> None:
     (tmp_path / "world.xml").write_text(APART.format(y=y))
     done = rcgen("simulator", "world.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, message)

@@ -1,4 +1,4 @@
-"""A user's component against a generated simulator: deployed, by each clock, twice over."""
+"""A simulator and a patrol component in a deployment, with every kind of clock."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,180 +13,39 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.simulation.served_worlds import CLIENT, ROOM, rcgen, run
+from tests.simulation.patrol_deployment import CDSL, DDSL, PDSL, SECONDS, WORKER, WORLD
+from tests.simulation.served_worlds import CLIENT, rcgen, run
+from tests.support.waiting import wait_until
 
 DEADLINE = 120.0
+
 RCDEPLOY = Path(sys.executable).with_name("rcdeploy")
-SECONDS = 3.0
-"""Of simulated time that are recorded: the robot comes near the wall and turns away."""
-
-WORLD = ROOM.replace('<differentialrobot id="robot"', '<differentialrobot noise="0.02" id="robot"')
-WORLD = WORLD.replace('tz="-300"', 'tz="700"')
-WORLD = WORLD.replace('<imu id="inertia"/>', '<imu id="inertia"/><gps id="sky" noise="30"/>')
-EYE = '<camera id="eye" width="32" height="24" focal="20"/>'
-WORLD = WORLD.replace('<laser id="laser"', f'{EYE}<laser id="laser"')
-
-CDSL = """\
-import "CameraSimple.idsl";
-import "DifferentialRobot.idsl";
-import "GPS.idsl";
-import "IMUPub.idsl";
-import "InnerModelManager.idsl";
-import "JointMotor.idsl";
-import "Laser.idsl";
-import "Simulation.idsl";
-
-/** Drives to the wall and away from it, looks about, and writes down all that it sees. */
-Component patrol
-{
-    Communications
-    {
-        requires Laser, DifferentialRobot, JointMotor, GPS, InnerModelManager, Simulation;
-        requires CameraSimple;
-        subscribesTo IMUPub;
-    };
-    language Python;
-    parameters "patrol.pdsl";
-    period 20;
-};
-"""
-
-PDSL = """\
-ComponentParams patrol
-{
-    /** Where to write. */
-    file string "";
-    /** Change the world and its time now and then. */
-    meddle bool false;
-    /** Moment of the last line. */
-    last float 5 [s] 0:1000;
-};
-"""
-
-WORKER = '''\
-"""patrol: to the wall and away from it."""
-
-from __future__ import annotations
-
-from typing import TextIO
-
-from patrol_generated.genericworker import GenericWorker
-from patrol_generated.interfaces import DataImu, MotorGoalPosition, Plane3D
-
-
-class SpecificWorker(GenericWorker):
-    """Drives about by its laser, and writes down all that it sees."""
-
-    lines: TextIO
-
-    def initialize(self) -> None:
-        """Nothing is written yet."""
-        self.lines = open(self.params.file, "w", encoding="utf-8")
-        self.imu = DataImu()
-        self.begun: float | None = None
-        self.rounds = 0
-        self.past: list[tuple[int, float]] = []
-
-    def compute(self) -> None:
-        """Look, drive, write."""
-        now = self.clock.now()
-        if self.begun is None:
-            self.begun = now
-        state = self.differentialrobot_proxy.getBaseState()
-        scan = self.laser_proxy.getLaserData()
-        neck = self.jointmotor_proxy.getMotorState("neck")
-        here = self.gps_proxy.getData()
-        near = float(scan.dist.min())
-        self.differentialrobot_proxy.setSpeedBase(*((700.0, 0.0) if near > 900 else (0.0, 0.8)))
-        side = 0.6 if neck.pos < 0.3 else -0.6
-        self.jointmotor_proxy.setPosition(MotorGoalPosition("neck", side, 1.0))
-        if self.params.meddle:
-            self.meddle(now)
-        if self.lines.closed:
-            return
-        seen = self.camerasimple_proxy.getImage().image.tobytes() if self.looks() else b""
-        dist = scan.dist.tobytes()
-        told = (now, self.clock.epoch, near, state, neck, here, self.imu, dist, seen)
-        self.lines.write(f"{now!r};{near!r};{told!r}\\n")
-        self.lines.flush()
-        if now - self.begun >= self.params.last:
-            self.lines.close()
-            self.log.info("all is written")
-
-    def looks(self) -> bool:
-        """Every now and then."""
-        self.rounds = (self.rounds + 1) % 10
-        return not self.rounds
-
-    def meddle(self, now: float) -> None:
-        """A wall comes at 1 s; at 2 s it is 1 s again, without it; at 2.5 s all begins anew."""
-        epoch, hand = self.clock.epoch, self.simulation_proxy
-        if epoch == 0 and not self.past and now >= 1:
-            self.past = [(hand.snapshot(), now)]
-            wall = Plane3D(500.0, 150.0, 2800.0, 0.0, 0.0, -1.0, 900.0, 300.0, 9.0)
-            self.innermodelmanager_proxy.addPlane("late", "floor", wall)
-        if epoch == 0 and now >= 2:
-            hand.restore(self.past[0][0])
-        if epoch == 1 and now >= 2.5:
-            hand.reset()
-
-    def finalize(self) -> None:
-        """Whatever is there is kept."""
-        self.lines.close()
-
-    # subscribesTo RoboCompIMUPub::IMUPub
-
-    def IMUPub_publish(self, imu: DataImu) -> None:
-        """Keep the latest."""
-        self.imu = imu
-'''
-
-DDSL = """\
-import "room_simulator/room_simulator.cdsl";
-import "patrol/patrol.cdsl";
-
-Deployment demo
-{{
-    {clock}
-    component room_simulator {{ ready within 60 s; {settings} }};
-    component patrol {{ after room_simulator; set file = "{file}"; set last = {last:g}; {more} }};
-
-    connect patrol.Laser -> room_simulator.laser;
-    connect patrol.DifferentialRobot -> room_simulator.robot;
-    connect patrol.JointMotor -> room_simulator.JointMotor;
-    connect patrol.CameraSimple -> room_simulator.eye;
-    connect patrol.GPS -> room_simulator.sky;
-    connect patrol.InnerModelManager -> room_simulator.InnerModelManager;
-    connect patrol.Simulation -> room_simulator.Simulation;
-    connect room_simulator.inertia_pub -> patrol.IMUPub;
-}};
-"""
 
 
 @pytest.fixture(scope="module")
 def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder with both components, as the commands make them."""
-    result = tmp_path_factory.mktemp("home")
-    (result / "room.xml").write_text(WORLD)
-    (result / "patrol").mkdir()
-    (result / "patrol" / "patrol.cdsl").write_text(CDSL)
-    (result / "patrol" / "patrol.pdsl").write_text(PDSL)
+    home_folder = tmp_path_factory.mktemp("home")
+    (home_folder / "room.xml").write_text(WORLD)
+    (home_folder / "patrol").mkdir()
+    (home_folder / "patrol" / "patrol.cdsl").write_text(CDSL)
+    (home_folder / "patrol" / "patrol.pdsl").write_text(PDSL)
     for command in (("simulator", "room.xml"), ("component", "patrol/patrol.cdsl")):
-        done = rcgen(*command, cwd=result)
+        done = rcgen(*command, cwd=home_folder)
         assert (done.returncode, done.stderr) == (0, "")
-    (result / "patrol" / "specificworker.py").write_text(WORKER)
-    return result
+    (home_folder / "patrol" / "specificworker.py").write_text(WORKER)
+    return home_folder
 
 
-def until(condition: Callable[[], bool], process: subprocess.Popen[str], what: str) -> None:
-    deadline = time.monotonic() + DEADLINE
-    while time.monotonic() < deadline:
+def wait_for(condition: Callable[[], bool], process: subprocess.Popen[str], message: str) -> None:
+    """Wait for the condition while rcdeploy runs."""
+
+    def holds() -> bool:
         if process.poll() is not None:
             pytest.fail(f"rcdeploy ended early:\n{process.communicate()[0]}")
-        if condition():
-            return
-        time.sleep(0.05)
-    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+        return condition()
+
+    wait_until(holds, message, DEADLINE)
 
 
 @contextmanager
@@ -233,18 +91,18 @@ def recorded(home: Path, name: str, seed: int, last: float = SECONDS, more: str 
     settings = f"set speed = 0; set seed = {seed};"
     clock = "clock sim lockstep;"
     with deployed(home, name, clock, settings, last, more) as (process, written):
-        until(lambda: (times(written) or [0])[-1] >= last, process, f"{last:g} s")
+        wait_for(lambda: (times(written) or [0])[-1] >= last, process, f"{last:g} s")
     return written.read_bytes()
 
 
-def test_in_lockstep_a_seed_says_all(home: Path) -> None:
-    item, again, other = (
+def test_simulator_in_lockstep_is_determined_by_seed(home: Path) -> None:
+    first, again, other = (
         recorded(home, f"step-{os.getpid()}-{number}", seed)
         for number, seed in enumerate((7, 7, 8))
     )
-    assert item == again
-    assert item != other
-    lines = item.decode().splitlines()
+    assert first == again
+    assert first != other
+    lines = first.decode().splitlines()
     moments = [float(line.split(";")[0]) for line in lines]
     assert moments == [round(n * 0.02, 9) for n in range(len(moments))]
     near = np.array([float(line.split(";")[1]) for line in lines])
@@ -253,16 +111,16 @@ def test_in_lockstep_a_seed_says_all(home: Path) -> None:
     assert len({line.split(";", 2)[2] for line in lines}) == len(lines)
 
 
-def test_in_lockstep_a_component_may_change_the_world_and_its_time(home: Path) -> None:
-    item, again = (
+def test_simulator_in_lockstep_accepts_changes_of_world_and_time(home: Path) -> None:
+    first, again = (
         recorded(home, f"meddle-{os.getpid()}-{number}", 3, 3.0, "set meddle = true;")
         for number in range(2)
     )
-    assert item == again
-    rows = [line.split(";", 2) for line in item.decode().splitlines()]
+    assert first == again
+    rows = [line.split(";", 2) for line in first.decode().splitlines()]
     moments = np.array([float(row[0]) for row in rows])
     assert moments[1:][np.diff(moments) < 0].tolist() == [1.0, 0.0], "restored, then reset"
-    near = [{float(r[0]): float(r[1]) for r in rows[a:b]} for a, b in stretches(moments)]
+    near = [{float(r[0]): float(r[1]) for r in rows[a:b]} for a, b in time_segments(moments)]
     before, restored, anew = (
         [found[t] for t in (1.02, 1.2, 1.5, 1.98)] if 1.98 in found else [] for found in near
     )
@@ -270,7 +128,7 @@ def test_in_lockstep_a_component_may_change_the_world_and_its_time(home: Path) -
     assert before != restored, "the wall is gone again"
 
 
-def stretches(moments: np.ndarray) -> list[tuple[int, int]]:
+def time_segments(moments: np.ndarray) -> list[tuple[int, int]]:
     """From where to where time goes on."""
     breaks = (np.flatnonzero(np.diff(moments) < 0) + 1).tolist()
     return list(zip([0, *breaks], [*breaks, len(moments)], strict=True))
@@ -278,7 +136,7 @@ def stretches(moments: np.ndarray) -> list[tuple[int, int]]:
 
 HAND = """
 hand = proxy(i.SIMULATION, "Simulation")
-until(lambda: hand.getState().time > 1)
+wait_until(lambda: hand.getState().time > 1)
 hand.pause()
 now = hand.getState().time
 assert abs(hand.step(50) - now - 0.1) < 1e-9
@@ -287,12 +145,12 @@ assert state.paused and state.realTimeFactor == 0
 kept = hand.snapshot()
 hand.setSpeed(2.0)
 hand.resume()
-until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
+wait_until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
 hand.pause()
 hand.restore(kept)
 assert abs(hand.getState().time - state.time) < 1e-9
 hand.resume()
-until(lambda: hand.getState().time > state.time + 0.5)
+wait_until(lambda: hand.getState().time > state.time + 0.5)
 hand.pause()
 hand.reset()
 assert hand.getState().time == 0
@@ -303,18 +161,16 @@ print("held")
 
 
 @pytest.mark.parametrize("clock", ["clock sim;", "clock sim lockstep;"])
-def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(
-    home: Path, clock: str
-) -> None:
+def test_simulator_leads_clock_with_simulated_time(home: Path, clock: str) -> None:
     name = f"sim-{len(clock)}-{os.getpid()}"
     with deployed(home, name, clock, last=1000) as (process, written):
-        until(lambda: bool(times(written)), process, "the first line")
-        until(lambda: "times real time" in status(name), process, "the factor")
-        until(lambda: " 0.00 times" not in status(name), process, "a factor")
+        wait_for(lambda: bool(times(written)), process, "the first line")
+        wait_for(lambda: "times real time" in status(name), process, "the factor")
+        wait_for(lambda: " 0.00 times" not in status(name), process, "a factor")
         message = run(home / "room_simulator", CLIENT + HAND, "zenoh", name, "room_simulator")
         assert message == "held\n"
         backwards = lambda: sum(np.diff(times(written)) < 0) >= 2  # noqa: E731
-        until(backwards, process, "time that begins anew twice")
+        wait_for(backwards, process, "time that begins anew twice")
     moments = np.array(times(written))
     assert moments * 200 == pytest.approx(np.round(moments * 200)), "moments of the source"
     first, second = moments[1:][np.diff(moments) < 0][:2]
@@ -322,12 +178,12 @@ def test_with_simulated_time_the_simulator_has_the_hand_on_the_clock(
     assert second < first, "a reset is a new beginning"
 
 
-def test_with_the_clock_of_the_machine_it_is_driven(home: Path) -> None:
+def test_simulator_is_driven_on_wall_clock(home: Path) -> None:
     name = f"wall-{os.getpid()}"
     with deployed(home, name, "") as (process, written):
-        until(lambda: len(times(written)) > 1, process, "the first lines")
+        wait_for(lambda: len(times(written)) > 1, process, "the first lines")
         done = lambda: times(written)[-1] - times(written)[0] >= SECONDS  # noqa: E731
-        until(done, process, f"{SECONDS:g} s")
+        wait_for(done, process, f"{SECONDS:g} s")
         assert "simulated time" not in status(name)
     near = [float(line.split(";")[1]) for line in written.read_text().splitlines()]
     assert min(near) < 1400 < max(near), "it drives towards the wall"

@@ -19,11 +19,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "room_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path) -> None:
+def test_generated_simulator_is_clean_and_typed(folder: Path) -> None:
     assert_clean(folder)
 
 
-def test_again_nothing_is_to_do(folder: Path) -> None:
+def test_generated_simulator_is_unchanged_by_second_run(folder: Path) -> None:
     """The same world gives the same bytes, and what is the user's stays."""
     worker = folder / "specificworker.py"
     kinds = {".py", ".json", ".cdsl"}
@@ -43,31 +43,31 @@ scan = laser.getLaserData()
 middle = float(scan.dist[len(scan) // 2])
 assert abs(middle - 3100) < 1, middle  # 3000 to the wall, from -300 + 200
 robot.setSpeedBase(400.0, 0.0)
-until(lambda: robot.getBaseState().correctedZ > 200)
+wait_until(lambda: robot.getBaseState().correctedZ > 200)
 robot.stopBase()
-until(lambda: not robot.getBaseState().isMoving)
+wait_until(lambda: not robot.getBaseState().isMoving)
 state = robot.getBaseState()
-until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
+wait_until(lambda: abs(laser.getLaserData().dist[50] - (2800 - state.correctedZ)) < 2)
 failed = i.RoboCompGenericBase_HardwareFailedException
-error = refused(failed, robot.setSpeedBase, float("nan"), 0.0)
+error = refusal_of(failed, robot.setSpeedBase, float("nan"), 0.0)
 assert "finite" in error.what, error.what
 sideways = proxy(i.OMNIROBOT, "platform")
 sideways.setSpeedBase(300.0, 0.0, 0.0)
-until(lambda: sideways.getBaseState().correctedX > -1900)
+wait_until(lambda: sideways.getBaseState().correctedX > -1900)
 motors = proxy(i.JOINTMOTOR, "JointMotor")
 motors.setPosition(i.MotorGoalPosition("neck", 0.5, 0.0))
-until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
-heard = []
+wait_until(lambda: abs(motors.getMotorState("neck").pos - 0.5) < 0.01)
+states = []
 topic = Endpoint(i.JointMotorPubProxy.INTERFACE, "client", "JointMotorPub")
-middleware.subscribe(topic, {"motorStates": heard.append}, CallbackGroup())
-until(lambda: heard and abs(heard[-1]["neck"].pos - 0.5) < 0.01)
-refused(i.UnknownMotorException, motors.getMotorState, "nobody")
+middleware.subscribe(topic, {"motorStates": states.append}, CallbackGroup())
+wait_until(lambda: states and abs(states[-1]["neck"].pos - 0.5) < 0.01)
+refusal_of(i.UnknownMotorException, motors.getMotorState, "nobody")
 nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
 near = laser.getLaserData().dist[50] / 2
 where = state.correctedZ + 200 + near
 nodes.addPlane("crate", "floor", i.Plane3D(500.0, 140.0, where, 0.0, 0.0, -1.0, 400.0, 400.0, 2.0))
-until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
-missing = refused(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
+wait_until(lambda: abs(laser.getLaserData().dist[50] - near) < 20)
+missing = refusal_of(i.InnerModelManagerError, nodes.getPose, "root", "nobody")
 assert missing.err is i.ErrorType.NonExistingNode
 hand = proxy(i.SIMULATION, "Simulation")
 hand.pause()
@@ -76,15 +76,15 @@ assert abs(hand.step(10) - now - 0.02) < 1e-9
 fork = hand.fork()
 assert abs(hand.advance(fork, 1.0) - now - 1.02) < 1e-9
 assert abs(hand.getState().time - now - 0.02) < 1e-9
-refused(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
+refusal_of(i.RoboCompSimulation_Refused, hand.setSpeed, float("nan"))
 hand.resume()
-until(lambda: hand.getState().time > now + 0.1)
+wait_until(lambda: hand.getState().time > now + 0.1)
 print("driven")
 """
 
 
 @pytest.mark.parametrize("middleware", ["inproc", "zenoh"])
-def test_it_runs_and_is_driven(folder: Path, middleware: str) -> None:
+def test_generated_simulator_runs_and_is_driven(folder: Path, middleware: str) -> None:
     code = with_simulator(middleware, DRIVE)
     message = run(
         folder, code, middleware, f"test-{folder.parent.name}-{middleware}", "room_simulator"
@@ -101,14 +101,14 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 settings = RunSettings(middleware="inproc", clock=parse_clock("sim,from=another"))
 runner = Runner(SpecificWorker, SpecificWorker.SPEC.parameters.load("etc/config.yaml"), settings)
 runner.start()
-until(lambda: hasattr(runner.worker, "devices"))
-print(refused(ParameterRejected, runner.params.set, {"speed": 2.0}))
+wait_until(lambda: hasattr(runner.worker, "devices"))
+print(refusal_of(ParameterRejected, runner.params.set, {"speed": 2.0}))
 runner.stop()
 assert runner.wait()
 middleware.close()
 """
 
 
-def test_the_speed_of_a_time_from_elsewhere_is_not_set_here(folder: Path) -> None:
+def test_generated_simulator_refuses_to_set_speed_of_external_clock(folder: Path) -> None:
     message = run(folder, CLIENT + FOLLOWS, "inproc", "follows", "room_simulator")
     assert "`speed` stays 1.0: another component is the clock source" in message

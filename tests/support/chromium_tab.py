@@ -14,9 +14,8 @@ import shutil
 import signal
 import subprocess
 import tempfile
-import time
 import urllib.request
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -25,17 +24,9 @@ import pytest
 from matplotlib.image import imread
 from websockets.sync.client import connect
 
+from tests.support.waiting import TIMEOUT_S, wait_until
+
 LOOPBACK = "127.0.0.1"
-PATIENCE = 150.0
-
-
-def wait_for(done: Callable[[], object]) -> object:
-    end = time.monotonic() + PATIENCE
-    while time.monotonic() < end:
-        if found := done():
-            return found
-        time.sleep(0.02)
-    raise AssertionError("it did not happen")
 
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -45,7 +36,7 @@ needs_chromium = pytest.mark.skipif(
 SWITCHES = (
     "--headless=new",
     "--no-sandbox",
-    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",  # nobody else is there
+    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",  # no other host
     "--remote-debugging-port=0",
     "--no-first-run",
     "--disable-background-networking",
@@ -72,7 +63,7 @@ class Tab:
         order = {"id": self._number, "method": method, "params": parameters}
         self._link.send(json.dumps(order))
         while True:
-            messages = json.loads(self._link.recv(timeout=PATIENCE))
+            messages = json.loads(self._link.recv(timeout=TIMEOUT_S))
             if messages.get("method") == "Network.requestWillBeSent":
                 self.asked.append(messages["params"]["request"]["url"])
             elif messages.get("method") == "Network.webSocketCreated":
@@ -106,13 +97,13 @@ class Tab:
 
 
 def red(picture: np.ndarray) -> float:
-    """How much of a picture, values from 0 to 1, is red."""
+    """The red share of a picture, values from 0 to 1."""
     return float(((picture[:, :, 0] > 0.6) & (picture[:, :, 1:].max(axis=2) < 0.35)).mean())
 
 
 @contextmanager
 def opened_tab() -> Iterator[Tab]:
-    """A tab of a browser that is ended behind it, whatever happens."""
+    """A tab of a browser; the browser ends with the block."""
     assert CHROMIUM
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = subprocess.Popen(
@@ -124,7 +115,7 @@ def opened_tab() -> Iterator[Tab]:
         )
         try:
             messages = Path(profile) / "DevToolsActivePort"
-            wait_for(lambda: messages.is_file() and messages.read_text().count("\n"))
+            wait_until(lambda: messages.is_file() and messages.read_text().count("\n"))
             result = Tab(int(messages.read_text().splitlines()[0]))
             yield result
             result.close()

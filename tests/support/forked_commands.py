@@ -37,7 +37,7 @@ os._exit(int(code or b"1"))
 
 @contextmanager
 def forked_commands(*modules: str) -> Iterator[list[str]]:
-    """Gives what to put in front of the arguments of `rcgen`."""
+    """The command line prefix that replaces `rcgen`."""
     with tempfile.TemporaryDirectory(prefix="rc-") as folder:  # paths of sockets must be short
         address = str(Path(folder, "fork"))
         command = [sys.executable, "-m", __name__, address, *modules]
@@ -52,7 +52,7 @@ def forked_commands(*modules: str) -> Iterator[list[str]]:
 
 def _serve(address: str) -> None:
     """Fork for each connection until standard input is closed."""
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody waits for those that end
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # the kernel reaps children
     with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as listener:
         listener.bind(address)
         listener.listen()
@@ -84,7 +84,7 @@ def _answer(connection: socket.socket) -> None:
 
 
 def _run(request: dict[str, object], streams: list[int]) -> None:
-    """Be `rcgen`."""
+    """Run `rcgen` in this process."""
     from robocomp_dsl.cli.rcgen.main import main  # noqa: PLC0415 - imported before the fork
 
     for number, stream in enumerate(streams):

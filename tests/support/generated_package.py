@@ -1,4 +1,4 @@
-"""The generated package of a component, whatever the component is called."""
+"""The generated package of any component."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Running real editors: where they are, what they get, and that nothing of them is left.
+"""Real editors: their programs, their project folder, and the end of their processes.
 
 In: a command. Out: what it printed. A tool that is missing is a failure where everything was to be
 installed (CI), and a reason to skip elsewhere.
@@ -11,7 +11,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -19,6 +18,7 @@ from typing import NoReturn
 import pytest
 
 from tests.support import samples
+from tests.support.waiting import wait_until
 
 EDITORS = Path(__file__).parents[2] / "editors"
 DEADLINE_S = 90
@@ -44,14 +44,15 @@ class Project:
         return self.folder / name
 
     def assert_no_server_left(self) -> None:
-        """Every server that was started has ended, or does so within the deadline."""
+        """Every started server has ended, or ends within the deadline."""
         started = self.pids.read_text().split() if self.pids.exists() else []
         assert started, "no server was started"
-        left = [int(item) for item in started]
-        end = time.monotonic() + DEADLINE_S
-        while left := [pid for pid in left if _alive(pid)]:
-            assert time.monotonic() < end, f"servers are left: {left}"
-            os.sched_yield()
+        pids = [int(pid) for pid in started]
+        wait_until(
+            lambda: not any(_alive(pid) for pid in pids),
+            lambda: f"servers are left: {[pid for pid in pids if _alive(pid)]}",
+            DEADLINE_S,
+        )
 
 
 def run(
@@ -84,12 +85,12 @@ def run(
 
 
 def need(name: str) -> str:
-    """The path of a program; without it the test fails in CI and is skipped elsewhere."""
+    """The path of a program; without it the test fails in CI and is skipped otherwise."""
     return shutil.which(name) or missing(name)
 
 
 def missing(what: str) -> NoReturn:
-    """Fail in CI, skip elsewhere, as `what` is not here."""
+    """Fail in CI, skip otherwise, because `what` is missing."""
     reason = f"{what} is not installed: `make test-editors` installs what these tests need"
     if os.environ.get("CI"):
         pytest.fail(reason)

@@ -59,6 +59,6 @@ MISTAKES = (
 
 
 def write(folder: Path) -> None:
-    """Put the files into `folder`."""
+    """Write the files into `folder`."""
     for name, text in FILES.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -18,7 +18,7 @@ ARMS = {"nao": ("nao_h25", "LArm"), "icub": ("icub_v2", "right_arm")}
 
 
 def alone(robot: RobotModel, joints: tuple[str, ...]) -> RobotModel:
-    """The robot with `joints` only: what hangs on others is left out or fixed."""
+    """The robot with `joints` only: other joints are fixed, other branches removed."""
     held = {link.name: link for link in robot.links}
     keep: set[str] = set()
     for link in robot.links:
@@ -61,7 +61,7 @@ class Arm:
         self.spec = self.board.spec
 
     def wait(self, done, seconds: float) -> bool:
-        """Let time pass until `done()`; whether it came to that."""
+        """Advance time until `done()`; whether it was reached."""
         for _ in range(int(seconds / 0.05)):
             if done():
                 return True

@@ -1,4 +1,4 @@
-"""A text of which only the edits are parsed gives the tree and the findings of a full parse."""
+"""Incremental parsing gives the tree and the findings of a full parse."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def plain(value: Any) -> Any:
 
 
 def edit(text: str, rng: random.Random) -> str:
-    """`text` with one place edited, mostly as people do."""
+    """`text` with one place edited, mostly typical edits."""
     at = rng.randint(0, len(text))
     until = min(len(text), at + rng.choice((0, 0, 0, 1, 1, 8, 80, 800)))
     lines = [i + 1 for i, c in enumerate(text) if c == "\n"]
@@ -94,7 +94,7 @@ def test_incremental_parse_equals_full_parse(suffix: str, seed: int) -> None:
 
 
 def compare(suffix: str, texts: list[str]) -> None:
-    """Parse the texts one after the other with one memory, and each by itself."""
+    """Parse the texts incrementally and each from scratch; compare the results."""
     path, memory = Path(f"x{suffix}"), dict[str, Any]()
     parse = LANGUAGES[suffix]
     for number, text in enumerate(texts):

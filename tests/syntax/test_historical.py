@@ -1,4 +1,4 @@
-"""What RoboComp's users have written over the years: each form is understood, with these findings.
+"""Historical syntax of RoboComp: the parser accepts it with findings.
 
 A form of today gives none, an old one a warning (its fix leads to a text without it), a broken one
 an error where it is. Nothing of the rest of the file is lost.
@@ -162,14 +162,14 @@ def test_parser_reports_historical_syntax(parse: Parser, text: str, expected: st
 
 @pytest.mark.parametrize(("parse", "text", "expected"), [c for c in CASES if c[2]])
 def test_fixes_update_historical_syntax(parse: Parser, text: str, expected: str) -> None:
-    def judge(diagnostic: str) -> tuple[Source, list[Any]]:
-        source, report = found(parse, diagnostic)
+    def parse_text(changed: str) -> tuple[Source, list[Any]]:
+        source, report = found(parse, changed)
         return source, report.sorted()
 
     _, report = found(parse, text)
     if report.has_errors:
         return
-    fixed = fix_all(Source(Path("x.dsl"), text), judge)
+    fixed = fix_all(Source(Path("x.dsl"), text), parse_text)
     without = {d.code.id for d in report if d.fix is None}
     assert {d.code.id for d in fixed.remaining} <= without
     assert all(d.severity is not Severity.ERROR for d in fixed.remaining)

@@ -1,4 +1,4 @@
-"""The mistakes that people make: what is written, and what is said of it, in `mistakes/*.txt`.
+"""Common mistakes and their findings, in `mistakes/*.txt`.
 
 An entry is a text, a line `---`, and a line for every finding: place, code, message, label, help,
 and what the fix makes of the text that it changes.

@@ -1,4 +1,4 @@
-"""Whatever stands in a file, a parser gives a tree and findings within the text, and ends."""
+"""For any text a parser ends, with a tree and findings within the text."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ PIECES = [
 PIECES += ["\n", "\t", "<<<<<<< x\n"]
 
 
-def judge(suffix: str, text: str) -> Report:
+def parse_and_validate(suffix: str, text: str) -> Report:
     report = Report()
     tree = PARSERS[suffix](Source(Path(f"x{suffix}"), text), report)
     assert tree is not None
@@ -103,14 +103,14 @@ def test_parser_accepts_mutated_files(suffix: str, seed: int) -> None:
         if files
         else '<innerModel><transform id="a"/></innerModel>'
     )
-    judge(suffix, mutate(text, rng))
+    parse_and_validate(suffix, mutate(text, rng))
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
 @settings(max_examples=100)
 @given(text=st.text(max_size=300))
 def test_parser_accepts_any_text(suffix: str, text: str) -> None:
-    judge(suffix, text)
+    parse_and_validate(suffix, text)
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
@@ -121,7 +121,7 @@ def test_parser_bounds_time_for_long_repetition(suffix: str, piece: str) -> None
     # Lark reads a million tags in half a minute; a tenth of them show the same.
     size = MAX_BYTES // 10 if suffix == ".xml" else MAX_BYTES
     count = size // len(piece.encode())
-    assert len(judge(suffix, piece * count)) <= 210
+    assert len(parse_and_validate(suffix, piece * count)) <= 210
 
 
 @pytest.mark.parametrize("suffix", sorted(LANGUAGES))
@@ -129,12 +129,12 @@ def test_parser_bounds_time_for_long_repetition(suffix: str, piece: str) -> None
 def test_recovery_ends_for_invalid_block_content(suffix: str, piece: str) -> None:
     # The end of the file has to be reached even after the parser gave up.
     head = HEADS.get(suffix, "M {\n")
-    assert 1 <= len(judge(suffix, head + piece * 2000)) <= 210
+    assert 1 <= len(parse_and_validate(suffix, head + piece * 2000)) <= 210
 
 
 @pytest.mark.parametrize("suffix", sorted(PARSERS))
 def test_parser_reports_empty_file(suffix: str) -> None:
-    assert [diagnostic.code.id for diagnostic in judge(suffix, "")]
+    assert [diagnostic.code.id for diagnostic in parse_and_validate(suffix, "")]
 
 
 @pytest.mark.parametrize(

@@ -25,11 +25,11 @@ FOREARM = Cone(0.02, 0.10, 0.032, 0.026)
         (0.06, np.pi, (0.06, 0.0, -0.029)),
     ],
 )
-def test_points_lie_where_equation_six_puts_them(x, theta, point):
+def test_cone_points_satisfy_equation_six(x, theta, point):
     assert FOREARM.points(x, theta) == pytest.approx(point, abs=1e-12)
 
 
-def test_normals_stand_on_the_surface():
+def test_cone_normals_are_orthogonal_to_surface():
     theta = np.linspace(-3, 3, 13)
     along = FOREARM.points(0.08, theta) - FOREARM.points(0.04, theta)
     angle = FOREARM.points(0.06, theta + 1e-6) - FOREARM.points(0.06, theta - 1e-6)
@@ -41,12 +41,12 @@ def test_normals_stand_on_the_surface():
 
 
 @given(st.floats(-1, 1), st.floats(-3.1, 3.1), st.floats(0.01, 1))
-def test_coordinates_come_back(x, theta, rho):
+def test_cone_coordinates_round_trip(x, theta, rho):
     assert cylindrical(cartesian(x, theta, rho)) == pytest.approx((x, theta, rho))
 
 
 @pytest.mark.parametrize("wrong", [(0.1, 0.1, 1, 1), (0.2, 0.1, 1, 1), (0, 1, 0, 1), (0, 1, 1, -1)])
-def test_impossible_cones_are_refused(wrong):
+def test_cone_refuses_invalid_dimensions(wrong):
     with pytest.raises(ValueError, match="cone"):
         Cone(*wrong)
 
@@ -58,7 +58,7 @@ def rotation(seed: int) -> np.ndarray:
 
 @settings(max_examples=30)
 @given(st.integers(0, 10_000), st.floats(-0.3, 0.3), st.floats(0.02, 0.05), st.floats(0.05, 0.2))
-def test_a_tilted_cone_is_found_again(seed, slope, radius, length):
+def test_cone_fit_finds_tilted_cone(seed, slope, radius, length):
     points = Cone(0.0, length, radius, radius + slope * 0.05)
     rng = np.random.default_rng(seed)
     x = np.concatenate(([0.0, length], rng.uniform(0, length, 200)))
@@ -72,7 +72,7 @@ def test_a_tilted_cone_is_found_again(seed, slope, radius, length):
     assert fitted == pytest.approx([points.r0, points.r1, length], abs=1e-7)
 
 
-def test_noisy_half_covered_skin_is_fitted_to_the_noise():
+def test_cone_fit_of_noisy_half_covered_skin_is_as_good_as_noise():
     rng = np.random.default_rng(3)
     x, theta = rng.uniform(0, 0.07, 240), rng.uniform(-2, 2, 240)
     points = Cone(0.0, 0.07, 0.0372, 0.0332).points(x, theta)
@@ -95,7 +95,7 @@ def test_noisy_half_covered_skin_is_fitted_to_the_noise():
         (np.zeros((20, 2)), "rows of three"),
     ],
 )
-def test_points_that_are_no_cone_are_refused(points, message):
+def test_cone_fit_refuses_points_of_another_shape(points, message):
     with pytest.raises(BadFit, match=message):
         fit_cone(points)
 
@@ -113,7 +113,7 @@ this is of no concern
 """
 
 
-def test_a_position_file_is_read_by_index():
+def test_position_file_is_read_by_index():
     read = read_positions(NEW, Path("left.txt"))
     assert read.name == "l_forearm"
     assert read.used.tolist() == [True, False, True]
@@ -122,7 +122,7 @@ def test_a_position_file_is_read_by_index():
     assert read.normals[1] == pytest.approx([0, 0, 0])
 
 
-def test_the_older_form_has_plain_rows():
+def test_position_file_of_older_form_has_plain_rows():
     read = read_positions("0.1 0 0 1 0 0\r\n0 0.1 0 0 0 0\r\n", Path("torso.txt"))
     assert read.name == "torso"
     assert read.used.all()
@@ -140,9 +140,11 @@ def test_the_older_form_has_plain_rows():
         ("1 2 3 4 5 6\n  7\n", [(2, 3, "it has 1")]),
     ],
 )
-def test_faulty_files_are_told_with_their_places(text, places):
+def test_position_file_reports_faults_with_position(text, places):
     with pytest.raises(DescriptionError) as caught:
         read_positions(text, Path("f.txt"))
     findings = caught.value.findings
-    assert [(f.line, f.column) for f in findings] == [(line, column) for line, column, _ in places]
+    assert [(f.location.line, f.location.column) for f in findings] == [
+        (line, column) for line, column, _ in places
+    ]
     assert all(messages in f.message for f, (_, _, messages) in zip(findings, places, strict=True))

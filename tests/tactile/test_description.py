@@ -1,4 +1,4 @@
-"""Robot descriptions in YAML, and the paper's XML listing."""
+"""Descriptions of a robot's skin, limbs and fields, in YAML."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.tactile.description.check import RobotStructure, compare
-from robocomp_dsl.tactile.description.part_xml import read_part_xml
 from robocomp_dsl.tactile.description.read import read_robot, rotation_from_rpy
 from robocomp_dsl.tactile.errors import DescriptionError, Fault
 from robocomp_dsl.tactile.skin.cone import cartesian
@@ -43,7 +42,7 @@ parts:
 """
 
 
-def test_a_description_is_read_in_si_units():
+def test_description_reads_si_units():
     arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
     assert arm.joints == ("LArm/Pitch", "roll")
     assert arm.mapping.available.tolist() == [True, True, False]
@@ -59,7 +58,7 @@ def test_a_description_is_read_in_si_units():
     assert arm.fixed_joints[0].position == pytest.approx(np.deg2rad(30))
 
 
-def test_limbs_skin_and_fields_lie_in_the_frame_of_the_limb():
+def test_description_places_limbs_skin_and_fields_in_limb_frame():
     arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
     limb = arm.limb("lower")
     assert limb.to_body(np.array([0.05, 0, 0])) == pytest.approx([0, 0.05, 0.01])
@@ -76,7 +75,7 @@ def test_limbs_skin_and_fields_lie_in_the_frame_of_the_limb():
     assert arm.fields[0].centre == pytest.approx([0.05, 0, 0.02975])
 
 
-def test_generic_chain_of_a_description():
+def test_description_has_generic_chain():
     arm = read_robot(GOOD, Path("r.yaml")).part("left_arm")
     generic = np.array([0.3, 0.2, 0.1])
     pitch, roll = arm.mapping.command(generic).values
@@ -157,7 +156,7 @@ def faults(text: str) -> list[str]:
         ("    limbs:", "    servos: []\n    limbs:", "`servos` is set twice"),
     ],
 )
-def test_faults_are_found_with_their_place(old, new, expected):
+def test_description_reports_faults_with_position(old, new, expected):
     assert old in GOOD
     assert any(expected in reported for reported in faults(GOOD.replace(old, new, 1)))
 
@@ -165,16 +164,16 @@ def test_faults_are_found_with_their_place(old, new, expected):
 @pytest.mark.parametrize(
     "text", ["", "- a\n- b", "a: [", "robot: x\nparts: 3", "\x01", "a: &x [*x]"]
 )
-def test_texts_that_are_no_description(text):
+def test_description_reports_texts_of_another_form(text):
     assert faults(text)
 
 
-def test_two_fields_of_one_name_are_told():
+def test_description_reports_duplicate_field_names():
     again = GOOD + GOOD.splitlines()[-1] + "\n"
     assert "there are two fields named `back`" in faults(again)[0]
 
 
-def test_units_may_be_written_behind_numbers_that_count_in_degrees():
+def test_description_accepts_units_behind_degree_numbers():
     written = GOOD.replace("limits: [0, 160], speed: 100,", "limits: [0, 2.5 rad], speed: 100 deg,")
     roll = read_robot(written, Path("r.yaml")).part("left_arm").servos[1]
     assert (roll.low, roll.high, roll.speed) == pytest.approx((0.0, np.rad2deg(2.5), 100.0))
@@ -186,16 +185,16 @@ def test_units_may_be_written_behind_numbers_that_count_in_degrees():
     assert held[0].position == pytest.approx(np.deg2rad(30))
 
 
-def test_all_faults_are_told_at_once():
+def test_description_reports_all_faults_at_once():
     text = GOOD.replace("speed: 4.0", "speed: 0").replace("first_id: 100", "first_id: 1")
     assert len(faults(text)) == 2
 
 
-def test_a_number_that_is_none_is_told_once():
+def test_description_reports_invalid_number_once():
     assert len(faults(GOOD.replace("gamma: -1,", "gamma: much,"))) == 1
 
 
-def test_positions_come_from_a_file_beside_the_description(tmp_path):
+def test_description_reads_positions_from_file_beside_it(tmp_path):
     points = cartesian(np.array([0.03, 0.05]), np.array([0.0, 1.0]), 0.03)
     body = read_robot(GOOD, Path("r.yaml")).part("left_arm").limb("lower").to_body(points)
     rows = ["0 0 0 0 0 0", *(f"{x} {y} {z} 0 0 1" for x, y, z in body)]
@@ -209,7 +208,7 @@ def test_positions_come_from_a_file_beside_the_description(tmp_path):
         read_robot(text, tmp_path / "r.yaml")
 
 
-def test_joints_and_bodies_of_the_robot_are_compared():
+def test_description_is_compared_with_joints_and_bodies_of_robot():
     robot = read_robot(GOOD, Path("r.yaml"))
     turn = np.deg2rad(160)
     fit = {"Pitch": (-2.1, 2.0), "roll": (0, turn), "wrist": (-1, 1)}
@@ -225,7 +224,7 @@ def test_joints_and_bodies_of_the_robot_are_compared():
         "r.yaml:19:14: the limb `lower` is on `LForeArm`, which the robot does not have "
         "(did you mean `LForearm`?)",
     ]
-    assert [finding.fault for finding in caught.value.findings] == [
+    assert [finding.kind for finding in caught.value.findings] == [
         Fault.JOINT,
         Fault.LIMITS,
         Fault.LIMITS,
@@ -233,94 +232,6 @@ def test_joints_and_bodies_of_the_robot_are_compared():
     ]
 
 
-def test_rotations_turn_about_fixed_axes():
+def test_description_rotations_turn_about_fixed_axes():
     turned = rotation_from_rpy(np.pi / 2, -np.pi / 2, 0)
     assert turned == pytest.approx(np.array([[0, -1, 0], [0, 0, -1], [1, 0, 0]]), abs=1e-12)
-
-
-PRINTED = """\
-<Generic_Robot_Part>head</Generic_Robot_Part>
-  <generic_servo_number>2</generic_servo_number>
-  <generic_servo id="1">
-    <destination_servo_id>2</destination_servo_id>
-    <transform_factor>1.00</transform_factor>
-    <transform_displacement>0.00</transform_displacement>
-    <stiffness>1.00</stiffness>
-    <damping>0.00</damping>
-    <speed>20.00</speed>
-  </generic_servo>
-  .....
-<initial_positions>
-  <servo type="deg" destination_servo_id="0" pos="-2.00"/>
-  <servo type="deg" destination_servo_id="2" pos="15.00"/>
-</initial_postions>
-"""
-
-
-def test_the_printed_listing_is_read_with_its_slip():
-    part = read_part_xml(PRINTED, Path("l.xml"), ("neck_pitch", "neck_roll", "neck_yaw"))
-    assert part.name == "head"
-    assert part.joints == ("neck_yaw",)
-    assert part.mapping.available.tolist() == [False, True]
-    servo = part.servos[1]
-    assert (servo.gamma, servo.sigma, servo.speed, servo.start) == (1, 0, 20, 15)
-    assert servo.unit == "deg"
-    assert [(position.joint, position.position) for position in part.fixed_joints] == [
-        ("neck_pitch", np.deg2rad(-2))
-    ]
-
-
-def test_the_listing_with_root_limits_and_destination_part():
-    text = f"<?xml version='1.0'?><robot>{PRINTED}</robot>".replace(
-        "<speed>", '<limits min="-55" max="55"/><destination_part>neck</destination_part><speed>'
-    )
-    part = read_part_xml(text, Path("l.xml"))
-    assert part.joints == ("neck/2",)
-    assert (part.servos[1].low, part.servos[1].high) == (-55, 55)
-
-
-def test_a_listing_may_quote_as_xml_does():
-    part, other = (
-        read_part_xml(servo, Path("l.xml")) for servo in (PRINTED, PRINTED.replace('"', "'"))
-    )
-    assert other.servos == part.servos
-
-
-def test_a_servo_that_is_there_twice_is_told():
-    start, end = PRINTED.index("<generic_servo "), PRINTED.index("</generic_servo>")
-    again = PRINTED[start:end].replace('id="1"', 'id="0"') + "</generic_servo>"
-    with pytest.raises(DescriptionError) as caught:
-        read_part_xml(PRINTED[:start] + again + PRINTED[start:], Path("l.xml"))
-    (error,) = caught.value.findings
-    assert (error.message, error.fault) == (
-        "the destination servo `2` is used twice",
-        Fault.TWICE,
-    )
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "expected"),
-    [
-        ("</generic_servo>", "", "l.xml:3:3: <generic_servo> is never closed"),
-        ('id="1"', 'id="2"', "l.xml:3:3: the ids of the generic servos must be 0 to 1"),
-        ('id="1"', "", "l.xml:3:3: <generic_servo> has no attribute `id`"),
-        ('pos="15.00"', "", "<servo> has no attribute `pos`"),
-        (">1.00</transform_factor", ">0</transform_factor", "factor of 0 cannot be inverted"),
-        (">20.00<", ">fast<", "l.xml:9:5: `fast` in <speed> is not a number"),
-        (">2</generic_servo_number", ">0</generic_servo_number", "must be the number"),
-        ("Generic_Robot_Part", "Part", "there is no <Generic_Robot_Part>"),
-        ('type="deg"', 'type="turns"', "`turns` is not a unit"),
-        ("</initial_postions>", "", "<initial_positions> is never closed"),
-        (">2</destination", ">-2</destination", "no destination servo -2"),
-        ("<speed>", '<limits min="2" max="1"/><speed>', "lower limit 2 is above"),
-    ],
-)
-def test_faulty_listings(old, new, expected):
-    with pytest.raises(DescriptionError) as caught:
-        read_part_xml(PRINTED.replace(old, new), Path("l.xml"))
-    assert expected in str(caught.value)
-
-
-def test_a_deep_listing_does_not_break():
-    with pytest.raises(DescriptionError):
-        read_part_xml("<a>" * 50_000, Path("l.xml"))

@@ -19,7 +19,7 @@ ROBOT_NAMES = re.compile(r"nao|icub|robocup", re.IGNORECASE)
 
 
 @pytest.mark.parametrize("package", ["arm", "reflex", "description"])
-def test_no_robot_is_named_where_all_robots_are_alike(package):
+def test_generic_modules_name_no_robot(package):
     files = sorted((ROOT / package).glob("*.py"))
     assert files
     for file in files:
@@ -27,10 +27,10 @@ def test_no_robot_is_named_where_all_robots_are_alike(package):
 
 
 @pytest.mark.parametrize("name", ["Skin", "GenericArm", "Reflex", "ControlBoard"])
-def test_the_interfaces_have_no_findings(name):
+def test_touch_interfaces_have_no_findings(name):
     report = Report()
     check_file(INTERFACES / f"{name}.idsl", Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
 
 
 def values(file: str, enum: str) -> list[str]:
@@ -42,8 +42,8 @@ def values(file: str, enum: str) -> list[str]:
     return [re.sub(r"(?<=[a-z])(?=[A-Z])", "_", word).upper() for word in words]
 
 
-def test_enumerations_of_interfaces_and_code_have_the_same_order():
+def test_touch_interface_enumerations_match_code():
     renamed = {"HARDWARE_FAULT": "HW_FAULT", "CALIBRATION_DONE": "CALIB_DONE"}
     modes = [renamed.get(value, value) for value in values("ControlBoard.idsl", "ControlMode")]
     assert modes == [mode.name for mode in Mode]
-    assert values("ControlBoard.idsl", "InteractionMode") == [item.name for item in Interaction]
+    assert values("ControlBoard.idsl", "InteractionMode") == [mode.name for mode in Interaction]

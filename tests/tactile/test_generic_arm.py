@@ -44,13 +44,13 @@ def arm() -> GenericArm:
     return generic_arm
 
 
-def test_readings_become_generic_angles(arm):
+def test_generic_arm_reads_generic_angles(arm):
     assert arm.state.position == pytest.approx([np.pi / 2 - 1.2, 0.3, np.pi / 2 - 1.0, 0.8, 0.2])
     assert arm.state.velocity == pytest.approx([-0.1, 0.2, 0.3, -0.4, 0])
     assert arm.state.torque == pytest.approx([-1, 2, 3, -4, 0])
 
 
-def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
+def test_generic_arm_moves_existing_joints_in_si_units(arm):
     orders = arm.position_move(arm.state.position)
     assert orders.control is Control.POSITION
     assert orders.joints == ("a", "b", "other/c", "d")
@@ -60,7 +60,7 @@ def test_a_move_goes_to_the_joints_that_exist_in_si_units(arm):
     assert not orders.dropped.any()
 
 
-def test_moves_are_clipped_slowed_and_dropped_with_notice(arm):
+def test_generic_arm_reports_clipped_slowed_and_dropped_moves(arm):
     orders = arm.position_move(np.array([9.0, 9, 0, 0.5, 1.0]), np.full(5, 0.5))
     assert orders.values[:2] == pytest.approx([-2.0, np.deg2rad(80)])
     assert orders.clipped.tolist() == [True, True, False, False, False]
@@ -70,14 +70,14 @@ def test_moves_are_clipped_slowed_and_dropped_with_notice(arm):
     assert fast.speeds == pytest.approx(np.array([4, np.deg2rad(100), 4, 4]) / PEAK)
 
 
-def test_displacements_start_from_where_the_arm_is(arm):
+def test_generic_arm_displacements_start_at_current_position(arm):
     orders = arm.relative_move(np.array([0.1, -0.1, 0.2, 0.1, 0.0]))
     assert orders.values == pytest.approx(READING + np.array([-0.1, -0.1, 0.2, -0.1]))
     with pytest.raises(NoState):
         GenericArm(PART).relative_move(np.zeros(5))
 
 
-def test_velocities_torques_and_stiffness(arm):
+def test_generic_arm_converts_velocities_torques_and_stiffness(arm):
     orders = arm.velocity_move(np.array([1.0, 9.0, -9.0, 1.0, 1.0]))
     assert orders.values == pytest.approx([-1, np.deg2rad(100), -4, -1])
     assert orders.clipped.tolist() == [False, True, True, False, False]
@@ -95,7 +95,7 @@ def test_velocities_torques_and_stiffness(arm):
     assert arm.set_position(arm.state.position).control is Control.DIRECT
 
 
-def test_the_hand_reaches_points_and_says_what_it_cannot(arm):
+def test_generic_arm_solves_hand_poses_and_reports_unreachable_ones(arm):
     goal = arm.chain.pose(np.array([0.6, 0.4, 0.2, 1.0, 0.2]))
     orders = arm.reach(goal[:3, 3])
     generic = arm.mapping.read(orders.values / arm._to_si)
@@ -105,7 +105,7 @@ def test_the_hand_reaches_points_and_says_what_it_cannot(arm):
 
 
 @pytest.mark.parametrize("way", [(0.05, 0, 0), (0, 0.05, 0), (0, 0, -0.05)])
-def test_the_hand_glides_along_a_line(arm, way):
+def test_generic_arm_moves_hand_along_line(arm, way):
     orders = arm.line_move(np.array(way))
     generic = np.zeros(5)
     generic[:4] = arm.mapping.read_speed(orders.values / arm._to_si)[:4]
@@ -118,7 +118,7 @@ def test_the_hand_glides_along_a_line(arm, way):
     assert velocity == pytest.approx(way, abs=0.006)
 
 
-def test_gliding_respects_limits_and_speeds(arm):
+def test_generic_arm_line_motion_respects_limits_and_speeds(arm):
     fast = arm.line_move(np.array([50.0, 0, 0]))
     speeds = np.abs(arm.mapping.read_speed(fast.values / arm._to_si))
     assert speeds.max() <= arm.speed_limits.max() + 1e-9
@@ -132,21 +132,21 @@ def test_gliding_respects_limits_and_speeds(arm):
         assert not ((arm.state.position <= arm.low + 1e-9) & (speed < -1e-9)).any()
 
 
-def test_a_push_does_the_same_work_on_the_device(arm):
+def test_generic_arm_push_does_same_work_on_device(arm):
     """Power in generic units is power in those of the device, whatever gamma and unit are."""
     torque, velocity = np.array([0.3, -0.2, 0.5, 1.1, 0]), np.array([0.4, 0.3, -0.2, 0.1, 0])
     device = arm.set_torque(torque).values @ arm.velocity_move(velocity).values
     assert device == pytest.approx(torque @ velocity)
 
 
-def test_springs_are_none_that_pull(arm):
+def test_generic_arm_refuses_invalid_stiffness(arm):
     with pytest.raises(InvalidCommand, match="must not be negative"):
         arm.stiffness(np.full(5, -1.0), np.ones(5))
     with pytest.raises(InvalidCommand, match="5 values are needed"):
         arm.stiffness(np.ones(4), np.ones(5))
 
 
-def test_a_speed_that_never_arrives_is_refused_only_where_there_is_a_joint(arm):
+def test_generic_arm_refuses_zero_speed_of_available_joints_only(arm):
     with pytest.raises(InvalidCommand, match="above 0"):
         arm.position_move(arm.state.position, np.array([1.0, 0, 1, 1, 1]))
     assert arm.position_move(arm.state.position, np.array([1.0, 1, 1, 1, 0])).speeds.shape == (4,)
@@ -155,13 +155,13 @@ def test_a_speed_that_never_arrives_is_refused_only_where_there_is_a_joint(arm):
 @pytest.mark.parametrize(
     "rotation", [np.eye(3) * 1.1, np.diag([1.0, 1, -1]), np.full((3, 3), np.nan), np.eye(4)]
 )
-def test_a_rotation_that_is_none_is_refused(arm, rotation):
+def test_generic_arm_refuses_invalid_rotation(arm, rotation):
     with pytest.raises(InvalidCommand, match="orthonormal"):
         arm.reach(arm.end_effector_pose()[:3, 3], rotation)
 
 
 @pytest.mark.parametrize("bad", [np.full(5, np.nan), np.zeros(4), np.zeros((5, 1))])
-def test_commands_that_cannot_be_meant_are_refused(arm, bad):
+def test_generic_arm_refuses_invalid_commands(arm, bad):
     for command in (
         arm.position_move,
         arm.relative_move,
@@ -176,7 +176,7 @@ def test_commands_that_cannot_be_meant_are_refused(arm, bad):
             command(np.array([0.0, np.inf, 0.0]))
 
 
-def test_an_arm_without_a_chain_moves_but_knows_no_space():
+def test_generic_arm_without_chain_moves_but_has_no_poses():
     bare = GenericArm(GenericPart("arm", PART.servos))
     bare.update_state(0.0, READING, np.zeros(4), np.zeros(4))
     bare.position_move(bare.state.position)

@@ -25,7 +25,7 @@ KERNEL = ForceKernel(SKIN.points, ONE_LIMB, 1)
 spots = st.tuples(st.floats(0.0, 0.13), st.floats(-3.2, 3.2), st.floats(0.01, 0.06))
 
 
-def slow(points, forces, sigma=0.005):
+def distribute_directly(points, forces, sigma=0.005):
     """The rule as it is written down, contact by contact."""
     felt, missed = np.zeros(len(SKIN.points)), 0.0
     for point, force in zip(points, forces, strict=True):
@@ -40,30 +40,30 @@ def slow(points, forces, sigma=0.005):
 
 @settings(max_examples=80)
 @given(st.lists(spots, min_size=1, max_size=20), st.integers(0, 100))
-def test_the_grid_gives_what_the_plain_rule_gives(places, seed):
+def test_kernel_grid_matches_direct_sum(places, seed):
     x, theta, rho = np.array(places).T
     points = np.stack((x, rho * np.sin(theta), rho * np.cos(theta)), axis=1)
     forces = np.random.default_rng(seed).uniform(0, 10, len(points))
     share = KERNEL.distribute(points, np.zeros(len(points), np.int64), forces)
-    felt, missed = slow(points, forces)
+    felt, missed = distribute_directly(points, forces)
     assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
     assert share.off_skin == pytest.approx(missed)
     assert share.taxel_forces.sum() + share.off_skin == pytest.approx(forces.sum())
 
 
 @pytest.mark.parametrize("sigma", [0.001, 0.0049, 0.0051, 0.03])
-def test_a_kernel_of_any_width_gives_what_the_plain_rule_gives(sigma):
+def test_kernel_of_any_width_matches_direct_sum(sigma):
     rng = np.random.default_rng(1)
     points = SKIN.points[::7] + rng.normal(0.0, sigma, SKIN.points[::7].shape)
     forces = rng.uniform(0, 10, len(points))
     kernel = ForceKernel(SKIN.points, ONE_LIMB, 1, sigma)
     share = kernel.distribute(points, np.zeros(len(points), np.int64), forces)
-    felt, missed = slow(points, forces, sigma)
+    felt, missed = distribute_directly(points, forces, sigma)
     assert share.taxel_forces == pytest.approx(felt, abs=1e-9)
     assert share.off_skin == pytest.approx(missed)
 
 
-def test_taxels_a_kilometre_apart_cost_no_more_than_others():
+def test_kernel_handles_taxels_one_kilometre_apart():
     points = np.array([[0.0, 0, 0], [1000.0, 500.0, -700.0]])
     share = ForceKernel(points, np.zeros(2, np.int64), 1).distribute(
         np.array([[1000.0, 500.0, -700.001], [500.0, 0, 0]]), np.zeros(2, np.int64), np.ones(2)
@@ -72,7 +72,7 @@ def test_taxels_a_kilometre_apart_cost_no_more_than_others():
     assert share.off_skin == 1.0
 
 
-def test_vectors_are_spread_with_the_same_weights():
+def test_kernel_spreads_vectors_with_same_weights():
     points = CONE.points(np.array([0.05, 0.07]), np.array([0.3, 1.3]))
     vectors = np.array([[1.0, -2.0], [0.5, 4.0]])
     where = np.zeros(2, np.int64)
@@ -83,7 +83,7 @@ def test_vectors_are_spread_with_the_same_weights():
     assert both.taxel_forces.sum(axis=0) + both.off_skin == pytest.approx([1.5, 2.0])
 
 
-def test_limbs_do_not_feel_each_other():
+def test_kernel_separates_limbs():
     points = np.concatenate((SKIN.points, SKIN.points))
     limb = np.repeat([0, 1], len(SKIN.points))
     kernel = ForceKernel(points, limb, 3)
@@ -96,7 +96,7 @@ def test_limbs_do_not_feel_each_other():
     assert bare.off_skin == 3.0
 
 
-def test_a_skin_without_taxels_misses_everything():
+def test_kernel_without_taxels_reports_all_force_off_skin():
     kernel = ForceKernel(np.empty((0, 3)), np.empty(0, np.int64), 1)
     share = kernel.distribute(np.zeros((1, 3)), np.zeros(1, np.int64), np.ones(1))
     assert share.off_skin == 1.0
@@ -106,7 +106,7 @@ def test_a_skin_without_taxels_misses_everything():
 @pytest.mark.parametrize(
     ("sigma", "active", "peak"), [(0.004, 10, 1.93), (0.005, 16, 1.17), (0.006, 22, 0.86)]
 )
-def test_a_dense_grid_shows_the_known_figures(sigma, active, peak):
+def test_kernel_on_dense_grid_matches_published_figures(sigma, active, peak):
     """363 taxels at 6.5 mm on radius 35 mm, 4.905 N: the published check of this kernel."""
     step = 0.0065
     x = np.arange(11) * step
@@ -143,7 +143,7 @@ def description() -> RobotDescription:
     return RobotDescription("r", (GenericPart("arm", (), limbs=(limb,), patches=(patch,)),))
 
 
-def test_contacts_are_listed_touch_by_touch():
+def test_kernel_lists_contacts_per_touch():
     geometry = SkinGeometry.of(description(), version=3)
     assert (geometry.size, geometry.version, geometry.limbs) == (240, 3, ("arm/lower",))
     neighbours = TaxelGraph.of(geometry.points, geometry.limb)
@@ -169,7 +169,7 @@ def sensor(**settings_) -> Sensor:
     return Sensor(1000, Imperfections(**settings_), np.random.default_rng(5))
 
 
-def test_a_perfect_sensor_tells_the_force():
+def test_tactile_sensor_without_errors_reads_force():
     force = np.linspace(0, 10, 1000)
     assert sensor().read(force) == pytest.approx(force)
     raw = sensor().raw(force, 0.02)
@@ -177,7 +177,7 @@ def test_a_perfect_sensor_tells_the_force():
     assert sensor().raw(np.full(1000, 100.0), 0.02).max() == 0
 
 
-def test_sensors_may_be_imperfect():
+def test_tactile_sensor_applies_configured_errors():
     force = np.full(1000, 2.0)
     assert not sensor(threshold=2.5).read(force).any()
     assert (sensor(saturation=1.5).read(force) == 1.5).all()
@@ -193,6 +193,6 @@ def test_sensors_may_be_imperfect():
 
 
 @pytest.mark.parametrize("wrong", [{"threshold": 13}, {"dead": 1.5}, {"noise": -1}, {"drift": -1}])
-def test_impossible_sensors_are_refused(wrong):
+def test_tactile_sensor_refuses_invalid_settings(wrong):
     with pytest.raises(ValueError, match=r"must|needed"):
         Imperfections(**wrong)

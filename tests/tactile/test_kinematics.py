@@ -29,7 +29,7 @@ LOW, HIGH = np.array([-2.0, -0.3, -2.0, -1.5, -1.8]), np.array([2.0, 1.3, 2.0, 0
 angles = st.tuples(*(st.floats(a, b) for a, b in zip(LOW, HIGH, strict=True))).map(np.array)
 
 
-def test_a_planar_arm_stands_where_trigonometry_puts_it():
+def test_chain_of_planar_arm_matches_trigonometry():
     planar = Chain((DhLink(0.3, 0, 0, 0, 0), DhLink(0.2, 0, 0, 0, 1)), 2)
     angle, two = 0.4, -1.1
     expected = [
@@ -41,7 +41,7 @@ def test_a_planar_arm_stands_where_trigonometry_puts_it():
 
 
 @given(angles)
-def test_the_jacobian_is_the_derivative(q):
+def test_chain_jacobian_is_derivative(q):
     jacobian, step = ARM.jacobian(q), 1e-6
     for joint in range(5):
         move = np.eye(5)[joint] * step
@@ -53,13 +53,13 @@ def test_the_jacobian_is_the_derivative(q):
 
 
 @given(angles)
-def test_no_pose_is_out_of_reach(q):
+def test_chain_poses_are_within_reach(q):
     assert not ARM.is_out_of_reach(ARM.pose(q)[:3, 3])
     assert ARM.is_out_of_reach(ARM.base[:3, 3] + [0.0, 0.0, 0.25])  # 15 + 105 + 114.6 mm
 
 
 @given(angles, st.integers(0, 31), st.integers(0, 31))
-def test_the_generic_chain_is_the_same_arm(generic, signs, missing):
+def test_generic_chain_matches_chain_of_arm(generic, signs, missing):
     gamma = np.array([1.0 if signs >> i & 1 else -1.0 for i in range(5)])
     available = np.array([not missing >> i & 1 for i in range(5)])
     sigma = np.array([Q, 0.1, -0.4, 0.0, 0.3])
@@ -70,20 +70,20 @@ def test_the_generic_chain_is_the_same_arm(generic, signs, missing):
     assert not dead.any()
 
 
-def test_a_generic_chain_needs_radians():
+def test_generic_chain_requires_radians():
     with pytest.raises(ValueError, match="gamma"):
         generic_chain(ARM, np.full(5, 0.0175), np.zeros(5), np.ones(5, bool))
 
 
 @pytest.mark.parametrize("joints", [(0, 0), (0, 2), (-1, 0)])
-def test_chains_with_impossible_joints_are_refused(joints):
+def test_chain_refuses_invalid_joints(joints):
     with pytest.raises(ValueError, match="joint index"):
         Chain(tuple(DhLink(0, 0, 0, 0, joint) for joint in joints), 2)
 
 
 @settings(max_examples=60)
 @given(angles, angles)
-def test_every_reachable_point_is_found_within_the_limits(goal, start):
+def test_solver_finds_every_reachable_point_within_limits(goal, start):
     solution = Solver(ARM, LOW, HIGH).solve(ARM.pose(goal)[:3, 3], start)
     assert ARM.pose(solution)[:3, 3] == pytest.approx(ARM.pose(goal)[:3, 3], abs=1.1e-4)
     assert (solution >= LOW).all()
@@ -92,7 +92,7 @@ def test_every_reachable_point_is_found_within_the_limits(goal, start):
 
 @settings(max_examples=40)
 @given(angles)
-def test_a_whole_pose_is_found_from_nearby(goal):
+def test_solver_finds_pose_from_nearby_start(goal):
     pose = ARM.pose(goal)
     start = np.clip(goal + 0.1, LOW, HIGH)
     solution = Solver(ARM, LOW, HIGH).solve(pose[:3, 3], start, pose[:3, :3])
@@ -101,14 +101,14 @@ def test_a_whole_pose_is_found_from_nearby(goal):
     )
 
 
-def test_what_is_out_of_reach_says_how_far():
+def test_solver_reports_distance_of_unreachable_goal():
     with pytest.raises(Unreachable) as caught:
         Solver(ARM, LOW, HIGH, Tolerance(iterations=60)).solve(np.array([1.0, 0, 0]), np.zeros(5))
     reach = 0.22
     assert caught.value.distance == pytest.approx(1.0 - reach, abs=0.02)
 
 
-def test_the_same_question_has_the_same_answer():
+def test_solver_is_deterministic():
     goal = ARM.pose(np.full(5, -0.2))[:3, 3]
     solver = Solver(ARM, LOW, HIGH)
     assert (solver.solve(goal, np.zeros(5)) == solver.solve(goal, np.zeros(5))).all()
@@ -122,7 +122,7 @@ def rotation_about(axis, angle):
 
 @pytest.mark.parametrize("axis", [(1, 0, 0), (0, -1, 0), (1, 2, 3), (-1, 1, 0.2)])
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.5, 3.0, np.pi - 1e-9])
-def test_rotation_vectors(axis, angle):
+def test_rotation_vector_round_trips(axis, angle):
     expected = angle * np.asarray(axis) / np.linalg.norm(axis)
     assert rotation_vector(rotation_about(axis, angle)) == pytest.approx(expected, abs=1e-6) or (
         angle > 3.1
@@ -132,7 +132,7 @@ def test_rotation_vectors(axis, angle):
 
 @pytest.mark.parametrize("side", ["left_arm", "right_arm"])
 @pytest.mark.parametrize("robot", ["nao_h21", "nao_h25", "icub_v2"])
-def test_what_an_arm_reaches_with_joints_at_their_limits_is_found(robot, side):
+def test_solver_finds_goals_with_joints_at_limits(robot, side):
     """Half of the joints stand at one of their limits: the others have to make up for them."""
     arm = GenericArm(description(robot).part(side))
     solver, random = Solver(arm.chain, arm.low, arm.high), np.random.default_rng(3)

@@ -46,16 +46,16 @@ def motion(*rows) -> np.ndarray:
         ([(0.05, 0, 10), (0.20, 0, 1.5)], 1.0),
     ],
 )
-def test_acceptance(rows, gain):
+def test_gain_matches_acceptance_table(rows, gain):
     assert motion(*rows) == pytest.approx(gain * THETA, abs=1e-6)
 
 
-def test_threshold_and_edge_give_exactly_nothing():
+def test_gain_is_zero_at_threshold_and_edge():
     for rows in ([(0.08, 0, 10)], [(0.05, 0, 1.0)]):
         assert not motion(*rows).any()
 
 
-def test_case_seven_step_by_step():
+def test_gain_of_case_seven_matches_each_step():
     felt = stimulus(*taxels((0.045, 0, 2), (0.055, 0, 6)), 0.03)
     assert felt.centre == pytest.approx([0.0525, 0, 0.03])
     assert felt.force == pytest.approx(4.090909, abs=1e-6)
@@ -67,18 +67,18 @@ def test_case_seven_step_by_step():
     assert answer.motion == pytest.approx(expected, abs=1e-6)
 
 
-def test_a_taxel_beyond_the_diameter_does_not_turn_the_weights_negative():
+def test_gain_weights_of_distant_taxels_are_not_negative():
     answer = respond(LAW, FIELD, *taxels((0.05, 0, 10), (0.20, 0, 1.5)))
     assert answer.gain == pytest.approx(1.0)
 
 
-def test_nothing_felt_is_no_reflex():
+def test_reflex_motion_of_no_force_is_zero():
     assert respond(LAW, FIELD, *taxels((0.05, 0, 0))) is None
     assert respond(LAW, FIELD, np.empty((0, 3)), np.empty(0)) is None
     assert not total_motion([], 5).any()
 
 
-def test_overlapping_fields_add_up():
+def test_reflex_motion_adds_overlapping_fields():
     other = Field("side", "lower_arm", np.array([0.06, 0.0, 0.03]), 0.03, np.full(5, 0.1))
     point = taxels((0.05, 0, 10))
     both = [respond(LAW, field, *point) for field in (FIELD, other)]
@@ -86,7 +86,7 @@ def test_overlapping_fields_add_up():
 
 
 @pytest.mark.parametrize("wrong", [(1, 1), (2, 1), (-1, 1)])
-def test_impossible_thresholds_are_refused(wrong):
+def test_gain_refuses_invalid_thresholds(wrong):
     with pytest.raises(ValueError, match="threshold"):
         Law(*wrong)
 
@@ -101,13 +101,13 @@ touches = st.lists(places, min_size=1, max_size=12)
 
 
 @given(touches, st.floats(1.0, 3.0))
-def test_a_harder_touch_never_answers_less(rows, harder):
+def test_gain_does_not_decrease_with_force(rows, harder):
     points, forces = taxels(*rows)
     assert gain(points, forces * harder) >= gain(points, forces) - 1e-12
 
 
 @given(st.floats(-np.pi, np.pi), st.floats(0, 0.04), st.floats(0, 0.01), st.floats(1, 15))
-def test_a_touch_further_out_never_answers_more(way, near, further, force):
+def test_gain_does_not_increase_with_distance(way, near, further, force):
     def at(distance):
         step = distance * np.array([np.cos(way), np.sin(way), 0.0])
         return gain((FIELD.centre + step)[None], np.array([force]))
@@ -117,7 +117,7 @@ def test_a_touch_further_out_never_answers_more(way, near, further, force):
 
 
 @given(touches, st.integers(0, 11), st.floats(-1e-9, 1e-9))
-def test_a_small_change_of_force_changes_the_answer_little(rows, which, change):
+def test_stimulus_is_continuous_in_force(rows, which, change):
     points, forces = taxels(*rows)
     other = forces.copy()
     other[which % len(forces)] += change
@@ -128,7 +128,7 @@ def test_a_small_change_of_force_changes_the_answer_little(rows, which, change):
 
 
 @given(touches)
-def test_the_mean_force_lies_between_the_forces(rows):
+def test_stimulus_force_lies_between_taxel_forces(rows):
     points, forces = taxels(*rows)
     felt = stimulus(points, forces, FIELD.radius)
     if felt:

@@ -47,15 +47,15 @@ NO_WRIST = mapping(
         (ICUB, [-16.1, 83.3, 0.0, 15.5, -59.0], [16.1, 83.3, 0.0, 15.5, -59.0]),
     ],
 )
-def test_the_listing_reads_in_generic_degrees(part, device, degrees):
+def test_mapping_reads_listing_in_generic_degrees(part, device, degrees):
     assert np.rad2deg(part.read(np.array(device))) == pytest.approx(degrees, abs=0.05)
 
 
-def test_generic_zero_lets_the_arm_hang():
+def test_mapping_zero_lets_arm_hang():
     assert NAO_LEFT.command(np.zeros(5)).values == pytest.approx([HALF_PI, 0, -HALF_PI, 0, 0])
 
 
-def test_limits_swap_with_a_negative_gamma_and_commands_are_clipped_in_device_units():
+def test_mapping_swaps_limits_for_negative_gamma_and_clips_in_device_units():
     part = mapping([-1], [HALF_PI], low=[-0.3], high=[1.3], available=[True])
     low, high = part.limits
     assert (low[0], high[0]) == pytest.approx((HALF_PI - 1.3, HALF_PI + 0.3))
@@ -64,7 +64,7 @@ def test_limits_swap_with_a_negative_gamma_and_commands_are_clipped_in_device_un
     assert sent.clipped.tolist() == [True]
 
 
-def test_displacements_leave_sigma_out_and_speeds_are_never_negative():
+def test_mapping_displacements_ignore_sigma_and_speeds_are_positive():
     moved = NAO_LEFT.displacement(np.full(5, 0.1)).values
     assert moved == pytest.approx([-0.1, 0.1, 0.1, -0.1, 0.1])
     assert NAO_LEFT.speed(np.full(5, 0.5)).values == pytest.approx([0.5] * 5)
@@ -72,7 +72,7 @@ def test_displacements_leave_sigma_out_and_speeds_are_never_negative():
     assert ICUB.velocity(np.full(5, 0.5)).values[0] == pytest.approx(-np.rad2deg(0.5))
 
 
-def test_a_missing_degree_of_freedom_reads_sigma_and_drops_commands():
+def test_mapping_of_missing_joint_reads_sigma_and_drops_commands():
     assert NO_WRIST.read(np.zeros(4))[4] == 0.25
     sent = NO_WRIST.command(np.array([0, 0, 0, 0, 0.7]))
     assert len(sent.values) == 4
@@ -85,13 +85,13 @@ def test_a_missing_degree_of_freedom_reads_sigma_and_drops_commands():
 
 
 @pytest.mark.parametrize("bad", [[np.nan] * 5, [np.inf, 0, 0, 0, 0], [0.0] * 4])
-def test_commands_that_cannot_be_meant_are_refused(bad):
+def test_mapping_refuses_invalid_commands(bad):
     with pytest.raises(InvalidCommand):
         NAO_LEFT.command(np.array(bad, float))
 
 
 @pytest.mark.parametrize("wrong", [{"gamma": [0.0]}, {"low": [2.0], "high": [1.0]}])
-def test_a_mapping_that_cannot_be_is_refused(wrong):
+def test_mapping_refuses_invalid_construction(wrong):
     given_ = {"gamma": [1.0], "low": [0.0], "high": [1.0]} | wrong
     with pytest.raises(ValueError, match=r"gamma|limit"):
         mapping(given_["gamma"], [0.0], low=given_["low"], high=given_["high"], available=[True])
@@ -102,7 +102,7 @@ gammas = st.floats(0.01, 60).map(lambda g: g) | st.floats(-60, -0.01)
 
 
 @given(gammas, numbers, numbers, numbers)
-def test_a_command_read_back_is_the_command(gamma, sigma, generic, torque):
+def test_mapping_reads_back_its_command(gamma, sigma, generic, torque):
     part = mapping([gamma], [sigma], low=[-1e6], high=[1e6], available=[True], to_si=DEGREES)
     back = part.read(part.command(np.array([generic])).values)
     assert back == pytest.approx([generic], abs=1e-9)
@@ -110,14 +110,14 @@ def test_a_command_read_back_is_the_command(gamma, sigma, generic, torque):
 
 
 @given(gammas, numbers, numbers)
-def test_torque_and_speed_keep_the_power(gamma, torque, speed):
+def test_mapping_of_torque_and_speed_conserves_power(gamma, torque, speed):
     part = mapping([gamma], [0.0], available=[True], low=[-1], high=[1], to_si=DEGREES)
     device = part.velocity(np.array([speed])).values * DEGREES
     assert part.torque(np.array([torque])).values * device == pytest.approx([torque * speed])
 
 
 @given(gammas, numbers, st.floats(0.1, 100))
-def test_stiffness_stores_the_same_energy(gamma, moved, stiffness):
+def test_mapping_of_stiffness_conserves_energy(gamma, moved, stiffness):
     part = mapping([gamma], [0.0], available=[True], low=[-1], high=[1], to_si=DEGREES)
     device = part.displacement(np.array([moved])).values * DEGREES
     energy = part.stiffness(np.array([stiffness])).values * device**2

@@ -32,7 +32,7 @@ def test_touches_are_connected_neighbours(touched, expected):
     assert [touch.tolist() for touch in found] == expected
 
 
-def test_the_reach_is_inclusive_and_limbs_do_not_touch_each_other():
+def test_touches_reach_is_inclusive_and_limbs_are_separate():
     pair = np.array([[0, 0, 0], [0.015, 0, 0]])
     assert len(clusters(pair)) == 1
     assert len(clusters(pair * 1.001)) == 2
@@ -43,7 +43,7 @@ def test_the_reach_is_inclusive_and_limbs_do_not_touch_each_other():
 
 @settings(max_examples=50)
 @given(st.integers(0, 1000), st.integers(1, 60))
-def test_components_agree_with_a_plain_search(seed, count):
+def test_touches_agree_with_breadth_first_search(seed, count):
     points = np.random.default_rng(seed).uniform(0, 0.08, (count, 3))
     left, groups = set(range(count)), []
     while left:
@@ -58,26 +58,26 @@ def test_components_agree_with_a_plain_search(seed, count):
     assert [cluster.tolist() for cluster in clusters(points)] == groups
 
 
-def test_forces_are_normalised_patch_by_patch():
+def test_touch_forces_are_normalised_per_patch():
     skin = Normaliser.of([Sensitivity(0.05, 2, 200), Sensitivity()], np.array([0, 0, 0, 1]))
     assert skin.force(np.array([2.0, 100, 240, 3])) == pytest.approx([0, 5, 10, 3])
     assert skin.saturated(np.array([2.0, 100, 240, 3])).tolist() == [False, False, True, False]
 
 
 @pytest.mark.parametrize("wrong", [{"gain": 0}, {"floor": -1}, {"floor": 3, "saturation": 2}])
-def test_impossible_sensitivities_are_refused(wrong):
+def test_touch_sensitivities_are_validated(wrong):
     with pytest.raises(ValueError, match="needed"):
         Sensitivity(**wrong)
 
 
-def test_the_triangle_has_ten_taxels_at_the_measured_pitch():
+def test_skin_triangle_has_ten_taxels_at_measured_pitch():
     taxels = triangle.LAYOUT[list(triangle.PRESSURE)]
     apart = np.linalg.norm(taxels[:, None] - taxels[None], axis=2) + np.eye(10)
     assert apart.min(axis=1) == pytest.approx(np.full(10, 0.0065), abs=5e-5)
     assert triangle.index(1, 2, 3) == 192 + 24 + 3
 
 
-def test_a_part_publishes_all_its_channels():
+def test_skin_part_publishes_all_channels():
     vector = triangle.published(np.array([0, 5, 13]), np.array([1, 2, 3], np.uint8), 24)
     assert vector.tolist() == [1, 240, 240, 240, 240, 2] + [240] * 7 + [3] + [240] * 10
 
@@ -89,7 +89,7 @@ def calibrated(**settings_) -> SkinManager:
     return SkinManager.calibrated(np.full((100, 3), RAW), Compensation(**settings_))
 
 
-def test_touch_is_what_rises_above_the_threshold():
+def test_touch_is_force_above_threshold():
     manager = calibrated(smooth=False)
     counts = manager.compensate(np.array([RAW, RAW - 8, RAW - 100]))
     assert counts == pytest.approx([0, 8, 100])
@@ -98,7 +98,7 @@ def test_touch_is_what_rises_above_the_threshold():
     assert binary.compensate(np.array([RAW + 9, RAW - 8, RAW - 9])) == pytest.approx([0, 0, 100])
 
 
-def test_the_baseline_follows_slow_drift_but_hardly_a_touch():
+def test_baseline_follows_slow_drift_but_hardly_touch():
     manager = calibrated(smooth=False)
     raw = np.array([RAW - 4, RAW + 4, RAW - 100])
     for _ in range(3000):
@@ -108,7 +108,7 @@ def test_the_baseline_follows_slow_drift_but_hardly_a_touch():
     assert calibrated(smooth=False, contact_gain=0.0).compensate(raw)[2] == 100
 
 
-def test_smoothing_holds_back_and_never_stops():
+def test_baseline_smoothing_delays_and_never_stops():
     manager = calibrated(alpha=0.5, gain=0.0, contact_gain=0.0)
     manager.compensate(np.full(3, RAW))
     steps = [manager.compensate(np.full(3, RAW - 80))[0] for _ in range(3)]
@@ -118,7 +118,7 @@ def test_smoothing_holds_back_and_never_stops():
     assert stuck.compensate(np.full(3, RAW - 80))[0] == pytest.approx(0.8)
 
 
-def test_noise_sets_the_threshold_and_a_far_baseline_alarms():
+def test_baseline_noise_sets_threshold_and_distant_baseline_alarms():
     with pytest.raises(ValueError, match="one frame"):
         SkinManager.calibrated(np.empty((0, 3)), Compensation())
     noise = np.random.default_rng(0).normal(size=(2000, 1)) * 4

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
@@ -17,30 +18,27 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
+from tests.support.waiting import wait_until
 from tests.touch import shipped_component
 from tests.touch.served_robot import ServedRobot
 
 ARM = shipped_component.load("generic_arm")
 DESCRIPTIONS = Path(__file__).parents[2] / "robocomp_dsl" / "simulation" / "robots" / "descriptions"
 FIRST_BOARD = {"nao_h25": "LArm", "nao_h21": "LArm", "icub_v2": "left_arm"}
+GOAL = np.array([0.5, 0.6, 0.3, 0.9, 0.2])
+"""Generic angles that both robots reach [rad]."""
+NONE = np.zeros(0)
+"""No speeds: those of the description."""
 _domains = (f"generic-arm-{number}" for number in count())
 
 
-def until(what: Callable[[], Any], seconds: float = 120.0) -> None:
-    """Wait for `what` to become true."""
-    end = time.monotonic() + seconds
-    while not what():
-        assert time.monotonic() < end, "it did not come true in time"
-        time.sleep(0.002)
-
-
-def refused(call: Callable[..., Any], *arguments: Any) -> str:
-    """What the arm says when it does not do it."""
+def refusal_of(call: Callable[..., Any], *arguments: Any) -> str:
+    """The message with which the arm refuses the call."""
     try:
         call(*arguments)
     except ARM.interfaces.NotPossible as error:
         return str(error.what)
-    raise AssertionError(f"{arguments} were taken")
+    raise AssertionError(f"{arguments} were accepted")
 
 
 class RunningArm:
@@ -70,21 +68,21 @@ class RunningArm:
         return self._bound[operation]
 
     def end(self) -> bool:
-        """Whether it came to its end in order."""
+        """Stop the component. Returns whether it ended in order."""
         self.runner.stop()
         well = self.runner.wait()
         self._client.close()
         return well
 
-    def sets_off(self, command: Callable[..., Any], *arguments: Any) -> None:
+    def start_motion(self, command: Callable[..., Any], *arguments: Any) -> None:
         """Give the command, and see that it moves; it may be at rest again before anybody looks."""
         seen = len(self.states)
         command(*arguments)
-        until(lambda: any(state.moving for state in self.states[seen:]))
+        wait_until(lambda: any(state.moving for state in self.states[seen:]))
 
-    def rest(self) -> Any:
+    def wait_for_rest(self) -> Any:
         """The state once nothing moves any more."""
-        until(lambda: not self.getState().moving)
+        wait_until(lambda: not self.getState().moving)
         return self.getState()
 
 
@@ -112,9 +110,9 @@ def arm_on(
         clock=clock,
     )
     try:
-        until(lambda: arm.states or arm.runner.lifecycle.state is LifecycleState.EMERGENCY)
+        wait_until(lambda: arm.states or arm.runner.lifecycle.state is LifecycleState.EMERGENCY)
         yield arm, served
     finally:
         well = arm.end()
-        served.away()
+        served.disconnect()
     assert well

@@ -1,7 +1,7 @@
-"""A puppet of a robot: the generic arm and the skin of a description, as a test wants them.
+"""A kinematic robot: the generic arm and the skin of a description, controlled by a test.
 
-The arm goes where it is told, at the speed that it is told, and the skin feels what the test
-presses. It serves and publishes the real interfaces with the geometry of the real description.
+The arm moves to the commanded position at the commanded speed; the test sets the forces of the
+skin. It serves and publishes the real interfaces with the geometry of the real description.
 """
 
 from __future__ import annotations
@@ -68,10 +68,18 @@ def proxy_of(interface: rt.Interface) -> type[rt.Proxy]:
 
 
 ROBOTS = ("nao_h25", "icub_v2")
+ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
+
+
+def with_fields(message: Any, **fields: object) -> Any:
+    """The message, after its fields have been set to these values."""
+    for name, value in fields.items():
+        setattr(message, name, value)
+    return message
 
 
 class Robot(SteppedClockSource):
-    """Serves an arm and a skin. What moves the arm and what the skin feels is up to subclasses.
+    """Serves an arm and a skin. Subclasses define its motion and the forces of its skin.
 
     `name_of_robot` and `side` are set in a subclass, see `of`.
     """
@@ -96,7 +104,9 @@ class Robot(SteppedClockSource):
         ),
         subscribes=(
             ServedPort(
-                "ReflexEvents", interfaces.REFLEXEVENTS, {"reflex": "hear", "stateChanged": "hear"}
+                "ReflexEvents",
+                interfaces.REFLEXEVENTS,
+                {"reflex": "record_event", "stateChanged": "record_event"},
             ),
         ),
     )
@@ -113,45 +123,45 @@ class Robot(SteppedClockSource):
         self.part = robot.part(self.side)
         self.arm, self.geometry = GenericArm(self.part), SkinGeometry.of(robot)
         self.rest = self.part.start
-        self.sequence = self.asked = self.stops = 0
-        self.feels = self.tells = self.answers = True
-        self.spoil: Callable[[Any], Any] = lambda frame: frame
+        self.sequence = self.geometry_requests = self.stops = 0
+        self.publishes_skin = self.publishes_state = self.answers = True
+        self.alter_frame: Callable[[Any], Any] = lambda frame: frame
         self.moves: list[tuple[float, Floats, Floats]] = []
         self.poses: list[Floats] = []
-        self.heard: list[Any] = []
+        self.reflex_messages: list[Any] = []
         self.frames: dict[float, Floats] = {}
 
-    def lives(self) -> Floats:
+    def advance(self) -> Floats:
         """Let `TICK` pass; where the arm is then (5,)."""
         raise NotImplementedError
 
-    def felt(self) -> Floats:
+    def taxel_forces(self) -> Floats:
         """The forces of the taxels."""
         raise NotImplementedError
 
     def tick(self) -> None:
-        """Move on, tell where the arm is, tell what the skin feels."""
-        pose, now = self.lives(), self.clock.now()
+        """Advance, publish the state of the arm and a frame of the skin."""
+        pose, now = self.advance(), self.clock.now()
         self.poses.append(pose)
-        if self.tells:
+        if self.publishes_state:
             none = np.zeros(5)
             self.states_proxy.armState(interfaces.ArmState(now, pose, none, none, moving=False))
         self.sequence += 1
-        forces = self.felt().astype(np.float32)
+        forces = self.taxel_forces().astype(np.float32)
         self.frames[now] = forces
         frame = interfaces.Frame(self.sequence, now, self.geometry.version, forces)
-        frame = self.spoil(frame) if self.feels else None
+        frame = self.alter_frame(frame) if self.publishes_skin else None
         if frame is not None:
             self.frames_proxy.frame(frame)
 
-    def hear(self, message: Any) -> None:
+    def record_event(self, message: Any) -> None:
         """An event or a state of the reflex."""
-        self.heard.append(message)
+        self.reflex_messages.append(message)
 
     # What it serves.
 
     def get_geometry(self) -> Any:
-        self.asked += 1
+        self.geometry_requests += 1
         return geometry_to_message(self.geometry)
 
     def limits(self) -> Any:
@@ -184,12 +194,12 @@ class KinematicRobot(Robot):
         self.speed = np.zeros(5)
         self.forces = np.zeros(self.geometry.size)
 
-    def lives(self) -> Floats:
+    def advance(self) -> Floats:
         step = np.clip(self.goal - self.pose, -self.speed * TICK, self.speed * TICK)
         self.pose = self.pose + step
         return self.pose
 
-    def felt(self) -> Floats:
+    def taxel_forces(self) -> Floats:
         return self.forces
 
     def move(self, position: Floats, speed: Floats) -> Any:
@@ -203,7 +213,7 @@ class KinematicRobot(Robot):
 
 
 class CentredRobot(KinematicRobot):
-    """A puppet whose start pose is in the middle of its joints, where no limit is near."""
+    """A robot whose start pose is in the middle of its joints, where no limit is near."""
 
     def initialize(self) -> None:
         super().initialize()
@@ -211,7 +221,7 @@ class CentredRobot(KinematicRobot):
 
 
 class ReflexHarness(LockstepHarness):
-    """A reflex and a robot. `said` are parameters of the reflex, as on its command line."""
+    """A reflex and a robot. `params` are parameters of the reflex, as on its command line."""
 
     def __init__(
         self,
@@ -237,14 +247,14 @@ class ReflexHarness(LockstepHarness):
         (state,) = self.worker().machine.states
         return state
 
-    def until(self, state: str, seconds: float = 10.0) -> None:
+    def run_until(self, state: str, seconds: float = 10.0) -> None:
         """Let time pass until it is in this state."""
         end = self.world.clock.now() + seconds
         while self.state != state:
             assert self.world.clock.now() < end, f"still {self.state}: {self.worker().reason}"
             self.run(TICK)
 
-    def awake(self) -> ReflexHarness:
+    def wait_until_watching(self) -> ReflexHarness:
         """Let it find skin and arm."""
         self.run(0.7)
         assert self.state == "Watching", self.worker().reason
@@ -253,7 +263,7 @@ class ReflexHarness(LockstepHarness):
     def field(self, name: str) -> law.Field:
         return next(field for field in self.robot.part.fields if field.name == name)
 
-    def near(self, field: law.Field, distance: float) -> Bools:
+    def taxels_near(self, field: law.Field, distance: float) -> Bools:
         """The taxels on the field's limb that are nearer than this to its centre."""
         geometry = self.robot.geometry
         limb = geometry.limbs.index(f"{self.robot.side}/{field.limb}")
@@ -262,7 +272,7 @@ class ReflexHarness(LockstepHarness):
 
     def press(self, name: str, newtons: float, distance: float = 0.01) -> None:
         """All taxels near the centre of a field feel so much, until something else is pressed."""
-        self.robot.forces = np.where(self.near(self.field(name), distance), newtons, 0.0)
+        self.robot.forces = np.where(self.taxels_near(self.field(name), distance), newtons, 0.0)
 
     def release(self) -> None:
         self.robot.forces = np.zeros(self.robot.geometry.size)

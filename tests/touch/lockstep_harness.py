@@ -73,7 +73,7 @@ class LockstepHarness:
         self._clock = ClockSettings("lockstep", source.worker.SPEC.name, names)
         self.runners = [self._runner(member) for member in others]
         self.source = self._runner(source)
-        host = MiddlewareContext("looker", self.domain, CallbackGroup(), Statistics())
+        host = MiddlewareContext("test_client", self.domain, CallbackGroup(), Statistics())
         self._middleware = open_middleware("inproc", host)
         for runner in (*self.runners, self.source):
             runner.start()
@@ -94,7 +94,7 @@ class LockstepHarness:
         return self.runners[index].worker
 
     def proxy(self, kind: Any, component: str, port: str) -> Any:
-        at = Endpoint(kind.INTERFACE, "looker", port, (f"{component}.{port}",))
+        at = Endpoint(kind.INTERFACE, "test_client", port, (f"{component}.{port}",))
         return kind(self._middleware.proxy(at))
 
     def run(self, seconds: float) -> None:

@@ -49,7 +49,7 @@ class PhysicalRobot(Robot):
         self.speeds: list[Floats] = []
         self.peak = 0.0
 
-    def lives(self) -> Floats:
+    def advance(self) -> Floats:
         if self.path:
             self.body.data.mocap_pos[0] = self.path.pop(0)
         self.body.advance(TICK)
@@ -61,7 +61,7 @@ class PhysicalRobot(Robot):
         self.speeds.append(state.velocity)
         return state.position
 
-    def felt(self) -> Floats:
+    def taxel_forces(self) -> Floats:
         force = self.skin.frame.force if self.skin.frame else np.zeros(self.geometry.size)
         self.peak = max(self.peak, float(force.sum()))
         return force

@@ -12,7 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from robocomp_dsl.hardware.control.modes import Mode
-from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServant
 from robocomp_dsl.hardware.servants.serving import DevicePort
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
@@ -31,8 +31,8 @@ TICK = 0.01
 class ServedRobot:
     """The robot `name`; every board is a port of the component `robot`, named as the board.
 
-    `calls` are the operations that boards were asked for; `before` is called in front of one,
-    `after` with its answer; `failing` is what one raises.
+    `calls` are the called operations of boards; `before` is called in front of an operation,
+    `after` with its result; `failing` are the exceptions that operations raise.
     """
 
     def __init__(
@@ -58,7 +58,7 @@ class ServedRobot:
         self.connect()
 
     def connect(self) -> None:
-        """Be there for others."""
+        """Serve the boards."""
         self._execution = CallbackGroup()
         self._middleware = open_middleware(
             "inproc", MiddlewareContext("robot", self._domain, self._execution, Statistics())
@@ -91,6 +91,6 @@ class ServedRobot:
 
         return answer
 
-    def away(self) -> None:
-        """Be there no more."""
+    def disconnect(self) -> None:
+        """Stop serving the boards."""
         self._middleware.close()

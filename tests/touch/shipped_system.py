@@ -6,7 +6,6 @@ are the simulator's own: one is put before a place and then moved by its control
 
 from __future__ import annotations
 
-import time
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +19,10 @@ from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.read import load_robot
 from robocomp_dsl.tactile.description.yaml_reader import UNITS
 from robocomp_dsl.tactile.reflex.law import Field
+from tests.support.waiting import wait_until
 from tests.touch import finger_geometry, shipped_component
 from tests.touch.kinematic_robot import REFLEX, interfaces, proxy_of
 from tests.touch.lockstep_harness import (
-    DEADLINE,
     ComponentSetup,
     LockstepHarness,
     SteppedClockSource,
@@ -39,10 +38,10 @@ ARM = shipped_component.load("generic_arm")
 FINGER = finger_geometry.FINGERS[0]
 
 
-def held(worker: Any) -> Any:
+def stepped_simulator(worker: Any) -> Any:
     """The simulator, but its time goes on only when the test says so."""
 
-    class Held(SteppedClockSource, worker):  # type: ignore[misc]
+    class SteppedSimulator(SteppedClockSource, worker):  # type: ignore[misc]
         def initialize(self) -> None:
             worker.initialize(self)
             self.recorded: list[tuple[Floats, Floats]] = []
@@ -57,11 +56,11 @@ def held(worker: Any) -> Any:
             data = self.simulation.world.data
             self.recorded.append((data.qpos.copy(), data.qvel.copy()))
 
-    return Held
+    return SteppedSimulator
 
 
 class ShippedSystem(LockstepHarness):
-    """`said` are parameters of the reflex. The arm has gone to its start pose."""
+    """`params` are parameters of the reflex. The arm has gone to its start pose."""
 
     def __init__(self, robot: str, side: str, **params: object) -> None:
         self.name, self.side = f"{robot}_simulator", side
@@ -71,7 +70,7 @@ class ShippedSystem(LockstepHarness):
         both = (f"description={description}", f"part={side}")
         wires = {"board": (f"{self.name}.{BOARDS[robot, side]}",)}
         super().__init__(
-            ComponentSetup(held(simulator.worker), ("speed=0",)),
+            ComponentSetup(stepped_simulator(simulator.worker), ("speed=0",)),
             ComponentSetup(ARM.worker, (*both, "begin=start"), RunSettings(connections=wires)),
             ComponentSetup(REFLEX.worker, (*both, *(f"{k}={v}" for k, v in params.items()))),
         )
@@ -81,7 +80,7 @@ class ShippedSystem(LockstepHarness):
             finger: self.proxy(board, self.name, finger) for finger in finger_geometry.FINGERS
         }
         self._events: list[Any] = []
-        at = Endpoint(interfaces.REFLEXEVENTS, "looker", "ReflexEvents")
+        at = Endpoint(interfaces.REFLEXEVENTS, "test_client", "ReflexEvents")
         self._middleware.subscribe(at, {"reflex": self._events.append}, CallbackGroup())
         self.arm = self.proxy(proxy_of(interfaces.GENERICARM), "generic_arm", "GenericArm")
         simulation = self.world.simulation
@@ -100,7 +99,7 @@ class ShippedSystem(LockstepHarness):
     def field(self, name: str) -> Field:
         return next(field for field in self.part.fields if field.name == name)
 
-    def until(self, state: str, seconds: float = 10.0) -> None:
+    def run_until(self, state: str, seconds: float = 10.0) -> None:
         end = self.world.clock.now() + seconds
         while self.state != state:
             assert self.world.clock.now() < end, f"still {self.state}: {self.worker(1).reason}"
@@ -120,15 +119,12 @@ class ShippedSystem(LockstepHarness):
         return (angles - low) / (high - low), np.abs(speeds) / (unit * [s.speed for s in servos])
 
     def events(self) -> list[Any]:
-        """What fields have answered so far; an onlooker hears it a moment later."""
+        """What fields have answered so far; a subscriber receives them a moment later."""
         count = self.runners[1].statistics.of("ReflexEvents", "reflex")
-        end = time.monotonic() + DEADLINE
-        while len(self._events) < count.calls:
-            assert time.monotonic() < end, "events were published and not heard"
-            time.sleep(0.001)
+        wait_until(lambda: len(self._events) >= count.calls, "published events are not received")
         return list(self._events)
 
-    def felt(self) -> float:
+    def total_force(self) -> float:
         """What the whole skin feels, in N."""
         return float(self.world.simulation.skin.frame.force.sum())
 
@@ -155,7 +151,7 @@ class ShippedSystem(LockstepHarness):
         self.fingers[finger].setReferenceSpeed([], np.maximum(np.abs(step) / 0.1, 1e-3))
         self.fingers[finger].relativeMove([], step)
 
-    def take_away(self) -> None:
+    def remove_fingers(self) -> None:
         """Where they wait for the first touch; motors are off, or they would bring them back."""
         for finger, board in self.fingers.items():
             board.setControlMode([], ARM.interfaces.ControlMode.Idle)

@@ -24,7 +24,8 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
-from tests.touch.arm_client import ARM, DESCRIPTIONS, refused, until
+from tests.support.waiting import wait_until
+from tests.touch.arm_client import ARM, DESCRIPTIONS, refusal_of
 from tests.touch.shipped_component import COMPONENTS
 
 ROBOTS = {"nao": ("nao_h25", "LArm"), "icub": ("icub_v2", "left_arm")}
@@ -37,7 +38,7 @@ NONE = np.zeros(0)
 
 
 @dataclass
-class Deployed:
+class ArmDeployment:
     """Two processes of a domain, and a client of the arm."""
 
     robot: str
@@ -87,8 +88,8 @@ class Deployed:
             return False
         return True
 
-    def rest(self) -> np.ndarray:
-        until(lambda: not self.arm["getState"]().moving)
+    def wait_for_rest(self) -> np.ndarray:
+        wait_until(lambda: not self.arm["getState"]().moving)
         return self.arm["getState"]().position
 
 
@@ -96,8 +97,8 @@ class Deployed:
 def deployed(tmp_path: Path) -> Iterator[Any]:
     with ExitStack() as stack:
 
-        def deploy(robot: str) -> Deployed:
-            deployment = Deployed(robot, f"arm-{robot}-{tmp_path.name}")
+        def deploy(robot: str) -> ArmDeployment:
+            deployment = ArmDeployment(robot, f"arm-{robot}-{tmp_path.name}")
             stack.callback(deployment.end)
             deployment.start(deployment.simulator)
             deployment.start_arm()
@@ -113,13 +114,13 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
             topic = ARM.interfaces.GenericArmStateProxy.INTERFACE
             at = Endpoint(topic, "client", "GenericArmState")
             middleware.subscribe(at, {"armState": deployment.states.append}, CallbackGroup())
-            until(deployment.answers)
+            wait_until(deployment.answers)
             return deployment
 
         yield deploy
 
 
-def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> None:
+def test_deployed_generic_arm_gives_same_angles_on_both_robots(deployed: Any) -> None:
     reached = {}
     for name in ROBOTS:
         deployment = deployed(name)
@@ -127,7 +128,7 @@ def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> 
         for goal in GOALS:
             outcome = deployment.arm["move"](goal, np.full(5, 1.0))
             assert not (outcome.clipped | outcome.dropped).any()
-            reached[name].append(deployment.rest())
+            reached[name].append(deployment.wait_for_rest())
         assert len(deployment.states) > 10
         assert deployment.arm["getLimits"]().available.all()
         deployment.end()
@@ -137,22 +138,24 @@ def test_the_same_folder_gives_the_same_angles_on_both_robots(deployed: Any) -> 
         assert nao == pytest.approx(icub, abs=0.05)
 
 
-def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> None:
+def test_deployed_generic_arm_reports_suspended_or_killed_robot_and_reconnects(
+    deployed: Any,
+) -> None:
     deployment = deployed("icub")
     robot = deployment.processes[deployment.simulator]
     robot.send_signal(signal.SIGSTOP)
-    until(lambda: not deployment.answers())
-    assert "the arm does not answer" in refused(deployment.arm["move"], GOALS[0], NONE)
+    wait_until(lambda: not deployment.answers())
+    assert "the arm does not answer" in refusal_of(deployment.arm["move"], GOALS[0], NONE)
     robot.send_signal(signal.SIGCONT)
-    until(deployment.answers)
+    wait_until(deployment.answers)
     robot.kill()
     robot.wait()
-    until(lambda: not deployment.answers())
-    assert "the arm does not answer" in refused(deployment.arm["getState"])
+    wait_until(lambda: not deployment.answers())
+    assert "the arm does not answer" in refusal_of(deployment.arm["getState"])
     deployment.start(deployment.simulator)
-    until(deployment.answers)
+    wait_until(deployment.answers)
     deployment.arm["move"](GOALS[0], NONE)
-    assert deployment.rest() == pytest.approx(GOALS[0], abs=0.05)
+    assert deployment.wait_for_rest() == pytest.approx(GOALS[0], abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -163,7 +166,7 @@ def test_a_robot_that_hangs_or_dies_is_told_and_found_again(deployed: Any) -> No
         ("connect arm.board2 -> body.Head;", "error[RC508]: `arm` requires `board`, which"),
     ],
 )
-def test_a_deployment_wires_the_physical_parts_that_there_are(
+def test_generic_arm_deployment_connects_existing_boards(
     wires: str, found: str, tmp_path: Path
 ) -> None:
     (tmp_path / "arm.ddsl").write_text(

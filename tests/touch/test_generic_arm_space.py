@@ -6,7 +6,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from tests.touch.arm_client import ARM, RunningArm, arm_on, refused, until
+from tests.support.waiting import wait_until
+from tests.touch.arm_client import ARM, RunningArm, arm_on, refusal_of
 from tests.touch.served_robot import ServedRobot
 
 BOTH = pytest.mark.parametrize("robot", ["nao_h25", "icub_v2"])
@@ -49,10 +50,10 @@ def hand_of(served: ServedRobot, robot: str) -> np.ndarray:
 
 
 @BOTH
-def test_the_chain_puts_the_hand_where_physics_has_it(robot: str) -> None:
+def test_generic_arm_chain_places_hand_like_physics(robot: str) -> None:
     with arm_on(robot) as (arm, served):
         arm.move(GOAL, np.zeros(0))
-        angles = arm.rest().position
+        angles = arm.wait_for_rest().position
         served.ticking = False
         hand = arm.getHand()
         by_chain = pose_by_chain(arm, arm.getState().position)
@@ -63,58 +64,58 @@ def test_the_chain_puts_the_hand_where_physics_has_it(robot: str) -> None:
 
 
 @BOTH
-def test_the_hand_reaches_points_and_poses(robot: str) -> None:
+def test_generic_arm_moves_hand_to_points_and_poses(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         goal = pose_by_chain(arm, GOAL)
         outcome = arm.reach(*goal[:3, 3].tolist())
         assert not outcome.clipped.any()
-        arm.rest()
+        arm.wait_for_rest()
         assert position(arm.getHand()) == pytest.approx(goal[:3, 3], abs=0.006)
         pose = ARM.interfaces.Pose(*goal[:3, 3].tolist(), *goal[:3, :3].ravel().tolist())
         arm.reachPose(pose)
-        arm.rest()
+        arm.wait_for_rest()
         assert position(arm.getHand()) == pytest.approx(goal[:3, 3], abs=0.006)
         assert rotation(arm.getHand()) == pytest.approx(goal[:3, :3], abs=0.05)
 
 
 @BOTH
-def test_what_is_out_of_reach_is_told_with_how_far(robot: str) -> None:
+def test_generic_arm_reports_distance_of_unreachable_goal(robot: str) -> None:
     with arm_on(robot, "begin=nothing") as (arm, served):
         with pytest.raises(ARM.interfaces.Unreachable) as far:
             arm.reach(2.0, 0.0, 0.0)
         assert far.value.distance > 1.0
         assert "mm" in far.value.what
         hand = arm.getHand()
-        assert "three finite" in refused(arm.reach, np.nan, 0.0, 0.0)
+        assert "three finite" in refusal_of(arm.reach, np.nan, 0.0, 0.0)
         hand.r00 += 0.5
-        assert "orthonormal columns" in refused(arm.reachPose, hand)
+        assert "orthonormal columns" in refusal_of(arm.reachPose, hand)
         assert {operation for _, operation in served.calls} == {"getJoints", "getState"}
 
 
 @BOTH
-def test_the_hand_glides_along_a_line_until_it_is_stopped(robot: str) -> None:
+def test_generic_arm_moves_hand_along_line_until_stopped(robot: str) -> None:
     with arm_on(robot) as (arm, _):
         arm.move(GOAL, np.zeros(0))
-        arm.rest()
+        arm.wait_for_rest()
         first = position(arm.getHand())
         way = np.array([0.0, 0.0, 0.05])  # up
         arm.glide(*way.tolist())
-        until(lambda: position(arm.getHand())[2] > first[2] + 0.04)
+        wait_until(lambda: position(arm.getHand())[2] > first[2] + 0.04)
         gone = position(arm.getHand()) - first
         assert gone[:2] == pytest.approx(0, abs=0.012)
         arm.stop()
-        arm.rest()
+        arm.wait_for_rest()
         there = arm.getState()
-        until(lambda: arm.states[-1].time > there.time + 0.3)
+        wait_until(lambda: arm.states[-1].time > there.time + 0.3)
         assert arm.getState().position == pytest.approx(there.position, abs=0.03)
 
 
-def test_a_glide_ends_after_hold_when_its_caller_is_silent() -> None:
+def test_generic_arm_ends_line_motion_after_hold_without_renewal() -> None:
     with arm_on("icub_v2", "hold=0.3") as (arm, _):
         arm.move(GOAL, np.zeros(0))
-        arm.rest()
+        arm.wait_for_rest()
         first = position(arm.getHand())
-        arm.sets_off(arm.glide, 0.0, 0.0, 0.05)
-        arm.rest()
+        arm.start_motion(arm.glide, 0.0, 0.0, 0.05)
+        arm.wait_for_rest()
         assert position(arm.getHand())[2] > first[2] + 0.001
         assert arm.runner.worker.control._glide is None

@@ -25,7 +25,7 @@ def files(component: str) -> list[Path]:
     return [path for path in every if path.is_file() and not MADE_BY_TOOLS & set(path.parts)]
 
 
-def test_names_are_found_where_they_are() -> None:
+def test_robot_name_search_finds_names() -> None:
     for text in ("a NAO here", "nao_h25.yaml", "iCub's", "LShoulderPitch", "joint: l_elbow,"):
         assert NAMED.search(text), text
     for text in ("naomi", "shoulder_pitch", "an elbow", "left_arm"):
@@ -33,7 +33,7 @@ def test_names_are_found_where_they_are() -> None:
 
 
 @pytest.mark.parametrize("component", SHARED)
-def test_no_file_names_a_robot(component: str) -> None:
+def test_touch_files_name_no_robot(component: str) -> None:
     found = files(component)
     assert {f"{component}.cdsl", "specificworker.py", "README.md", "config.yaml"} <= {
         path.name for path in found

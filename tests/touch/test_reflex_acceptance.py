@@ -6,7 +6,7 @@ descriptions. What is expected is worked out here from equations 5 to 7, apart f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,9 +15,8 @@ import pytest
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from tests.touch.equations import gain
-from tests.touch.kinematic_robot import ROBOTS, CentredRobot, ReflexHarness, interfaces
+from tests.touch.kinematic_robot import ARMS, CentredRobot, ReflexHarness, interfaces
 
-ARMS = [(robot, side) for robot in ROBOTS for side in ("left_arm", "right_arm")]
 THETA = np.array([-0.2, 0.3, 0.0, 0.5, 0.1])
 CENTRE = np.array([0.05, 0.0, 0.03])
 RADIUS = 0.03
@@ -74,36 +73,35 @@ class TableSkin(CentredRobot):
 
 
 @pytest.fixture
-def start_reflex() -> Iterator[Callable[..., ReflexHarness]]:
-    systems: list[ReflexHarness] = []
+def start_table_reflex(
+    start_reflex: Callable[..., ReflexHarness],
+) -> Callable[..., ReflexHarness]:
+    """Starts a reflex with the forces of the table."""
 
-    def make(*arguments: object, **params: object) -> ReflexHarness:
-        systems.append(ReflexHarness(*arguments, **{**FORCES, **params}))
-        return systems[-1].awake()
+    def start(*arguments: object, **params: object) -> ReflexHarness:
+        return start_reflex(*arguments, **{**FORCES, **params}).wait_until_watching()
 
-    yield make
-    for system in systems:
-        system.close()
+    return start
 
 
 @pytest.mark.parametrize(("rows", "motion"), [r[1:] for r in TABLE], ids=[r[0] for r in TABLE])
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table(start_reflex, robot, side, rows, motion) -> None:
-    touched = start_reflex(robot, side, TableSkin)
+def test_reflex_matches_acceptance_table(start_table_reflex, robot, side, rows, motion) -> None:
+    harness = start_table_reflex(robot, side, TableSkin)
     limb = f"{side}/lower_arm"
-    touched.reflex.setFields([interfaces.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
-    start = touched.robot.pose
-    touched.robot.touch(rows)
-    touched.run(0.02)
-    touched.robot.forces[:] = 0.0
-    touched.run(0.3)
+    harness.reflex.setFields([interfaces.Field("bottom", limb, *CENTRE.tolist(), RADIUS, THETA)])
+    start = harness.robot.pose
+    harness.robot.touch(rows)
+    harness.run(0.02)
+    harness.robot.forces[:] = 0.0
+    harness.run(0.3)
     if not motion.any():
-        assert touched.robot.moves == []
-        assert (touched.robot.pose == start).all()
+        assert harness.robot.moves == []
+        assert (harness.robot.pose == start).all()
         return
-    assert touched.robot.moves[0][1] - start == pytest.approx(motion, abs=TOLERANCE)
-    assert touched.robot.pose - start == pytest.approx(motion, abs=TOLERANCE)  # it went there
-    assert touched.reflex.getStatistics().withdrawals == 1
+    assert harness.robot.moves[0][1] - start == pytest.approx(motion, abs=TOLERANCE)
+    assert harness.robot.pose - start == pytest.approx(motion, abs=TOLERANCE)  # it went there
+    assert harness.reflex.getStatistics().withdrawals == 1
 
 
 # The same on the real skins: every field of the description, at its own taxels.
@@ -112,10 +110,10 @@ def test_the_table(start_reflex, robot, side, rows, motion) -> None:
 class OwnSkin:
     """The taxels of one field's limb, from its centre outwards."""
 
-    def __init__(self, touched: ReflexHarness, name: str) -> None:
-        self.touched, self.field = touched, touched.field(name)
-        geometry: SkinGeometry = touched.robot.geometry
-        limb = geometry.limbs.index(f"{touched.robot.side}/{self.field.limb}")
+    def __init__(self, harness: ReflexHarness, name: str) -> None:
+        self.harness, self.field = harness, harness.field(name)
+        geometry: SkinGeometry = harness.robot.geometry
+        limb = geometry.limbs.index(f"{harness.robot.side}/{self.field.limb}")
         mine = np.flatnonzero(geometry.limb == limb)
         away = np.linalg.norm(geometry.points[mine] - self.field.centre, axis=1)
         self.taxels = mine[np.argsort(away)]
@@ -143,16 +141,16 @@ class OwnSkin:
 
     def answer(self, *taxels: tuple[int, float]) -> float:
         """The gain of this field when these taxels feel so much: what the arm was told to do."""
-        robot = self.touched.robot
+        robot = self.harness.robot
         start, count = robot.pose, len(robot.moves)
         for taxel, force in taxels:
             robot.forces[taxel] = force
-        self.touched.run(0.02)
+        self.harness.run(0.02)
         robot.forces[:] = 0.0
         if len(robot.moves) == count:
             return 0.0
-        self.touched.until("Watching")
-        self.touched.run(0.3)  # the last hundredths of a rad
+        self.harness.run_until("Watching")
+        self.harness.run(0.3)  # the last hundredths of a rad
         moved = robot.moves[count][1] - start
         largest = int(np.argmax(np.abs(self.field.motion)))
         share = moved[largest] / self.field.motion[largest]
@@ -165,7 +163,7 @@ PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_up
 
 
 def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], float]:
-    """What is touched in each row of the table, and the gain that belongs to it."""
+    """What is harness in each row of the table, and the gain that belongs to it."""
     centre, half, edge = skin.at(0.0), skin.at(0.0175), skin.at(0.034)
     beside, beyond = skin.beside(centre), skin.at(0.05)
     contact: tuple[tuple[int, float], ...] = {
@@ -188,10 +186,14 @@ def case(skin: OwnSkin, number: str) -> tuple[tuple[tuple[int, float], ...], flo
 
 @pytest.mark.parametrize("name", PLACES)
 @pytest.mark.parametrize(("robot", "side"), ARMS)
-def test_the_table_on_the_taxels_of_the_real_skin(start_reflex, robot, side, name) -> None:
-    touched = start_reflex(robot, side, CentredRobot, refractory=0.0, hold=0.02, return_speed=1.0)
-    skin = OwnSkin(touched, name)
-    touched.reflex.setFields([f for f in touched.reflex.getFields() if f.name == name])
+def test_reflex_matches_acceptance_table_on_real_taxels(
+    start_table_reflex, robot, side, name
+) -> None:
+    harness = start_table_reflex(
+        robot, side, CentredRobot, refractory=0.0, hold=0.02, return_speed=1.0
+    )
+    skin = OwnSkin(harness, name)
+    harness.reflex.setFields([f for f in harness.reflex.getFields() if f.name == name])
     for number in ("1", "2", "3a", "3b", "4a", "4b", "5a", "5b", "6", "7", "8", "9"):
         taxels, expected = case(skin, number)
         found = skin.answer(*taxels)

@@ -12,7 +12,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -28,6 +27,7 @@ from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.tactile.description.read import load_robot
+from tests.support.waiting import wait_until
 from tests.touch import finger_geometry
 from tests.touch.kinematic_robot import interfaces, proxy_of
 from tests.touch.shipped_component import COMPONENTS
@@ -73,17 +73,13 @@ Deployment touch
 pytestmark = pytest.mark.xdist_group("demo")  # they want a processor for themselves
 
 
-def until(condition: Callable[[], Any], what: str) -> None:
-    end = time.monotonic() + DEADLINE
-    while time.monotonic() < end:
-        with contextlib.suppress(MiddlewareError, interfaces.RoboCompGenericArm_NotPossible):
-            if condition():
-                return
-        time.sleep(0.01)
-    pytest.fail(f"{what} did not come to pass within {DEADLINE:.0f} s")
+def wait_for(condition: Callable[[], Any], message: str) -> None:
+    """Wait for the condition; calls fail while a process is not there."""
+    absent = (MiddlewareError, interfaces.RoboCompGenericArm_NotPossible)
+    wait_until(condition, message, DEADLINE, ignoring=absent)
 
 
-class Deployed:
+class ReflexDeployment:
     """The deployment, and proxies of it from outside."""
 
     def __init__(self, robot: str, clock: str, folder: Path) -> None:
@@ -99,7 +95,7 @@ class Deployed:
         self.data = mujoco.MjData(self.model)
         mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
         mujoco.mj_forward(self.model, self.data)
-        host = MiddlewareContext("looker", self.name, CallbackGroup(), Statistics())
+        host = MiddlewareContext("test_client", self.name, CallbackGroup(), Statistics())
         self._middleware = open_middleware("zenoh", host)
         self.reflex = self._proxy(proxy_of(interfaces.REFLEX), "reflex", "Reflex")
         self.finger = self._proxy(proxy_of(ARM.interfaces.CONTROLBOARD), "robot", "finger")
@@ -125,7 +121,7 @@ class Deployed:
         )
 
     def _proxy(self, kind: Any, component: str, port: str) -> Any:
-        at = Endpoint(kind.INTERFACE, "looker", port, (f"{component}.{port}",))
+        at = Endpoint(kind.INTERFACE, "test_client", port, (f"{component}.{port}",))
         proxy = kind(self._middleware.proxy(at))
         proxy.set_timeout(2.0)
         return proxy
@@ -144,10 +140,10 @@ class Deployed:
             return "Emergency"
         return " ".join(info.states)  # none before it has begun
 
-    def awake(self) -> None:
+    def wait_until_watching(self) -> None:
         """Until the reflex watches an arm in its start pose."""
-        until(lambda: self.state() == "Watching", "a reflex that watches")
-        until(self._in_start_pose, "an arm in its start pose")
+        wait_for(lambda: self.state() == "Watching", "a reflex that watches")
+        wait_for(self._in_start_pose, "an arm in its start pose")
 
     def _in_start_pose(self) -> bool:
         away = self.arm.getState().position - self.arm.getLimits().start
@@ -162,7 +158,7 @@ class Deployed:
             self.finger.setReferenceSpeed([], np.maximum(np.abs(goal - here) / seconds, 0.01))
             self.finger.positionMove([], goal)
             if off > 0:
-                until(lambda: self.finger.motionDone([]).all(), "a finger before the skin")
+                wait_for(lambda: self.finger.motionDone([]).all(), "a finger before the skin")
 
     def park(self) -> None:
         self.finger.setReferenceSpeed([], [0.3, 0.3, 0.3])
@@ -183,11 +179,11 @@ class Deployed:
 @pytest.fixture(scope="module", params=CLOCKS.items(), ids=list(CLOCKS))
 def deployed(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[Deployed]:
-    deployment = Deployed(*request.param, tmp_path_factory.mktemp(request.param[0]))
+) -> Iterator[ReflexDeployment]:
+    deployment = ReflexDeployment(*request.param, tmp_path_factory.mktemp(request.param[0]))
     code = None
     try:
-        deployment.awake()
+        deployment.wait_until_watching()
         for component in deployment.about:
             deployment.pid(component)
         yield deployment
@@ -199,70 +195,76 @@ def deployed(
     assert not [pid for pid in deployment.pids if Path(f"/proc/{pid}").exists()]
 
 
-def test_the_finger_touches_and_the_arm_withdraws_and_comes_back(deployed: Deployed) -> None:
+def test_deployed_reflex_withdraws_from_finger_and_returns(deployed: ReflexDeployment) -> None:
     start = deployed.arm.getState().position
     deployed.touch("lower_arm_outer")
-    until(lambda: deployed.reflex.getStatistics().withdrawals, "a withdrawal")
+    wait_for(lambda: deployed.reflex.getStatistics().withdrawals, "a withdrawal")
     far = deployed.part.fields[0].motion
-    until(
+    wait_for(
         lambda: np.abs(deployed.arm.getState().position - start).max() > 0.3 * np.abs(far).max(),
         "an arm that is away",
     )
     deployed.park()
-    deployed.awake()
+    deployed.wait_until_watching()
     seen = deployed.reflex.getStatistics()
     assert (seen.framesNotFinite, seen.framesWrongLength, seen.framesOtherGeometry) == (0, 0, 0)
 
 
 @pytest.mark.parametrize("who", ["arm", "robot"])
-def test_one_that_hangs_is_an_emergency_until_it_goes_on(deployed: Deployed, who: str) -> None:
-    deployed.awake()
+def test_deployed_reflex_is_in_emergency_while_peer_is_suspended(
+    deployed: ReflexDeployment, who: str
+) -> None:
+    deployed.wait_until_watching()
     os.kill(deployed.pid(who), signal.SIGSTOP)
     try:
-        until(lambda: deployed.state() == "Emergency", "an emergency")
+        wait_for(lambda: deployed.state() == "Emergency", "an emergency")
         reason = deployed.about["reflex"].getInfo().reason
         assert reason
         assert ("simulated clock lost" in reason) == (who == "robot" and deployed.makes_time)
         frames = deployed.reflex.getStatistics().framesAccepted
-        if who == "arm":  # the skin is there all the time, and heard
-            until(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
+        if who == "arm":  # the skin is there all the time, and reflex_messages
+            wait_for(lambda: deployed.reflex.getStatistics().framesAccepted > frames + 5, "frames")
         else:
             assert deployed.reflex.getStatistics().framesAccepted == frames
     finally:
         for pid in deployed.pids:
             os.kill(pid, signal.SIGCONT)
-    deployed.awake()
+    deployed.wait_until_watching()
 
 
-def test_an_arm_that_hangs_on_its_way_is_stopped_when_it_is_back(deployed: Deployed) -> None:
-    deployed.awake()
+def test_deployed_reflex_stops_suspended_arm_when_it_resumes(deployed: ReflexDeployment) -> None:
+    deployed.wait_until_watching()
     count = deployed.reflex.getStatistics().withdrawals
     deployed.touch("lower_arm_outer")
-    until(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
+    wait_for(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
     hanging = deployed.pid("arm")
     os.kill(hanging, signal.SIGSTOP)
     try:
         deployed.park()
-        until(lambda: deployed.state() == "Emergency", "an emergency")
+        wait_for(lambda: deployed.state() == "Emergency", "an emergency")
         frozen = deployed.reflex.getStatistics()
     finally:
         os.kill(hanging, signal.SIGCONT)
-    deployed.awake()
+    deployed.wait_until_watching()
     assert frozen.state == interfaces.ReflexState.Frozen
 
 
 @pytest.mark.parametrize("who", ["arm", "robot", "reflex"])
-def test_one_that_is_killed_is_started_again_and_all_goes_on(deployed: Deployed, who: str) -> None:
-    deployed.awake()
+def test_deployed_reflex_recovers_when_killed_peer_is_restarted(
+    deployed: ReflexDeployment, who: str
+) -> None:
+    deployed.wait_until_watching()
     before = deployed.pid(who)
     os.kill(before, signal.SIGKILL)
-    # Who has gone is missed at once, and its ports come back behind the one that tells its pid.
-    until(lambda: deployed.pid(who) != before and deployed.runs(who), f"another {who}")
+    # The exit is noticed at once; the ports of the new process follow the one that has its pid.
+    wait_for(lambda: deployed.pid(who) != before and deployed.runs(who), f"another {who}")
     deployed.pids.discard(before)
-    until(lambda: deployed.state() in ("Emergency", "Frozen", "Watching"), "a reflex that lives")
-    deployed.awake()
+    wait_for(
+        lambda: deployed.state() in ("Emergency", "Frozen", "Watching"), "a reflex that advance"
+    )
+    deployed.wait_until_watching()
     count = deployed.reflex.getStatistics().withdrawals
     deployed.touch("lower_arm_outer")
-    until(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
+    wait_for(lambda: deployed.reflex.getStatistics().withdrawals > count, "a withdrawal")
     deployed.park()
-    deployed.awake()
+    deployed.wait_until_watching()

@@ -22,14 +22,14 @@ PLACES = ("lower_arm_outer", "lower_arm_inner", "lower_arm_under", "lower_arm_up
 def system(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
     system = ShippedSystem(*request.param, threshold=0.005, full=0.02, hold=1.0)
     try:
-        system.until("Watching", 5.0)
+        system.run_until("Watching", 5.0)
         system.run(0.5)
         yield system
     finally:
         system.close()
 
 
-def test_the_arm_withdraws_from_the_finger_and_comes_back(system: ShippedSystem) -> None:
+def test_shipped_reflex_withdraws_from_finger_and_returns(system: ShippedSystem) -> None:
     for place in PLACES:
         field, start = system.field(place), system.arm.getState().position
         before, count = system.spot(field), system.reflex.getStatistics().withdrawals
@@ -38,24 +38,24 @@ def test_the_arm_withdraws_from_the_finger_and_comes_back(system: ShippedSystem)
         for _ in range(40):
             system.run(0.02)
             now = system.world.clock.now()
-            felt = felt or (now if system.felt() > 0 else 0.0)
+            felt = felt or (now if system.total_force() > 0 else 0.0)
             acted = acted or (now if system.state == "Withdrawing" else 0.0)
-            cleared = now if system.felt() > 0 else cleared
+            cleared = now if system.total_force() > 0 else cleared
         assert felt, place
         assert 0.0 < acted - felt + 0.02 <= 0.0801, place  # frames come every 20 ms
         assert place in system.worker(1).withdrawal.strongest
         assert np.linalg.norm(system.spot(field) - before) > 0.01, place
         assert cleared - felt < 0.6, place
-        assert system.felt() == 0.0, place  # the finger is still there, the arm is not
+        assert system.total_force() == 0.0, place  # the finger is still there, the arm is not
         assert system.reflex.getStatistics().withdrawals == count + 1
-        system.take_away()
-        system.until("Watching")
+        system.remove_fingers()
+        system.run_until("Watching")
         system.run(0.5)
         assert system.arm.getState().position == pytest.approx(start, abs=0.03), place
-    keeps_to_its_limits(system)
+    assert_within_limits(system)
 
 
-def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
+def test_shipped_reflex_ignores_touch_below_threshold_and_outside_fields(
     system: ShippedSystem,
 ) -> None:
     fields = system.reflex.getFields()
@@ -66,14 +66,14 @@ def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
     peak = 0.0
     for _ in range(20):
         system.run(0.02)
-        peak = max(peak, system.felt())
+        peak = max(peak, system.total_force())
     assert peak > 0.1
-    system.take_away()
+    system.remove_fingers()
     system.reflex.setForces(0.005, 0.02)
     system.reflex.setFields([field for field in fields if field.name == "upper_arm_front"])
     system.press(system.field("lower_arm_under"), 0.002)
     system.run(0.4)
-    system.take_away()
+    system.remove_fingers()
     system.run(0.1)
     system.reflex.setFields(fields)
     seen = system.reflex.getStatistics()
@@ -84,9 +84,9 @@ def test_a_touch_below_the_threshold_and_one_outside_all_fields_are_left_alone(
     assert seen.framesOtherGeometry == 0
 
 
-def test_every_answer_is_what_the_equations_say_of_the_frame(system: ShippedSystem) -> None:
+def test_shipped_reflex_responses_match_equations(system: ShippedSystem) -> None:
     """The forces that physics makes, through the simulated skin; a little off the centre."""
-    system.until("Watching")
+    system.run_until("Watching")
     system.run(1.0)
     known, geometry = len(system.events()), system.world.simulation.skin.geometry
     system.reflex.setForces(0.0, 0.5)
@@ -103,31 +103,31 @@ def test_every_answer_is_what_the_equations_say_of_the_frame(system: ShippedSyst
         expected = gain(points, forces, field.centre, field.radius, 0.0, 0.5)
         assert event.gain == pytest.approx(expected, abs=1e-5)
         assert event.motion == pytest.approx(expected * field.motion, abs=1e-5)
-    system.take_away()
+    system.remove_fingers()
     system.reflex.setForces(0.005, 0.02)
-    system.until("Watching")
+    system.run_until("Watching")
 
 
-def test_a_skin_that_dies_on_the_way_stops_the_arm_and_all_recovers(system: ShippedSystem) -> None:
+def test_shipped_reflex_stops_arm_when_skin_ends_and_recovers(system: ShippedSystem) -> None:
     """Frames come twice a second, for a reflex that is blind after 0.2 s."""
     system.reflex.setForces(0.005, 0.02)
     system.press(system.field("lower_arm_outer"), 0.004)
-    system.until("Withdrawing", 1.0)
+    system.run_until("Withdrawing", 1.0)
     system.world.params.set({"skin.rate": 2.0})
-    system.until("Frozen", 2.0)
+    system.run_until("Frozen", 2.0)
     assert system.runners[1].state is LifecycleState.EMERGENCY
-    system.take_away()
+    system.remove_fingers()
     system.run(0.5)
     here = system.arm.getState().position
     system.run(0.5)
     assert system.arm.getState().position == pytest.approx(here, abs=0.01)
     system.world.params.set({"skin.rate": 50.0})
-    system.until("Watching")
+    system.run_until("Watching")
     assert system.runners[1].state is LifecycleState.COMPUTE
-    keeps_to_its_limits(system)
+    assert_within_limits(system)
 
 
-def keeps_to_its_limits(system: ShippedSystem) -> None:
+def assert_within_limits(system: ShippedSystem) -> None:
     """What the joints in the physics really did, from the first moment on."""
     angles, speeds = system.joints()
     assert angles.min() >= 0.0

@@ -15,45 +15,45 @@ from tests.touch.kinematic_robot import REFLEX, ReflexHarness, interfaces
 
 
 @pytest.fixture
-def touched() -> Iterator[ReflexHarness]:
+def harness() -> Iterator[ReflexHarness]:
     system = ReflexHarness()
     yield system
     system.close()
 
 
-def test_a_touch_withdraws_holds_and_returns(touched: ReflexHarness) -> None:
-    touched.awake()
-    start, field = touched.robot.pose, touched.field("lower_arm_under")
-    assert touched.robot.moves == []
-    touched.press("lower_arm_under", 5.0)
-    touched.run(0.02)
-    assert touched.state == "Withdrawing"
-    _, goal, _ = touched.robot.moves[0]
+def test_reflex_withdraws_holds_and_returns(harness: ReflexHarness) -> None:
+    harness.wait_until_watching()
+    start, field = harness.robot.pose, harness.field("lower_arm_under")
+    assert harness.robot.moves == []
+    harness.press("lower_arm_under", 5.0)
+    harness.run(0.02)
+    assert harness.state == "Withdrawing"
+    _, goal, _ = harness.robot.moves[0]
     gain = (goal - start)[0] / field.motion[0]
     assert 0.5 < gain <= 1.0
     assert goal == pytest.approx(start + gain * field.motion)
-    touched.release()
-    touched.run(0.3)
-    assert touched.state == "Holding"
-    touched.run(0.4)
-    assert touched.state == "Returning"
-    assert touched.robot.moves[-1][1] == pytest.approx(touched.robot.part.start)
-    touched.run(2.0)
-    assert touched.state == "Watching"
-    assert touched.robot.pose == pytest.approx(start, abs=0.03)
-    assert touched.reflex.getStatistics().withdrawals == 1
-    assert len(touched.robot.moves) == 2
-    assert np.isfinite(touched.robot.poses).all()
+    harness.release()
+    harness.run(0.3)
+    assert harness.state == "Holding"
+    harness.run(0.4)
+    assert harness.state == "Returning"
+    assert harness.robot.moves[-1][1] == pytest.approx(harness.robot.part.start)
+    harness.run(2.0)
+    assert harness.state == "Watching"
+    assert harness.robot.pose == pytest.approx(start, abs=0.03)
+    assert harness.reflex.getStatistics().withdrawals == 1
+    assert len(harness.robot.moves) == 2
+    assert np.isfinite(harness.robot.poses).all()
 
 
-def test_the_states_of_the_machine_are_those_that_the_interface_tells() -> None:
+def test_reflex_states_match_interface() -> None:
     machine = REFLEX.worker.SPEC.machine
     assert {state.name for state in machine.states} == {
         state_.name for state_ in interfaces.ReflexState
     }
 
 
-def test_its_page_draws_the_machine(tmp_path: Path) -> None:
+def test_reflex_documentation_draws_state_machine(tmp_path: Path) -> None:
     rcgen = Path(sys.executable).with_name("rcgen")
     file = REFLEX.folder / "reflex.cdsl"
     subprocess.run([rcgen, "doc", "-q", file, "-o", tmp_path / "doc"], check=True, timeout=60)

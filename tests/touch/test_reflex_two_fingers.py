@@ -28,7 +28,7 @@ FULL = 0.2
 def robot(request: pytest.FixtureRequest) -> Iterator[ShippedSystem]:
     system = ShippedSystem(*request.param, hold=0.2)
     try:
-        system.until("Watching", 5.0)
+        system.run_until("Watching", 5.0)
         yield system
     finally:
         system.close()
@@ -40,22 +40,22 @@ def system(robot: ShippedSystem) -> Iterator[ShippedSystem]:
     fields = robot.reflex.getFields()
     robot.reflex.setForces(0.0, FULL)
     yield robot
-    robot.take_away()
+    robot.remove_fingers()
     robot.reflex.setFields(fields)
     robot.reflex.enable(True)
     robot.params(withdraw_speed=0.45)
     robot.run(0.1)
-    robot.until("Watching")
+    robot.run_until("Watching")
     robot.run(1.0)  # the refractory time
 
 
-def only(system: ShippedSystem, field: Field) -> None:
+def set_field(system: ShippedSystem, field: Field) -> None:
     limb = f"{system.side}/{field.limb}"
     message = interfaces.Field(field.name, limb, *field.centre.tolist(), field.radius, field.motion)
     system.reflex.setFields([message])
 
 
-def moved(system: ShippedSystem, name: str, x: float, radius: float) -> Field:
+def field_at(system: ShippedSystem, name: str, x: float, radius: float) -> Field:
     """A field as wide as this at another place along the limb of `name`, on its cone."""
     field = system.field(name)
     cone = system.part.limb(field.limb).cone
@@ -75,7 +75,7 @@ def answer(system: ShippedSystem) -> Any:
     return events[0] if events else None
 
 
-def touched(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
+def pressed_taxels(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
     """Points (k, 3) and forces (k,) of the taxels of the limb that felt something."""
     geometry = system.world.simulation.skin.geometry
     force = system.world.frames[event.time].astype(np.float32).astype(float)
@@ -83,15 +83,15 @@ def touched(system: ShippedSystem, event: Any) -> tuple[Floats, Floats]:
     return geometry.points[index], force[index]
 
 
-def test_fingers_on_both_sides_are_two_touches(system: ShippedSystem) -> None:
+def test_reflex_counts_fingers_on_both_sides_as_two_touches(system: ShippedSystem) -> None:
     """Row 8: one mean of both lies inside the limb, where no field would answer."""
     system.reflex.enable(False)
     count, field = system.reflex.getStatistics().withdrawals, system.field(OUTER)
-    only(system, field)
+    set_field(system, field)
     system.press(field, 0.002)
     system.press(system.field("lower_arm_inner"), 0.002, finger=OTHER)
     events = answer(system)
-    points, forces = touched(system, events)
+    points, forces = pressed_taxels(system, events)
     mine = points @ np.array([0.0, *field.centre[1:]]) > 0.0
     assert forces[mine].sum() > 0.3
     assert forces[~mine].sum() > 0.3
@@ -104,16 +104,16 @@ def test_fingers_on_both_sides_are_two_touches(system: ShippedSystem) -> None:
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_touch_elsewhere_on_the_limb_takes_nothing_away(system: ShippedSystem) -> None:
+def test_reflex_response_is_unchanged_by_touch_elsewhere_on_limb(system: ShippedSystem) -> None:
     """Row 9: the second finger presses the same limb beyond the field, at the same time."""
     system.reflex.enable(False)
     count, cone = system.reflex.getStatistics().withdrawals, system.part.limb("lower_arm").cone
-    field = moved(system, OUTER, cone.x0 + 0.01, 0.02)
-    only(system, field)
+    field = field_at(system, OUTER, cone.x0 + 0.01, 0.02)
+    set_field(system, field)
     system.press(field, 0.003)
-    system.press(moved(system, OUTER, cone.x1 - 0.01, 0.02), 0.003, finger=OTHER)
+    system.press(field_at(system, OUTER, cone.x1 - 0.01, 0.02), 0.003, finger=OTHER)
     events = answer(system)
-    points, forces = touched(system, events)
+    points, forces = pressed_taxels(system, events)
     mine = points[:, 0] < (cone.x0 + cone.x1) / 2
     assert forces[mine].sum() > 0.3
     assert forces[~mine].sum() > 0.3
@@ -125,7 +125,7 @@ def test_a_touch_elsewhere_on_the_limb_takes_nothing_away(system: ShippedSystem)
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_finger_off_all_fields_is_felt_and_left_alone(system: ShippedSystem) -> None:
+def test_reflex_ignores_finger_outside_fields(system: ShippedSystem) -> None:
     """With the fields that ship: nobody watches the back of the upper arm."""
     count, start = system.reflex.getStatistics().withdrawals, system.arm.getState().position
     front = system.field(FRONT)
@@ -134,7 +134,7 @@ def test_a_finger_off_all_fields_is_felt_and_left_alone(system: ShippedSystem) -
     felt = []
     for _ in range(25):
         system.run(0.02)
-        felt.append(system.felt())
+        felt.append(system.total_force())
         assert system.state == "Watching"
     assert max(felt) > 0.3
     assert felt[-1] > 0.1  # it still presses
@@ -142,7 +142,7 @@ def test_a_finger_off_all_fields_is_felt_and_left_alone(system: ShippedSystem) -
     assert system.arm.getState().position == pytest.approx(start, abs=0.05)
 
 
-def test_two_fingers_at_once_withdraw_by_both_fields(system: ShippedSystem) -> None:
+def test_reflex_withdraws_by_both_fields_from_two_fingers(system: ShippedSystem) -> None:
     system.reflex.enable(False)
     count = system.reflex.getStatistics().withdrawals
     fields = [system.field(name) for name in (UNDER, FRONT)]
@@ -157,11 +157,11 @@ def test_two_fingers_at_once_withdraw_by_both_fields(system: ShippedSystem) -> N
     assert system.reflex.getStatistics().withdrawals == count + 1
 
 
-def test_a_finger_that_comes_during_a_withdrawal_adds_to_it(system: ShippedSystem) -> None:
+def test_reflex_adds_second_finger_during_withdrawal(system: ShippedSystem) -> None:
     system.reflex.setForces(0.005, 0.02)
     system.params(withdraw_speed=0.05)
     system.press(system.field(OUTER), 0.003)
-    system.until("Withdrawing", 1.0)
+    system.run_until("Withdrawing", 1.0)
     held, count = system.worker(1).withdrawal, system.reflex.getStatistics().withdrawals
     assert FRONT not in held.strongest
     system.press(system.field(FRONT), 0.004, finger=OTHER)

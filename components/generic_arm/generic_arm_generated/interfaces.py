@@ -5,7 +5,7 @@ from robocomp_dsl.runtime import types as rt
 
 
 class Refused(rt.DeclaredError):
-    """The board refuses the command; nothing has changed."""
+    """The board rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
@@ -17,7 +17,7 @@ class UnknownJoint(rt.DeclaredError):
 
 
 class WrongMode(rt.DeclaredError):
-    """The joint is in a mode that does not take this command."""
+    """The joint is in a control mode that does not accept this command."""
 
     what: rt.String = ""
 
@@ -59,7 +59,7 @@ Codes = rt.Int32Array
 
 
 class BoardState(rt.Struct):
-    """Everything of one moment, in the order of the joints."""
+    """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
     position: Values = rt.default()
@@ -75,14 +75,12 @@ class BoardState(rt.Struct):
     temperature: Values = rt.default()  # In degrees Celsius.
     modes: Modes = rt.default()
     interactions: Interactions = rt.default()
-    # Of the faults that nobody has cleared yet, 0 for none; getLastFault has the words.
+    # Codes of the uncleared faults, 0 for none; getLastFault has the messages.
     faults: Codes = rt.default()
 
 
 class Targets(rt.Struct):
-    """What the board was told last and has accepted, in the order of the joints asked
-    for.
-    """
+    """The last accepted references, in the order of the requested joints."""
 
     position: Values = rt.default()  # Goals of motions, or direct positions.
     velocity: Values = rt.default()
@@ -92,7 +90,7 @@ class Targets(rt.Struct):
 
 
 class JointInfo(rt.Struct):
-    """What a joint is; limits as they are now."""
+    """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
     prismatic: rt.Bool = False
@@ -103,8 +101,8 @@ class JointInfo(rt.Struct):
     torqueLimit: rt.Double = 0.0  # [Nm]
     maxCurrent: rt.Double = 0.0  # [A]
     gear: rt.Double = 0.0
-    counts: rt.Double = 0.0  # Encoder counts of a turn of the motor.
-    # Joints with this number in common share motors and change their mode together.
+    counts: rt.Double = 0.0  # Encoder counts per motor revolution.
+    # Joints with the same number share motors and change their mode together.
     coupledSet: rt.Int = 0
 
 
@@ -112,10 +110,10 @@ Joints = list[JointInfo]
 
 
 class Loop(rt.Enum):
-    """What a regulator regulates: the position (modes Position, PositionDirect, Mixed,
-    while stiff), the velocity (Velocity, VelocityDirect, while stiff), the torque
-    that the joint feels, the current of the motor. The first three give torques in N
-    m, that of the current gives percents of the motor's supply.
+    """The quantity that a PID controls: position (modes Position, PositionDirect,
+    Mixed, while stiff), velocity (Velocity, VelocityDirect, while stiff), measured
+    joint torque, motor current. The first three output torques in N m, the current
+    PID outputs a percentage of the motor's supply.
     """
 
     PositionLoop = 0
@@ -125,9 +123,9 @@ class Loop(rt.Enum):
 
 
 class Pid(rt.Struct):
-    """Output per error (rad, rad/s, N m, A), per its integral and derivative; all of it
-    stays within maxOutput. `feedforward` multiplies the reference of torque or
-    current, or the speed of the reference otherwise.
+    """Output per error (rad, rad/s, N m, A), per its integral and derivative; the total
+    is limited to maxOutput. `feedforward` multiplies the torque or current
+    reference; in other PIDs the reference velocity.
     """
 
     kp: rt.Double = 0.0
@@ -148,9 +146,10 @@ class Impedance(rt.Struct):
 
 
 class JointFault(rt.Struct):
-    """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder,
-    4 tracking, 5 calibration, 6 hardware, 7 silence: nobody pushed it any more, and
-    it holds its place, compliant, until its mode is set; 8 the sensor of torque.
+    """The last fault of a joint. Codes: 0 none, 1 current, 2 temperature, 3 encoder, 4
+    tracking, 5 calibration, 6 hardware, 7 reference time-out (streamed references
+    stopped; the joint holds its position, compliant, until its mode is set), 8
+    torque sensor.
     """
 
     code: rt.Int = 0
@@ -158,14 +157,14 @@ class JointFault(rt.Struct):
 
 
 class NotPossible(rt.DeclaredError):
-    """The command cannot be carried out; the arm does what it did before."""
+    """The command cannot be executed; the arm continues its previous motion."""
 
     what: rt.String = ""
 
 
 class Unreachable(rt.DeclaredError):
-    """No angles within the limits bring the hand there; the nearest pose is so far
-    away.
+    """No joint angles within the limits reach the goal; the fields have the error of
+    the best solution.
     """
 
     what: rt.String = ""
@@ -199,15 +198,15 @@ class ArmLimits(rt.Struct):
 
 
 class Row(rt.Struct):
-    """One row of Denavit and Hartenberg: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q the
-    generic angle.
+    """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
+    the generic angle.
     """
 
     a: rt.Double = 0.0  # [m]
     d: rt.Double = 0.0  # [m]
     alpha: rt.Double = 0.0  # [rad]
     offset: rt.Double = 0.0  # [rad]
-    joint: rt.Int = 0  # Index of the generic joint, -1 for a row that does not move.
+    joint: rt.Int = 0  # Index of the generic joint, -1 for a fixed row.
 
 
 class Rows(rt.StructArray[Row]):
@@ -222,7 +221,7 @@ class Rows(rt.StructArray[Row]):
 
 
 class Chain(rt.Struct):
-    """`base` and `tool` are matrices of 4 by 4, row by row, in m."""
+    """`base` and `tool` are 4x4 matrices, row by row, in m."""
 
     rows: Rows = rt.default()
     base: Angles = rt.default()
@@ -230,7 +229,7 @@ class Chain(rt.Struct):
 
 
 class Pose(rt.Struct):
-    """Position and rotation of the hand in the frame of the chain's base."""
+    """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
     y: rt.Double = 0.0  # [m]
@@ -247,8 +246,8 @@ class Pose(rt.Struct):
 
 
 class Outcome(rt.Struct):
-    """What of a command was not possible: clipped to a limit, or dropped for want of a
-    joint.
+    """The parts of a command that were clipped to a limit or dropped because the robot
+    lacks the joint.
     """
 
     clipped: RoboCompGenericArm_Flags = rt.default()
@@ -526,37 +525,37 @@ class ControlBoardProxy(rt.Proxy):
     INTERFACE = CONTROLBOARD
 
     def getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         return self._call("getJoints")
 
     def getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         return self._call("getState")
 
     def getTargets(self, joints: Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
         return self._call("getTargets", joints)
 
     def setControlMode(self, joints: Names, mode: ControlMode) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise Refused, UnknownJoint.
         """
         self._call("setControlMode", joints, mode)
 
     def setControlModes(self, joints: Names, modes: Modes) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise Refused, UnknownJoint.
         """
         self._call("setControlModes", joints, modes)
 
     def setInteractionMode(self, joints: Names, mode: InteractionMode) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise Refused, UnknownJoint.
         """
@@ -565,29 +564,29 @@ class ControlBoardProxy(rt.Proxy):
     def positionMove(
         self, joints: Names, position: Values
     ) -> RoboCompControlBoard_Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise Refused, UnknownJoint, WrongMode.
         """
         return self._call("positionMove", joints, position)
 
     def relativeMove(self, joints: Names, way: Values) -> RoboCompControlBoard_Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise Refused, UnknownJoint, WrongMode.
         """
         return self._call("relativeMove", joints, way)
 
     def motionDone(self, joints: Names) -> RoboCompControlBoard_Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
         return self._call("motionDone", joints)
 
     def stopMotion(self, joints: Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -596,7 +595,7 @@ class ControlBoardProxy(rt.Proxy):
     def setPosition(
         self, joints: Names, position: Values
     ) -> RoboCompControlBoard_Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise Refused, UnknownJoint, WrongMode.
         """
@@ -605,7 +604,7 @@ class ControlBoardProxy(rt.Proxy):
     def velocityMove(
         self, joints: Names, velocity: Values, hold: float
     ) -> RoboCompControlBoard_Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise Refused, UnknownJoint, WrongMode.
@@ -615,16 +614,16 @@ class ControlBoardProxy(rt.Proxy):
     def setVelocity(
         self, joints: Names, velocity: Values
     ) -> RoboCompControlBoard_Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise Refused, UnknownJoint, WrongMode.
         """
         return self._call("setVelocity", joints, velocity)
 
     def setTorque(self, joints: Names, torque: Values) -> RoboCompControlBoard_Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise Refused, UnknownJoint, WrongMode.
         """
@@ -645,7 +644,7 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("setCurrent", motors, current)
 
     def setReferenceSpeed(self, joints: Names, speed: Values) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise Refused, UnknownJoint.
         """
@@ -656,7 +655,7 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("getReferenceSpeed", joints)
 
     def setAcceleration(self, joints: Names, acceleration: Values) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise Refused, UnknownJoint.
         """
@@ -667,7 +666,7 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("getAcceleration", joints)
 
     def setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise Refused, UnknownJoint.
         """
@@ -678,7 +677,7 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("getImpedance", joint)
 
     def setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise Refused, UnknownJoint.
         """
@@ -689,7 +688,7 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("getPid", loop, joint)
 
     def enablePid(self, loop: Loop, joints: Names, on: bool) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -700,14 +699,14 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("isPidEnabled", loop, joints)
 
     def resetPid(self, loop: Loop, joints: Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
         self._call("resetPid", loop, joints)
 
     def getPidReferences(self, loop: Loop, joints: Names) -> Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -718,14 +717,14 @@ class ControlBoardProxy(rt.Proxy):
         return self._call("getPidErrors", loop, joints)
 
     def getPidOutputs(self, loop: Loop, joints: Names) -> Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
         return self._call("getPidOutputs", loop, joints)
 
     def setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise Refused, UnknownJoint.
@@ -733,7 +732,7 @@ class ControlBoardProxy(rt.Proxy):
         self._call("setPositionLimits", joint, low, high)
 
     def setSpeedLimits(self, joints: Names, speed: Values) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise Refused, UnknownJoint.
         """
@@ -747,7 +746,7 @@ class ControlBoardProxy(rt.Proxy):
         self._call("setMaxCurrent", motors, current)
 
     def setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise Refused, UnknownJoint.
@@ -755,14 +754,14 @@ class ControlBoardProxy(rt.Proxy):
         self._call("setEncoder", joint, position)
 
     def setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise Refused, UnknownJoint.
         """
         self._call("setMotorEncoder", motor, counts)
 
     def getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -781,33 +780,33 @@ class ControlBoardProxy(rt.Proxy):
         self._call("setVariable", key, values)
 
     def calibrate(self, joints: Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise Refused, UnknownJoint.
         """
         self._call("calibrate", joints)
 
     def home(self, joints: Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise Refused, UnknownJoint.
         """
         self._call("home", joints)
 
     def park(self, joints: Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise Refused, UnknownJoint.
         """
         self._call("park", joints)
 
     def isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         return self._call("isBusy")
 
     def quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self._call("quit")
 
 

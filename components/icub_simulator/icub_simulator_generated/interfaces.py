@@ -10,7 +10,7 @@ from robocomp_dsl.runtime import types as rt
 
 
 class RoboCompJointMotor_HardwareFailedException(rt.DeclaredError):
-    """The motor or its bus cannot do what was asked."""
+    """The motor or its bus cannot execute the request."""
 
     what: rt.String = ""
 
@@ -34,7 +34,7 @@ class CollisionException(rt.DeclaredError):
 
 
 class MotorState(rt.Struct):
-    """What a motor does now."""
+    """The current state of a motor."""
 
     pos: rt.Float = 0.0  # [rad]
     vel: rt.Float = 0.0  # [rad/s]
@@ -50,8 +50,8 @@ MotorStateMap = dict[rt.String, MotorState]
 
 
 class MotorParams(rt.Struct):
-    """How a motor is built and limited. `maxDegrees` and `invertedSign` are kept for
-    old users only.
+    """Configuration and limits of a motor. `maxDegrees` and `invertedSign` exist for
+    compatibility only.
     """
 
     name: rt.String = ""
@@ -81,7 +81,7 @@ class BusParams(rt.Struct):
 
 
 class MotorGoalPosition(rt.Struct):
-    """Where a motor shall go; a `maxSpeed` of 0 leaves the speed to the motor."""
+    """A goal position; a `maxSpeed` of 0 leaves the speed to the motor."""
 
     name: rt.String = ""
     position: rt.Float = 0.0  # [rad]
@@ -92,7 +92,7 @@ MotorGoalPositionList = list[MotorGoalPosition]
 
 
 class MotorGoalVelocity(rt.Struct):
-    """How fast a motor shall turn."""
+    """A goal velocity."""
 
     name: rt.String = ""
     velocity: rt.Float = 0.0  # [rad/s]
@@ -104,7 +104,7 @@ MotorList = list[rt.String]
 
 
 class RoboCompControlBoard_Refused(rt.DeclaredError):
-    """The board refuses the command; nothing has changed."""
+    """The board rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
@@ -116,7 +116,7 @@ class UnknownJoint(rt.DeclaredError):
 
 
 class WrongMode(rt.DeclaredError):
-    """The joint is in a mode that does not take this command."""
+    """The joint is in a control mode that does not accept this command."""
 
     what: rt.String = ""
 
@@ -158,7 +158,7 @@ Codes = rt.Int32Array
 
 
 class BoardState(rt.Struct):
-    """Everything of one moment, in the order of the joints."""
+    """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
     position: RoboCompControlBoard_Values = rt.default()
@@ -174,14 +174,12 @@ class BoardState(rt.Struct):
     temperature: RoboCompControlBoard_Values = rt.default()  # In degrees Celsius.
     modes: Modes = rt.default()
     interactions: Interactions = rt.default()
-    # Of the faults that nobody has cleared yet, 0 for none; getLastFault has the words.
+    # Codes of the uncleared faults, 0 for none; getLastFault has the messages.
     faults: Codes = rt.default()
 
 
 class Targets(rt.Struct):
-    """What the board was told last and has accepted, in the order of the joints asked
-    for.
-    """
+    """The last accepted references, in the order of the requested joints."""
 
     # Goals of motions, or direct positions.
     position: RoboCompControlBoard_Values = rt.default()
@@ -192,7 +190,7 @@ class Targets(rt.Struct):
 
 
 class JointInfo(rt.Struct):
-    """What a joint is; limits as they are now."""
+    """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
     prismatic: rt.Bool = False
@@ -203,8 +201,8 @@ class JointInfo(rt.Struct):
     torqueLimit: rt.Double = 0.0  # [Nm]
     maxCurrent: rt.Double = 0.0  # [A]
     gear: rt.Double = 0.0
-    counts: rt.Double = 0.0  # Encoder counts of a turn of the motor.
-    # Joints with this number in common share motors and change their mode together.
+    counts: rt.Double = 0.0  # Encoder counts per motor revolution.
+    # Joints with the same number share motors and change their mode together.
     coupledSet: rt.Int = 0
 
 
@@ -212,10 +210,10 @@ Joints = list[JointInfo]
 
 
 class Loop(rt.Enum):
-    """What a regulator regulates: the position (modes Position, PositionDirect, Mixed,
-    while stiff), the velocity (Velocity, VelocityDirect, while stiff), the torque
-    that the joint feels, the current of the motor. The first three give torques in N
-    m, that of the current gives percents of the motor's supply.
+    """The quantity that a PID controls: position (modes Position, PositionDirect,
+    Mixed, while stiff), velocity (Velocity, VelocityDirect, while stiff), measured
+    joint torque, motor current. The first three output torques in N m, the current
+    PID outputs a percentage of the motor's supply.
     """
 
     PositionLoop = 0
@@ -225,9 +223,9 @@ class Loop(rt.Enum):
 
 
 class Pid(rt.Struct):
-    """Output per error (rad, rad/s, N m, A), per its integral and derivative; all of it
-    stays within maxOutput. `feedforward` multiplies the reference of torque or
-    current, or the speed of the reference otherwise.
+    """Output per error (rad, rad/s, N m, A), per its integral and derivative; the total
+    is limited to maxOutput. `feedforward` multiplies the torque or current
+    reference; in other PIDs the reference velocity.
     """
 
     kp: rt.Double = 0.0
@@ -248,9 +246,10 @@ class Impedance(rt.Struct):
 
 
 class JointFault(rt.Struct):
-    """The last fault of a joint; code 0 for none, 1 current, 2 temperature, 3 encoder,
-    4 tracking, 5 calibration, 6 hardware, 7 silence: nobody pushed it any more, and
-    it holds its place, compliant, until its mode is set; 8 the sensor of torque.
+    """The last fault of a joint. Codes: 0 none, 1 current, 2 temperature, 3 encoder, 4
+    tracking, 5 calibration, 6 hardware, 7 reference time-out (streamed references
+    stopped; the joint holds its position, compliant, until its mode is set), 8
+    torque sensor.
     """
 
     code: rt.Int = 0
@@ -290,7 +289,7 @@ class Orientation(rt.Struct):
 
 
 class DataImu(rt.Struct):
-    """Everything the unit measures, of one moment."""
+    """All measurements of one instant."""
 
     acc: Acceleration = rt.default()
     gyro: Gyroscope = rt.default()
@@ -300,14 +299,14 @@ class DataImu(rt.Struct):
 
 
 class CartesianRefused(rt.DeclaredError):
-    """The controller refuses the command; nothing has changed."""
+    """The controller rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
 
 class Unreachable(rt.DeclaredError):
-    """No posture within the limits brings the hand there; the nearest that was found is
-    so far away.
+    """No joint positions within the limits reach the goal; the fields have the error of
+    the best solution.
     """
 
     what: rt.String = ""
@@ -321,8 +320,8 @@ FreeJoints = rt.BoolArray
 
 
 class MotionState(rt.Enum):
-    """Reached: it has arrived. Interrupted: somebody has taken the joints away on the
-    way.
+    """Reached: the motion is complete. Interrupted: another command took over the
+    joints during the motion.
     """
 
     Idle = 0
@@ -350,8 +349,8 @@ class HandPose(rt.Struct):
 
 
 class HandSolution(rt.Struct):
-    """A pose that the hand can have, and the joints that bring it there, in the order
-    of getJoints.
+    """A reachable pose of the end effector, and its joint positions in the order of
+    getJoints.
     """
 
     pose: HandPose = rt.default()
@@ -367,7 +366,7 @@ class HandState(rt.Struct):
 
 
 class RoboCompSkin_HardwareFailedException(rt.DeclaredError):
-    """The skin or its electronics cannot do what was asked."""
+    """The skin or its electronics cannot execute the request."""
 
     what: rt.String = ""
 
@@ -379,8 +378,8 @@ RoboCompSkin_Names = list[rt.String]
 
 
 class Limb(rt.Struct):
-    """Where a limb's frame is: on the body of that name, `r00` to `r22` are the
-    rotation, row by row.
+    """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
+    row by row.
     """
 
     name: rt.String = ""  # Part and limb, as in `left_arm/lower_arm`.
@@ -403,7 +402,7 @@ Limbs = list[Limb]
 
 
 class Patch(rt.Struct):
-    """Taxels that are electronics of one kind. Newtons are `gain` times the raw counts
+    """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
 
@@ -417,8 +416,8 @@ Patches = list[Patch]
 
 
 class Geometry(rt.Struct):
-    """Where the taxels are. It changes rarely; `version` then goes up, and frames tell
-    to which they belong.
+    """Positions of the taxels. When it changes, `version` increases; every frame
+    carries the version it belongs to.
     """
 
     version: rt.Int = 0
@@ -428,7 +427,7 @@ class Geometry(rt.Struct):
     x: RoboCompSkin_FloatSeq = rt.default()
     y: RoboCompSkin_FloatSeq = rt.default()
     z: RoboCompSkin_FloatSeq = rt.default()
-    nx: RoboCompSkin_FloatSeq = rt.default()  # Outward normal, of length 1.
+    nx: RoboCompSkin_FloatSeq = rt.default()  # Outward normal, of unit length.
     ny: RoboCompSkin_FloatSeq = rt.default()
     nz: RoboCompSkin_FloatSeq = rt.default()
     patches: Patches = rt.default()
@@ -436,26 +435,25 @@ class Geometry(rt.Struct):
 
 
 class Frame(rt.Struct):
-    """What all taxels feel. `shearX` to `shearZ` and `raw` are empty unless the skin is
-    set up to send them.
+    """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
+    is configured to send them.
     """
 
-    sequence: rt.Long = 0  # Goes up by one from frame to frame.
+    sequence: rt.Long = 0  # Increases by one per frame.
     time: rt.Double = 0.0  # [s]
     geometry: rt.Int = 0  # Version of the geometry.
-    force: RoboCompSkin_FloatSeq = rt.default()  # Force into the limb, in N.
-    shearX: RoboCompSkin_FloatSeq = rt.default()  # Force along the skin, in N.
+    force: RoboCompSkin_FloatSeq = rt.default()  # Normal force into the limb, in N.
+    shearX: RoboCompSkin_FloatSeq = rt.default()  # Shear force along the skin, in N.
     shearY: RoboCompSkin_FloatSeq = rt.default()
     shearZ: RoboCompSkin_FloatSeq = rt.default()
-    # What the electronics send, 0 to 255, lower under pressure.
+    # Raw values of the electronics, 0 to 255, lower under pressure.
     raw: ByteSeq = rt.default()
-    # [N] Contact force on the limbs that no taxel was near to; 0 where that cannot be
-    # known.
+    # [N] Contact force on the limbs away from all taxels; 0 if unknown.
     offSkin: rt.Float = 0.0
 
 
 class Contact(rt.Struct):
-    """One touch: neighbouring taxels that feel something."""
+    """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
     taxels: rt.Int = 0
@@ -558,7 +556,9 @@ class ErrorType(rt.Enum):
 
 
 class InnerModelManagerError(rt.DeclaredError):
-    """The scene stays as it was; `err` and `text` say why."""
+    """The request is rejected and the scene unchanged; `err` and `text` give the
+    reason.
+    """
 
     err: ErrorType = ErrorType.NonExistingNode
     text: rt.String = ""
@@ -665,7 +665,7 @@ class Matrix(rt.Struct):
 
 
 class RoboCompSimulation_Refused(rt.DeclaredError):
-    """What was asked cannot be; nothing has changed."""
+    """The request cannot be executed; nothing has changed."""
 
     what: rt.String = ""
 
@@ -674,14 +674,15 @@ class State(rt.Struct):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
-    # Simulated seconds per second as wished (0: as fast as it can) and as they are.
+    # Simulated seconds per second, requested (0: as fast as possible) and measured.
     speed: rt.Double = 0.0
     realTimeFactor: rt.Double = 0.0
     paused: rt.Bool = False
     physics: rt.Bool = False
     seed: rt.Int = 0
     noise: rt.Double = 0.0
-    failure: rt.String = ""  # Why it has stopped for good; empty while it is well.
+    # The reason of a permanent stop; empty while the simulation works.
+    failure: rt.String = ""
 
 
 RoboCompSimulation_Names = list[rt.String]
@@ -715,25 +716,25 @@ Bytes = rt.UInt8Array
 
 
 class Model(rt.Struct):
-    """The whole world as MuJoCo writes it (MJB), for those who show it."""
+    """The complete world in MuJoCo's format (MJB), for viewers."""
 
-    version: rt.String = ""  # Of MuJoCo; another one cannot read it.
-    revision: rt.Int = 0  # Another number when the world has other nodes.
+    version: rt.String = ""  # MuJoCo version; other versions cannot read the file.
+    revision: rt.Int = 0  # Changes when nodes are added or removed.
     data: Bytes = rt.default()
 
 
 class Sight(rt.Struct):
-    """What there is to be seen at one moment, as MuJoCo counts: m, z up."""
+    """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]
     realTimeFactor: rt.Double = 0.0
     paused: rt.Bool = False
-    revision: rt.Int = 0  # Of the model that the numbers are of.
-    # Of all joints, `qpos` of MuJoCo: m, rad, quaternions.
+    revision: rt.Int = 0  # Revision of the model that the values belong to.
+    # MuJoCo's `qpos` of all joints: m, rad, quaternions.
     positions: RoboCompSimulation_Values = rt.default()
-    # Of all bodies, seven each: x y z [m], quaternion w x y z.
+    # Poses of all bodies, seven values each: x y z [m], quaternion w x y z.
     poses: RoboCompSimulation_Values = rt.default()
-    # All contacts, six each: point [m], normal.
+    # All contacts, six values each: point [m], normal.
     contacts: RoboCompSimulation_Values = rt.default()
 
 
@@ -741,12 +742,11 @@ class Tick(rt.Struct):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
-    # How often time has begun anew: at a reset, or where an earlier state was gone back
-    # to.
+    # Number of discontinuities: resets, and returns to an earlier state.
     epoch: rt.Int = 0
-    # Simulated seconds per second of late; 0 while it is held.
+    # Recent real-time factor: simulated seconds per wall second; 0 while paused.
     realTimeFactor: rt.Double = 0.0
-    paused: rt.Bool = False  # Time stands still.
+    paused: rt.Bool = False  # Simulated time is paused.
 
 
 JOINTMOTOR = rt.Interface(
@@ -1418,7 +1418,7 @@ class JointMotorPubProxy(rt.Proxy):
     INTERFACE = JOINTMOTORPUB
 
     def motorStates(self, mstateMap: MotorStateMap) -> None:
-        """What the motors do now."""
+        """The current states of the motors."""
         self._call("motorStates", mstateMap)
 
 
@@ -1494,7 +1494,7 @@ class SkinContactsProxy(rt.Proxy):
     INTERFACE = SKINCONTACTS
 
     def contacts(self, contacts: ContactList) -> None:
-        """The touches of a new frame; an empty list when the last one has ended."""
+        """The touches of a new frame; empty once after the last touch has ended."""
         self._call("contacts", contacts)
 
     def publish(self, request: ContactList) -> None:

@@ -78,7 +78,7 @@ SCENE = Path(__file__).with_name("scene.json")
 
 
 class Simulator(GenericWorker):
-    """The world of icub.xml, simulated: every device in it is served."""
+    """Simulates the world of icub.xml and serves all its devices."""
 
     rounds: int = 0
     simulation: Simulation
@@ -225,7 +225,7 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setPosition(goal)
 
     def JointMotor_setVelocity(self, goal: MotorGoalVelocity) -> None:
-        """Turn one motor at a velocity.
+        """Move one motor at a velocity.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
@@ -239,14 +239,14 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setZeroPos(name)
 
     def JointMotor_setSyncPosition(self, listGoals: MotorGoalPositionList) -> None:
-        """Send several motors to positions at once.
+        """Send several motors to positions simultaneously.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setSyncPosition(listGoals)
 
     def JointMotor_setSyncVelocity(self, listGoals: MotorGoalVelocityList) -> None:
-        """Turn several motors at velocities at once.
+        """Move several motors at velocities simultaneously.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
@@ -260,7 +260,7 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setSyncZeroPos()
 
     def JointMotor_getMotorParams(self, motor: str) -> MotorParams:
-        """How one motor is built and limited.
+        """Configuration and limits of one motor.
 
         May raise UnknownMotorException.
         """
@@ -269,7 +269,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getMotorState(self, motor: str) -> MotorState:
-        """What one motor does now.
+        """The current state of one motor.
 
         May raise UnknownMotorException.
         """
@@ -278,7 +278,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getMotorStateMap(self, mList: MotorList) -> MotorStateMap:
-        """What the named motors do now.
+        """The current states of the named motors.
 
         May raise UnknownMotorException.
         """
@@ -287,7 +287,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getAllMotorState(self) -> MotorStateMap:
-        """What all motors do now.
+        """The current states of all motors.
 
         May raise UnknownMotorException.
         """
@@ -296,31 +296,31 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getAllMotorParams(self) -> MotorParamsList:
-        """How all motors are built and limited."""
+        """Configuration and limits of all motors."""
         ask = self.ports["JointMotor"].getAllMotorParams
         answer: MotorParamsList = ask()
         return answer
 
     def JointMotor_getBusParams(self) -> BusParams:
-        """The bus."""
+        """Configuration of the bus."""
         ask = self.ports["JointMotor"].getBusParams
         answer: BusParams = ask()
         return answer
 
     def torso_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["torso"].getJoints
         answer: Joints = ask()
         return answer
 
     def torso_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["torso"].getState
         answer: BoardState = ask()
         return answer
 
     def torso_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -331,7 +331,8 @@ class Simulator(GenericWorker):
     def torso_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -340,8 +341,7 @@ class Simulator(GenericWorker):
     def torso_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -350,7 +350,7 @@ class Simulator(GenericWorker):
     def torso_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -359,8 +359,8 @@ class Simulator(GenericWorker):
     def torso_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -371,7 +371,7 @@ class Simulator(GenericWorker):
     def torso_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -380,7 +380,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -389,7 +389,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -398,7 +398,7 @@ class Simulator(GenericWorker):
     def torso_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -412,7 +412,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -424,7 +424,7 @@ class Simulator(GenericWorker):
     def torso_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -435,9 +435,9 @@ class Simulator(GenericWorker):
     def torso_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -470,7 +470,7 @@ class Simulator(GenericWorker):
     def torso_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -492,7 +492,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -510,7 +510,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -526,7 +526,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -544,7 +544,7 @@ class Simulator(GenericWorker):
     def torso_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -562,7 +562,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -571,7 +571,7 @@ class Simulator(GenericWorker):
     def torso_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -593,7 +593,7 @@ class Simulator(GenericWorker):
     def torso_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -602,7 +602,7 @@ class Simulator(GenericWorker):
         return answer
 
     def torso_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -612,7 +612,7 @@ class Simulator(GenericWorker):
     def torso_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -628,7 +628,7 @@ class Simulator(GenericWorker):
         self.ports["torso"].setMaxCurrent(motors, current)
 
     def torso_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -636,14 +636,14 @@ class Simulator(GenericWorker):
         self.ports["torso"].setEncoder(joint, position)
 
     def torso_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["torso"].setMotorEncoder(motor, counts)
 
     def torso_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -674,51 +674,51 @@ class Simulator(GenericWorker):
         self.ports["torso"].setVariable(key, values)
 
     def torso_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["torso"].calibrate(joints)
 
     def torso_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["torso"].home(joints)
 
     def torso_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["torso"].park(joints)
 
     def torso_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["torso"].isBusy
         answer: bool = ask()
         return answer
 
     def torso_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["torso"].quit()
 
     def head_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["head"].getJoints
         answer: Joints = ask()
         return answer
 
     def head_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["head"].getState
         answer: BoardState = ask()
         return answer
 
     def head_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -729,7 +729,8 @@ class Simulator(GenericWorker):
     def head_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -738,8 +739,7 @@ class Simulator(GenericWorker):
     def head_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -748,7 +748,7 @@ class Simulator(GenericWorker):
     def head_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -757,8 +757,8 @@ class Simulator(GenericWorker):
     def head_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -769,7 +769,7 @@ class Simulator(GenericWorker):
     def head_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -778,7 +778,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -787,7 +787,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -796,7 +796,7 @@ class Simulator(GenericWorker):
     def head_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -810,7 +810,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -822,7 +822,7 @@ class Simulator(GenericWorker):
     def head_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -833,9 +833,9 @@ class Simulator(GenericWorker):
     def head_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -868,7 +868,7 @@ class Simulator(GenericWorker):
     def head_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -890,7 +890,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -908,7 +908,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -924,7 +924,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -942,7 +942,7 @@ class Simulator(GenericWorker):
     def head_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -960,7 +960,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -969,7 +969,7 @@ class Simulator(GenericWorker):
     def head_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -991,7 +991,7 @@ class Simulator(GenericWorker):
     def head_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1000,7 +1000,7 @@ class Simulator(GenericWorker):
         return answer
 
     def head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1010,7 +1010,7 @@ class Simulator(GenericWorker):
     def head_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1026,7 +1026,7 @@ class Simulator(GenericWorker):
         self.ports["head"].setMaxCurrent(motors, current)
 
     def head_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1034,14 +1034,14 @@ class Simulator(GenericWorker):
         self.ports["head"].setEncoder(joint, position)
 
     def head_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["head"].setMotorEncoder(motor, counts)
 
     def head_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1072,51 +1072,51 @@ class Simulator(GenericWorker):
         self.ports["head"].setVariable(key, values)
 
     def head_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["head"].calibrate(joints)
 
     def head_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["head"].home(joints)
 
     def head_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["head"].park(joints)
 
     def head_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["head"].isBusy
         answer: bool = ask()
         return answer
 
     def head_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["head"].quit()
 
     def left_arm_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["left_arm"].getJoints
         answer: Joints = ask()
         return answer
 
     def left_arm_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["left_arm"].getState
         answer: BoardState = ask()
         return answer
 
     def left_arm_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1127,7 +1127,8 @@ class Simulator(GenericWorker):
     def left_arm_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1136,8 +1137,7 @@ class Simulator(GenericWorker):
     def left_arm_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1146,7 +1146,7 @@ class Simulator(GenericWorker):
     def left_arm_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1155,8 +1155,8 @@ class Simulator(GenericWorker):
     def left_arm_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1167,7 +1167,7 @@ class Simulator(GenericWorker):
     def left_arm_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1176,7 +1176,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1185,7 +1185,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1194,7 +1194,7 @@ class Simulator(GenericWorker):
     def left_arm_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1208,7 +1208,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -1220,7 +1220,7 @@ class Simulator(GenericWorker):
     def left_arm_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1231,9 +1231,9 @@ class Simulator(GenericWorker):
     def left_arm_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1266,7 +1266,7 @@ class Simulator(GenericWorker):
     def left_arm_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1288,7 +1288,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1306,7 +1306,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1322,7 +1322,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1340,7 +1340,7 @@ class Simulator(GenericWorker):
     def left_arm_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -1358,7 +1358,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1367,7 +1367,7 @@ class Simulator(GenericWorker):
     def left_arm_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1389,7 +1389,7 @@ class Simulator(GenericWorker):
     def left_arm_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1398,7 +1398,7 @@ class Simulator(GenericWorker):
         return answer
 
     def left_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1408,7 +1408,7 @@ class Simulator(GenericWorker):
     def left_arm_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1424,7 +1424,7 @@ class Simulator(GenericWorker):
         self.ports["left_arm"].setMaxCurrent(motors, current)
 
     def left_arm_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1432,14 +1432,14 @@ class Simulator(GenericWorker):
         self.ports["left_arm"].setEncoder(joint, position)
 
     def left_arm_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["left_arm"].setMotorEncoder(motor, counts)
 
     def left_arm_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1472,51 +1472,51 @@ class Simulator(GenericWorker):
         self.ports["left_arm"].setVariable(key, values)
 
     def left_arm_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["left_arm"].calibrate(joints)
 
     def left_arm_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["left_arm"].home(joints)
 
     def left_arm_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["left_arm"].park(joints)
 
     def left_arm_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["left_arm"].isBusy
         answer: bool = ask()
         return answer
 
     def left_arm_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["left_arm"].quit()
 
     def right_arm_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["right_arm"].getJoints
         answer: Joints = ask()
         return answer
 
     def right_arm_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["right_arm"].getState
         answer: BoardState = ask()
         return answer
 
     def right_arm_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1527,7 +1527,8 @@ class Simulator(GenericWorker):
     def right_arm_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1536,8 +1537,7 @@ class Simulator(GenericWorker):
     def right_arm_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1546,7 +1546,7 @@ class Simulator(GenericWorker):
     def right_arm_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1555,8 +1555,8 @@ class Simulator(GenericWorker):
     def right_arm_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1567,7 +1567,7 @@ class Simulator(GenericWorker):
     def right_arm_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1576,7 +1576,7 @@ class Simulator(GenericWorker):
         return answer
 
     def right_arm_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1585,7 +1585,7 @@ class Simulator(GenericWorker):
         return answer
 
     def right_arm_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1594,7 +1594,7 @@ class Simulator(GenericWorker):
     def right_arm_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1608,7 +1608,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -1620,7 +1620,7 @@ class Simulator(GenericWorker):
     def right_arm_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1631,9 +1631,9 @@ class Simulator(GenericWorker):
     def right_arm_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1666,7 +1666,7 @@ class Simulator(GenericWorker):
     def right_arm_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1688,7 +1688,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1706,7 +1706,7 @@ class Simulator(GenericWorker):
         return answer
 
     def right_arm_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1722,7 +1722,7 @@ class Simulator(GenericWorker):
         return answer
 
     def right_arm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1740,7 +1740,7 @@ class Simulator(GenericWorker):
     def right_arm_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -1760,7 +1760,7 @@ class Simulator(GenericWorker):
     def right_arm_resetPid(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1769,7 +1769,7 @@ class Simulator(GenericWorker):
     def right_arm_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1791,7 +1791,7 @@ class Simulator(GenericWorker):
     def right_arm_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1800,7 +1800,7 @@ class Simulator(GenericWorker):
         return answer
 
     def right_arm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1810,7 +1810,7 @@ class Simulator(GenericWorker):
     def right_arm_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1826,7 +1826,7 @@ class Simulator(GenericWorker):
         self.ports["right_arm"].setMaxCurrent(motors, current)
 
     def right_arm_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1834,14 +1834,14 @@ class Simulator(GenericWorker):
         self.ports["right_arm"].setEncoder(joint, position)
 
     def right_arm_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["right_arm"].setMotorEncoder(motor, counts)
 
     def right_arm_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1874,51 +1874,51 @@ class Simulator(GenericWorker):
         self.ports["right_arm"].setVariable(key, values)
 
     def right_arm_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["right_arm"].calibrate(joints)
 
     def right_arm_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["right_arm"].home(joints)
 
     def right_arm_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["right_arm"].park(joints)
 
     def right_arm_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["right_arm"].isBusy
         answer: bool = ask()
         return answer
 
     def right_arm_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["right_arm"].quit()
 
     def finger_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["finger"].getJoints
         answer: Joints = ask()
         return answer
 
     def finger_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["finger"].getState
         answer: BoardState = ask()
         return answer
 
     def finger_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1929,7 +1929,8 @@ class Simulator(GenericWorker):
     def finger_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1938,8 +1939,7 @@ class Simulator(GenericWorker):
     def finger_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1948,7 +1948,7 @@ class Simulator(GenericWorker):
     def finger_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1957,8 +1957,8 @@ class Simulator(GenericWorker):
     def finger_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1969,7 +1969,7 @@ class Simulator(GenericWorker):
     def finger_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1978,7 +1978,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1987,7 +1987,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1996,7 +1996,7 @@ class Simulator(GenericWorker):
     def finger_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2010,7 +2010,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -2022,7 +2022,7 @@ class Simulator(GenericWorker):
     def finger_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2033,9 +2033,9 @@ class Simulator(GenericWorker):
     def finger_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2068,7 +2068,7 @@ class Simulator(GenericWorker):
     def finger_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2090,7 +2090,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2108,7 +2108,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2124,7 +2124,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2142,7 +2142,7 @@ class Simulator(GenericWorker):
     def finger_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -2160,7 +2160,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2169,7 +2169,7 @@ class Simulator(GenericWorker):
     def finger_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2191,7 +2191,7 @@ class Simulator(GenericWorker):
     def finger_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -2200,7 +2200,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2210,7 +2210,7 @@ class Simulator(GenericWorker):
     def finger_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2226,7 +2226,7 @@ class Simulator(GenericWorker):
         self.ports["finger"].setMaxCurrent(motors, current)
 
     def finger_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2234,14 +2234,14 @@ class Simulator(GenericWorker):
         self.ports["finger"].setEncoder(joint, position)
 
     def finger_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].setMotorEncoder(motor, counts)
 
     def finger_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -2272,51 +2272,51 @@ class Simulator(GenericWorker):
         self.ports["finger"].setVariable(key, values)
 
     def finger_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].calibrate(joints)
 
     def finger_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].home(joints)
 
     def finger_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].park(joints)
 
     def finger_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["finger"].isBusy
         answer: bool = ask()
         return answer
 
     def finger_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["finger"].quit()
 
     def finger2_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["finger2"].getJoints
         answer: Joints = ask()
         return answer
 
     def finger2_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["finger2"].getState
         answer: BoardState = ask()
         return answer
 
     def finger2_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -2327,7 +2327,8 @@ class Simulator(GenericWorker):
     def finger2_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2336,8 +2337,7 @@ class Simulator(GenericWorker):
     def finger2_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2346,7 +2346,7 @@ class Simulator(GenericWorker):
     def finger2_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2355,8 +2355,8 @@ class Simulator(GenericWorker):
     def finger2_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2367,7 +2367,7 @@ class Simulator(GenericWorker):
     def finger2_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2376,7 +2376,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -2385,7 +2385,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -2394,7 +2394,7 @@ class Simulator(GenericWorker):
     def finger2_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2408,7 +2408,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -2420,7 +2420,7 @@ class Simulator(GenericWorker):
     def finger2_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2431,9 +2431,9 @@ class Simulator(GenericWorker):
     def finger2_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2466,7 +2466,7 @@ class Simulator(GenericWorker):
     def finger2_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2488,7 +2488,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2506,7 +2506,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2522,7 +2522,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2540,7 +2540,7 @@ class Simulator(GenericWorker):
     def finger2_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -2558,7 +2558,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2567,7 +2567,7 @@ class Simulator(GenericWorker):
     def finger2_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2589,7 +2589,7 @@ class Simulator(GenericWorker):
     def finger2_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -2598,7 +2598,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2608,7 +2608,7 @@ class Simulator(GenericWorker):
     def finger2_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2624,7 +2624,7 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setMaxCurrent(motors, current)
 
     def finger2_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2632,14 +2632,14 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setEncoder(joint, position)
 
     def finger2_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].setMotorEncoder(motor, counts)
 
     def finger2_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -2672,39 +2672,39 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setVariable(key, values)
 
     def finger2_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].calibrate(joints)
 
     def finger2_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].home(joints)
 
     def finger2_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].park(joints)
 
     def finger2_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["finger2"].isBusy
         answer: bool = ask()
         return answer
 
     def finger2_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["finger2"].quit()
 
     def imu_getDataImu(self) -> DataImu:
-        """Everything."""
+        """All measurements."""
         ask = self.ports["imu"].getDataImu
         answer: DataImu = ask()
         return answer
@@ -2734,7 +2734,7 @@ class Simulator(GenericWorker):
         return answer
 
     def imu_resetImu(self) -> None:
-        """The present orientation becomes the reference."""
+        """Make the current orientation the reference."""
         self.ports["imu"].resetImu()
 
     def cartesian_left_arm_getJoints(self) -> JointNames:
@@ -2744,13 +2744,13 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_getPose(self) -> HandPose:
-        """Where the hand is, from what the encoders tell."""
+        """The pose of the end effector, computed from the encoders."""
         ask = self.ports["cartesian_left_arm"].getPose
         answer: HandPose = ask()
         return answer
 
     def cartesian_left_arm_getState(self) -> HandState:
-        """The same, and what the controller does."""
+        """The pose, and the state of the controller."""
         ask = self.ports["cartesian_left_arm"].getState
         answer: HandState = ask()
         return answer
@@ -2758,8 +2758,8 @@ class Simulator(GenericWorker):
     def cartesian_left_arm_goToPose(
         self, pose: HandPose, seconds: float
     ) -> HandSolution:
-        """Take the hand to a pose on a straight line, in so many seconds, or in the
-        usual time if that is 0.
+        """Move the end effector to a pose on a straight line, in `seconds` (0: the
+        default duration).
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -2771,7 +2771,7 @@ class Simulator(GenericWorker):
     def cartesian_left_arm_goToPosition(
         self, place: HandPlace, seconds: float
     ) -> HandSolution:
-        """The same for its place alone; its turn is free.
+        """Move the end effector to a position; its orientation is free.
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -2781,7 +2781,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_getDesired(self) -> HandSolution:
-        """What was solved for the last goal.
+        """The solution for the last goal.
 
         May raise CartesianRefused.
         """
@@ -2790,17 +2790,17 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_checkMotionDone(self) -> bool:
-        """Whether the hand is on no way any more."""
+        """Whether no motion is in progress."""
         ask = self.ports["cartesian_left_arm"].checkMotionDone
         answer: bool = ask()
         return answer
 
     def cartesian_left_arm_stopControl(self) -> None:
-        """Stay where the hand is."""
+        """Stop the end effector at its current pose."""
         self.ports["cartesian_left_arm"].stopControl()
 
     def cartesian_left_arm_askForPose(self, pose: HandPose) -> HandSolution:
-        """Solve for a pose; nothing moves.
+        """Solve for a pose without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -2809,7 +2809,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_askForPosition(self, place: HandPlace) -> HandSolution:
-        """Solve for a place; nothing moves.
+        """Solve for a position without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -2818,7 +2818,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_setTrajTime(self, seconds: float) -> None:
-        """The time that a motion usually takes.
+        """The default duration of a motion.
 
         Units: seconds in s.
         May raise CartesianRefused.
@@ -2832,7 +2832,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_setInTargetTol(self, distance: float, angle: float) -> None:
-        """How near to a goal a posture must bring the hand.
+        """The accuracy with which a solution must reach its goal.
 
         Units: distance in m, angle in rad.
         May raise CartesianRefused.
@@ -2850,7 +2850,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_setTrackingMode(self, on: bool) -> None:
-        """Whether the hand is kept at its goal when it has arrived, even when other
+        """Whether the end effector tracks its goal after arrival, also when other
         joints move it.
         """
         self.ports["cartesian_left_arm"].setTrackingMode(on)
@@ -2862,8 +2862,8 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_left_arm_setDOF(self, free: FreeJoints) -> None:
-        """Which joints may move, in the order of getJoints; the others stay as they
-        are. Not while the hand moves.
+        """Which joints may move, in the order of getJoints; the others are fixed.
+        Rejected during a motion.
 
         May raise CartesianRefused.
         """
@@ -2882,13 +2882,13 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_getPose(self) -> HandPose:
-        """Where the hand is, from what the encoders tell."""
+        """The pose of the end effector, computed from the encoders."""
         ask = self.ports["cartesian_right_arm"].getPose
         answer: HandPose = ask()
         return answer
 
     def cartesian_right_arm_getState(self) -> HandState:
-        """The same, and what the controller does."""
+        """The pose, and the state of the controller."""
         ask = self.ports["cartesian_right_arm"].getState
         answer: HandState = ask()
         return answer
@@ -2896,8 +2896,8 @@ class Simulator(GenericWorker):
     def cartesian_right_arm_goToPose(
         self, pose: HandPose, seconds: float
     ) -> HandSolution:
-        """Take the hand to a pose on a straight line, in so many seconds, or in the
-        usual time if that is 0.
+        """Move the end effector to a pose on a straight line, in `seconds` (0: the
+        default duration).
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -2909,7 +2909,7 @@ class Simulator(GenericWorker):
     def cartesian_right_arm_goToPosition(
         self, place: HandPlace, seconds: float
     ) -> HandSolution:
-        """The same for its place alone; its turn is free.
+        """Move the end effector to a position; its orientation is free.
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -2919,7 +2919,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_getDesired(self) -> HandSolution:
-        """What was solved for the last goal.
+        """The solution for the last goal.
 
         May raise CartesianRefused.
         """
@@ -2928,17 +2928,17 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_checkMotionDone(self) -> bool:
-        """Whether the hand is on no way any more."""
+        """Whether no motion is in progress."""
         ask = self.ports["cartesian_right_arm"].checkMotionDone
         answer: bool = ask()
         return answer
 
     def cartesian_right_arm_stopControl(self) -> None:
-        """Stay where the hand is."""
+        """Stop the end effector at its current pose."""
         self.ports["cartesian_right_arm"].stopControl()
 
     def cartesian_right_arm_askForPose(self, pose: HandPose) -> HandSolution:
-        """Solve for a pose; nothing moves.
+        """Solve for a pose without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -2947,7 +2947,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_askForPosition(self, place: HandPlace) -> HandSolution:
-        """Solve for a place; nothing moves.
+        """Solve for a position without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -2956,7 +2956,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_setTrajTime(self, seconds: float) -> None:
-        """The time that a motion usually takes.
+        """The default duration of a motion.
 
         Units: seconds in s.
         May raise CartesianRefused.
@@ -2970,7 +2970,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_setInTargetTol(self, distance: float, angle: float) -> None:
-        """How near to a goal a posture must bring the hand.
+        """The accuracy with which a solution must reach its goal.
 
         Units: distance in m, angle in rad.
         May raise CartesianRefused.
@@ -2988,7 +2988,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_setTrackingMode(self, on: bool) -> None:
-        """Whether the hand is kept at its goal when it has arrived, even when other
+        """Whether the end effector tracks its goal after arrival, also when other
         joints move it.
         """
         self.ports["cartesian_right_arm"].setTrackingMode(on)
@@ -3000,8 +3000,8 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_right_arm_setDOF(self, free: FreeJoints) -> None:
-        """Which joints may move, in the order of getJoints; the others stay as they
-        are. Not while the hand moves.
+        """Which joints may move, in the order of getJoints; the others are fixed.
+        Rejected during a motion.
 
         May raise CartesianRefused.
         """
@@ -3014,7 +3014,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Skin_getGeometry(self) -> Geometry:
-        """Where the taxels are."""
+        """Positions of the taxels."""
         ask = self.ports["Skin"].getGeometry
         answer: Geometry = ask()
         return answer
@@ -3038,7 +3038,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Skin_calibrate(self, seconds: float) -> None:
-        """Take the baseline from the next `seconds`; nothing may touch the skin
+        """Measure the baseline during the next `seconds`; the skin must not be touched
         meanwhile.
 
         Units: seconds in s.
@@ -3049,7 +3049,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_addTransform(
         self, item: str, engine: str, base: str, pose: Pose3D
     ) -> bool:
-        """Put a new transform below `base`.
+        """Add a transform below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3058,7 +3058,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addJoint(self, item: str, base: str, j: jointType) -> bool:
-        """Put a new joint below `base`.
+        """Add a joint below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3067,7 +3067,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addMesh(self, item: str, base: str, m: meshType) -> bool:
-        """Put a new mesh below `base`, which must be a transform.
+        """Add a mesh below `base`, which must be a transform.
 
         May raise InnerModelManagerError.
         """
@@ -3076,7 +3076,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addPlane(self, item: str, base: str, plane: Plane3D) -> bool:
-        """Put a new plane below `base`.
+        """Add a plane below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3094,7 +3094,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_setPose(self, base: str, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of `base`.
+        """Set the pose of `item`, expressed in the frame of `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3103,7 +3103,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_setPoseFromParent(self, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of its parent.
+        """Set the pose of `item`, expressed in the frame of its parent.
 
         May raise InnerModelManagerError.
         """
@@ -3143,7 +3143,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_transform(
         self, base: str, item: str, coordInItem: coord3D
     ) -> tuple[bool, coord3D]:
-        """A point in the frame of `item`, told in the frame of `base`.
+        """Transform a point from the frame of `item` to the frame of `base`.
 
         Returns the result, coordInBase.
         May raise InnerModelManagerError.
@@ -3175,7 +3175,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_addAttribute(
         self, idNode: str, name: str, type: str, value: str
     ) -> bool:
-        """Give a node a new attribute.
+        """Add an attribute to a node.
 
         May raise InnerModelManagerError.
         """
@@ -3184,7 +3184,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_removeAttribute(self, idNode: str, name: str) -> bool:
-        """Take an attribute away from a node.
+        """Remove an attribute from a node.
 
         May raise InnerModelManagerError.
         """
@@ -3216,7 +3216,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_removeNode(self, item: str) -> bool:
-        """Remove a node and all below it.
+        """Remove a node and its subtree.
 
         May raise InnerModelManagerError.
         """
@@ -3225,7 +3225,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_moveNode(self, src: str, dst: str) -> bool:
-        """Move a node and all below it under another parent.
+        """Move a node and its subtree to another parent.
 
         May raise InnerModelManagerError.
         """
@@ -3234,7 +3234,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_collide(self, a: str, b: str) -> bool:
-        """Whether two subtrees touch."""
+        """Whether two subtrees are in collision."""
         ask = self.ports["InnerModelManager"].collide
         answer: bool = ask(a, b)
         return answer
@@ -3242,7 +3242,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_setPointCloudData(
         self, id: str, cloud: PointCloudVector
     ) -> None:
-        """Replace the points of a cloud."""
+        """Replace the points of a point cloud."""
         self.ports["InnerModelManager"].setPointCloudData(id, cloud)
 
     def Simulation_getState(self) -> State:
@@ -3260,7 +3260,7 @@ class Simulator(GenericWorker):
         self.ports["Simulation"].resume()
 
     def Simulation_step(self, steps: int) -> float:
-        """While it is paused: so many steps of the physics, at once; tells the time
+        """While paused: run a number of physics steps without delay; returns the time
         afterwards.
 
         May raise RoboCompSimulation_Refused.
@@ -3270,39 +3270,39 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_reset(self) -> None:
-        """Everything as it was at the start, with the present seed and nodes.
+        """Reset everything to the start, with the current seed and nodes.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].reset()
 
     def Simulation_setSeed(self, seed: int) -> None:
-        """Counts from the next reset on.
+        """Takes effect at the next reset.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setSeed(seed)
 
     def Simulation_setSpeed(self, speed: float) -> None:
-        """Simulated seconds per second; 0: as fast as it can.
+        """Simulated seconds per second; 0: as fast as possible.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setSpeed(speed)
 
     def Simulation_setNoise(self, factor: float) -> None:
-        """A factor on the noise that the devices declare.
+        """Factor on the noise that the devices declare.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setNoise(factor)
 
     def Simulation_setPhysics(self, on: bool) -> None:
-        """Off: no gravity and no contacts; motors work as ever."""
+        """Off: no gravity and no contacts; motors still work."""
         self.ports["Simulation"].setPhysics(on)
 
     def Simulation_snapshot(self) -> int:
-        """Keep the world as it is now, under a number.
+        """Save the current state of the world under a number.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3311,7 +3311,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_restore(self, snapshot: int) -> None:
-        """The world is again as it was then.
+        """Restore a saved state.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3325,8 +3325,7 @@ class Simulator(GenericWorker):
         self.ports["Simulation"].forget(snapshot)
 
     def Simulation_fork(self) -> int:
-        """A copy of the world that runs only when it is told to, to see what would
-        happen.
+        """A copy of the world that runs only on request, for prediction.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3335,7 +3334,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_advance(self, fork: int, seconds: float) -> float:
-        """Let time pass in a fork; tells its time afterwards.
+        """Advance a fork; returns its time afterwards.
 
         Units: seconds in s.
         May raise RoboCompSimulation_Refused.
@@ -3347,7 +3346,7 @@ class Simulator(GenericWorker):
     def Simulation_drive(
         self, fork: int, base: str, side: float, adv: float, rot: float
     ) -> None:
-        """Drive a base, until told otherwise; 0 is the world itself.
+        """Drive a base until the next command; fork 0 is the world itself.
 
         Units: side in mm/s, adv in mm/s, rot in rad/s.
         May raise RoboCompSimulation_Refused.
@@ -3360,14 +3359,15 @@ class Simulator(GenericWorker):
         joints: RoboCompSimulation_Names,
         positions: RoboCompSimulation_Values,
     ) -> None:
-        """Joints go to positions (rad, mm) as fast as they can; 0 is the world itself.
+        """Move joints to positions (rad, mm) at maximum speed; fork 0 is the world
+        itself.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].move(fork, joints, positions)
 
     def Simulation_getPoses(self, fork: int, frames: RoboCompSimulation_Names) -> Poses:
-        """Where frames are, in the frame of the world; 0 is the world itself.
+        """Poses of frames in the world frame; fork 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3378,7 +3378,7 @@ class Simulator(GenericWorker):
     def Simulation_getJoints(
         self, fork: int, joints: RoboCompSimulation_Names
     ) -> RoboCompSimulation_Values:
-        """Positions of joints (rad, mm); 0 is the world itself.
+        """Joint positions (rad, mm); fork 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3387,20 +3387,20 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_release(self, fork: int) -> None:
-        """A fork is needed no more.
+        """Delete a fork.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].release(fork)
 
     def Simulation_getModel(self) -> Model:
-        """What is simulated; some MB, needed once for each `revision`."""
+        """The simulated model; some MB, to be fetched once per `revision`."""
         ask = self.ports["Simulation"].getModel
         answer: Model = ask()
         return answer
 
     def Simulation_getSight(self) -> Sight:
-        """Where everything is."""
+        """Poses of all bodies."""
         ask = self.ports["Simulation"].getSight
         answer: Sight = ask()
         return answer

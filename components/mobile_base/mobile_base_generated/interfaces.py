@@ -12,23 +12,22 @@ class Tick(rt.Struct):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
-    # How often time has begun anew: at a reset, or where an earlier state was gone back
-    # to.
+    # Number of discontinuities: resets, and returns to an earlier state.
     epoch: rt.Int = 0
-    # Simulated seconds per second of late; 0 while it is held.
+    # Recent real-time factor: simulated seconds per wall second; 0 while paused.
     realTimeFactor: rt.Double = 0.0
-    paused: rt.Bool = False  # Time stands still.
+    paused: rt.Bool = False  # Simulated time is paused.
 
 
 class HardwareFailedException(rt.DeclaredError):
-    """The base cannot do what was asked; `what` says why."""
+    """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator
-    puts the true pose there.
+    """Odometry of the base. The corrected pose is compensated for known drift; in a
+    simulator it is the true pose.
     """
 
     x: rt.Float = 0.0  # [mm]
@@ -44,7 +43,7 @@ class TBaseState(rt.Struct):
 
 
 class TMechParams(rt.Struct):
-    """How the base is built and how fast it may go."""
+    """Dimensions and speed limits of the base."""
 
     wheelRadius: rt.Int = 0  # [mm]
     axisLength: rt.Int = 0  # [mm]
@@ -61,7 +60,7 @@ shortVector = rt.Int32Array
 
 
 class LaserConfData(rt.Struct):
-    """How the laser is set up. A `staticConf` of 0 means that it may change while
+    """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
 
@@ -81,7 +80,7 @@ class LaserConfData(rt.Struct):
 
 
 class TData(rt.Struct):
-    """One ray. A ray that hits nothing has the largest range."""
+    """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]
     dist: rt.Float = 0.0  # [mm]
@@ -155,8 +154,8 @@ class DifferentialRobotPubProxy(rt.Proxy):
     INTERFACE = DIFFERENTIALROBOTPUB
 
     def pushBaseState(self, state: TBaseState, time: float) -> None:
-        """The state at `time`, which counts from the start of the base and is simulated
-        time in a simulator.
+        """The state at `time`, measured from the start of the base; simulated time in a
+        simulator.
 
         Units: time in s.
         """

@@ -79,7 +79,7 @@ SCENE = Path(__file__).with_name("scene.json")
 
 
 class Simulator(GenericWorker):
-    """The world of nao.xml, simulated: every device in it is served."""
+    """Simulates the world of nao.xml and serves all its devices."""
 
     rounds: int = 0
     simulation: Simulation
@@ -229,7 +229,7 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setPosition(goal)
 
     def JointMotor_setVelocity(self, goal: MotorGoalVelocity) -> None:
-        """Turn one motor at a velocity.
+        """Move one motor at a velocity.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
@@ -243,14 +243,14 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setZeroPos(name)
 
     def JointMotor_setSyncPosition(self, listGoals: MotorGoalPositionList) -> None:
-        """Send several motors to positions at once.
+        """Send several motors to positions simultaneously.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
         self.ports["JointMotor"].setSyncPosition(listGoals)
 
     def JointMotor_setSyncVelocity(self, listGoals: MotorGoalVelocityList) -> None:
-        """Turn several motors at velocities at once.
+        """Move several motors at velocities simultaneously.
 
         May raise UnknownMotorException, RoboCompJointMotor_HardwareFailedException.
         """
@@ -264,7 +264,7 @@ class Simulator(GenericWorker):
         self.ports["JointMotor"].setSyncZeroPos()
 
     def JointMotor_getMotorParams(self, motor: str) -> MotorParams:
-        """How one motor is built and limited.
+        """Configuration and limits of one motor.
 
         May raise UnknownMotorException.
         """
@@ -273,7 +273,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getMotorState(self, motor: str) -> MotorState:
-        """What one motor does now.
+        """The current state of one motor.
 
         May raise UnknownMotorException.
         """
@@ -282,7 +282,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getMotorStateMap(self, mList: MotorList) -> MotorStateMap:
-        """What the named motors do now.
+        """The current states of the named motors.
 
         May raise UnknownMotorException.
         """
@@ -291,7 +291,7 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getAllMotorState(self) -> MotorStateMap:
-        """What all motors do now.
+        """The current states of all motors.
 
         May raise UnknownMotorException.
         """
@@ -300,31 +300,31 @@ class Simulator(GenericWorker):
         return answer
 
     def JointMotor_getAllMotorParams(self) -> MotorParamsList:
-        """How all motors are built and limited."""
+        """Configuration and limits of all motors."""
         ask = self.ports["JointMotor"].getAllMotorParams
         answer: MotorParamsList = ask()
         return answer
 
     def JointMotor_getBusParams(self) -> BusParams:
-        """The bus."""
+        """Configuration of the bus."""
         ask = self.ports["JointMotor"].getBusParams
         answer: BusParams = ask()
         return answer
 
     def Head_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["Head"].getJoints
         answer: Joints = ask()
         return answer
 
     def Head_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["Head"].getState
         answer: BoardState = ask()
         return answer
 
     def Head_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -335,7 +335,8 @@ class Simulator(GenericWorker):
     def Head_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -344,8 +345,7 @@ class Simulator(GenericWorker):
     def Head_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -354,7 +354,7 @@ class Simulator(GenericWorker):
     def Head_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -363,8 +363,8 @@ class Simulator(GenericWorker):
     def Head_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -375,7 +375,7 @@ class Simulator(GenericWorker):
     def Head_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -384,7 +384,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -393,7 +393,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -402,7 +402,7 @@ class Simulator(GenericWorker):
     def Head_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -416,7 +416,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -428,7 +428,7 @@ class Simulator(GenericWorker):
     def Head_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -439,9 +439,9 @@ class Simulator(GenericWorker):
     def Head_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -474,7 +474,7 @@ class Simulator(GenericWorker):
     def Head_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -496,7 +496,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -514,7 +514,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -530,7 +530,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -548,7 +548,7 @@ class Simulator(GenericWorker):
     def Head_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -566,7 +566,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -575,7 +575,7 @@ class Simulator(GenericWorker):
     def Head_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -597,7 +597,7 @@ class Simulator(GenericWorker):
     def Head_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -606,7 +606,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Head_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -616,7 +616,7 @@ class Simulator(GenericWorker):
     def Head_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -632,7 +632,7 @@ class Simulator(GenericWorker):
         self.ports["Head"].setMaxCurrent(motors, current)
 
     def Head_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -640,14 +640,14 @@ class Simulator(GenericWorker):
         self.ports["Head"].setEncoder(joint, position)
 
     def Head_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["Head"].setMotorEncoder(motor, counts)
 
     def Head_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -678,51 +678,51 @@ class Simulator(GenericWorker):
         self.ports["Head"].setVariable(key, values)
 
     def Head_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["Head"].calibrate(joints)
 
     def Head_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["Head"].home(joints)
 
     def Head_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["Head"].park(joints)
 
     def Head_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["Head"].isBusy
         answer: bool = ask()
         return answer
 
     def Head_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["Head"].quit()
 
     def LArm_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["LArm"].getJoints
         answer: Joints = ask()
         return answer
 
     def LArm_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["LArm"].getState
         answer: BoardState = ask()
         return answer
 
     def LArm_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -733,7 +733,8 @@ class Simulator(GenericWorker):
     def LArm_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -742,8 +743,7 @@ class Simulator(GenericWorker):
     def LArm_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -752,7 +752,7 @@ class Simulator(GenericWorker):
     def LArm_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -761,8 +761,8 @@ class Simulator(GenericWorker):
     def LArm_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -773,7 +773,7 @@ class Simulator(GenericWorker):
     def LArm_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -782,7 +782,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -791,7 +791,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -800,7 +800,7 @@ class Simulator(GenericWorker):
     def LArm_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -814,7 +814,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -826,7 +826,7 @@ class Simulator(GenericWorker):
     def LArm_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -837,9 +837,9 @@ class Simulator(GenericWorker):
     def LArm_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -872,7 +872,7 @@ class Simulator(GenericWorker):
     def LArm_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -894,7 +894,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -912,7 +912,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -928,7 +928,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -946,7 +946,7 @@ class Simulator(GenericWorker):
     def LArm_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -964,7 +964,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -973,7 +973,7 @@ class Simulator(GenericWorker):
     def LArm_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -995,7 +995,7 @@ class Simulator(GenericWorker):
     def LArm_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1004,7 +1004,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1014,7 +1014,7 @@ class Simulator(GenericWorker):
     def LArm_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1030,7 +1030,7 @@ class Simulator(GenericWorker):
         self.ports["LArm"].setMaxCurrent(motors, current)
 
     def LArm_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1038,14 +1038,14 @@ class Simulator(GenericWorker):
         self.ports["LArm"].setEncoder(joint, position)
 
     def LArm_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LArm"].setMotorEncoder(motor, counts)
 
     def LArm_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1076,51 +1076,51 @@ class Simulator(GenericWorker):
         self.ports["LArm"].setVariable(key, values)
 
     def LArm_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LArm"].calibrate(joints)
 
     def LArm_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LArm"].home(joints)
 
     def LArm_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LArm"].park(joints)
 
     def LArm_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["LArm"].isBusy
         answer: bool = ask()
         return answer
 
     def LArm_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["LArm"].quit()
 
     def RArm_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["RArm"].getJoints
         answer: Joints = ask()
         return answer
 
     def RArm_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["RArm"].getState
         answer: BoardState = ask()
         return answer
 
     def RArm_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1131,7 +1131,8 @@ class Simulator(GenericWorker):
     def RArm_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1140,8 +1141,7 @@ class Simulator(GenericWorker):
     def RArm_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1150,7 +1150,7 @@ class Simulator(GenericWorker):
     def RArm_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1159,8 +1159,8 @@ class Simulator(GenericWorker):
     def RArm_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1171,7 +1171,7 @@ class Simulator(GenericWorker):
     def RArm_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1180,7 +1180,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1189,7 +1189,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1198,7 +1198,7 @@ class Simulator(GenericWorker):
     def RArm_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1212,7 +1212,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -1224,7 +1224,7 @@ class Simulator(GenericWorker):
     def RArm_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1235,9 +1235,9 @@ class Simulator(GenericWorker):
     def RArm_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1270,7 +1270,7 @@ class Simulator(GenericWorker):
     def RArm_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1292,7 +1292,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1310,7 +1310,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1326,7 +1326,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1344,7 +1344,7 @@ class Simulator(GenericWorker):
     def RArm_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -1362,7 +1362,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1371,7 +1371,7 @@ class Simulator(GenericWorker):
     def RArm_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1393,7 +1393,7 @@ class Simulator(GenericWorker):
     def RArm_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1402,7 +1402,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RArm_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1412,7 +1412,7 @@ class Simulator(GenericWorker):
     def RArm_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1428,7 +1428,7 @@ class Simulator(GenericWorker):
         self.ports["RArm"].setMaxCurrent(motors, current)
 
     def RArm_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1436,14 +1436,14 @@ class Simulator(GenericWorker):
         self.ports["RArm"].setEncoder(joint, position)
 
     def RArm_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RArm"].setMotorEncoder(motor, counts)
 
     def RArm_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1474,51 +1474,51 @@ class Simulator(GenericWorker):
         self.ports["RArm"].setVariable(key, values)
 
     def RArm_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RArm"].calibrate(joints)
 
     def RArm_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RArm"].home(joints)
 
     def RArm_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RArm"].park(joints)
 
     def RArm_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["RArm"].isBusy
         answer: bool = ask()
         return answer
 
     def RArm_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["RArm"].quit()
 
     def LLeg_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["LLeg"].getJoints
         answer: Joints = ask()
         return answer
 
     def LLeg_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["LLeg"].getState
         answer: BoardState = ask()
         return answer
 
     def LLeg_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1529,7 +1529,8 @@ class Simulator(GenericWorker):
     def LLeg_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1538,8 +1539,7 @@ class Simulator(GenericWorker):
     def LLeg_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1548,7 +1548,7 @@ class Simulator(GenericWorker):
     def LLeg_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1557,8 +1557,8 @@ class Simulator(GenericWorker):
     def LLeg_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1569,7 +1569,7 @@ class Simulator(GenericWorker):
     def LLeg_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1578,7 +1578,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1587,7 +1587,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1596,7 +1596,7 @@ class Simulator(GenericWorker):
     def LLeg_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1610,7 +1610,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -1622,7 +1622,7 @@ class Simulator(GenericWorker):
     def LLeg_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1633,9 +1633,9 @@ class Simulator(GenericWorker):
     def LLeg_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1668,7 +1668,7 @@ class Simulator(GenericWorker):
     def LLeg_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1690,7 +1690,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1708,7 +1708,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1724,7 +1724,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1742,7 +1742,7 @@ class Simulator(GenericWorker):
     def LLeg_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -1760,7 +1760,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1769,7 +1769,7 @@ class Simulator(GenericWorker):
     def LLeg_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -1791,7 +1791,7 @@ class Simulator(GenericWorker):
     def LLeg_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -1800,7 +1800,7 @@ class Simulator(GenericWorker):
         return answer
 
     def LLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1810,7 +1810,7 @@ class Simulator(GenericWorker):
     def LLeg_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1826,7 +1826,7 @@ class Simulator(GenericWorker):
         self.ports["LLeg"].setMaxCurrent(motors, current)
 
     def LLeg_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -1834,14 +1834,14 @@ class Simulator(GenericWorker):
         self.ports["LLeg"].setEncoder(joint, position)
 
     def LLeg_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LLeg"].setMotorEncoder(motor, counts)
 
     def LLeg_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -1872,51 +1872,51 @@ class Simulator(GenericWorker):
         self.ports["LLeg"].setVariable(key, values)
 
     def LLeg_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LLeg"].calibrate(joints)
 
     def LLeg_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LLeg"].home(joints)
 
     def LLeg_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["LLeg"].park(joints)
 
     def LLeg_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["LLeg"].isBusy
         answer: bool = ask()
         return answer
 
     def LLeg_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["LLeg"].quit()
 
     def RLeg_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["RLeg"].getJoints
         answer: Joints = ask()
         return answer
 
     def RLeg_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["RLeg"].getState
         answer: BoardState = ask()
         return answer
 
     def RLeg_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -1927,7 +1927,8 @@ class Simulator(GenericWorker):
     def RLeg_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1936,8 +1937,7 @@ class Simulator(GenericWorker):
     def RLeg_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1946,7 +1946,7 @@ class Simulator(GenericWorker):
     def RLeg_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -1955,8 +1955,8 @@ class Simulator(GenericWorker):
     def RLeg_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1967,7 +1967,7 @@ class Simulator(GenericWorker):
     def RLeg_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -1976,7 +1976,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -1985,7 +1985,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -1994,7 +1994,7 @@ class Simulator(GenericWorker):
     def RLeg_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2008,7 +2008,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -2020,7 +2020,7 @@ class Simulator(GenericWorker):
     def RLeg_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2031,9 +2031,9 @@ class Simulator(GenericWorker):
     def RLeg_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2066,7 +2066,7 @@ class Simulator(GenericWorker):
     def RLeg_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2088,7 +2088,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2106,7 +2106,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2122,7 +2122,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2140,7 +2140,7 @@ class Simulator(GenericWorker):
     def RLeg_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -2158,7 +2158,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2167,7 +2167,7 @@ class Simulator(GenericWorker):
     def RLeg_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2189,7 +2189,7 @@ class Simulator(GenericWorker):
     def RLeg_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -2198,7 +2198,7 @@ class Simulator(GenericWorker):
         return answer
 
     def RLeg_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2208,7 +2208,7 @@ class Simulator(GenericWorker):
     def RLeg_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2224,7 +2224,7 @@ class Simulator(GenericWorker):
         self.ports["RLeg"].setMaxCurrent(motors, current)
 
     def RLeg_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2232,14 +2232,14 @@ class Simulator(GenericWorker):
         self.ports["RLeg"].setEncoder(joint, position)
 
     def RLeg_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RLeg"].setMotorEncoder(motor, counts)
 
     def RLeg_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -2270,51 +2270,51 @@ class Simulator(GenericWorker):
         self.ports["RLeg"].setVariable(key, values)
 
     def RLeg_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RLeg"].calibrate(joints)
 
     def RLeg_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RLeg"].home(joints)
 
     def RLeg_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["RLeg"].park(joints)
 
     def RLeg_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["RLeg"].isBusy
         answer: bool = ask()
         return answer
 
     def RLeg_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["RLeg"].quit()
 
     def finger_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["finger"].getJoints
         answer: Joints = ask()
         return answer
 
     def finger_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["finger"].getState
         answer: BoardState = ask()
         return answer
 
     def finger_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -2325,7 +2325,8 @@ class Simulator(GenericWorker):
     def finger_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2334,8 +2335,7 @@ class Simulator(GenericWorker):
     def finger_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2344,7 +2344,7 @@ class Simulator(GenericWorker):
     def finger_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2353,8 +2353,8 @@ class Simulator(GenericWorker):
     def finger_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2365,7 +2365,7 @@ class Simulator(GenericWorker):
     def finger_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2374,7 +2374,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -2383,7 +2383,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -2392,7 +2392,7 @@ class Simulator(GenericWorker):
     def finger_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2406,7 +2406,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -2418,7 +2418,7 @@ class Simulator(GenericWorker):
     def finger_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2429,9 +2429,9 @@ class Simulator(GenericWorker):
     def finger_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2464,7 +2464,7 @@ class Simulator(GenericWorker):
     def finger_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2486,7 +2486,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2504,7 +2504,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2520,7 +2520,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2538,7 +2538,7 @@ class Simulator(GenericWorker):
     def finger_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -2556,7 +2556,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2565,7 +2565,7 @@ class Simulator(GenericWorker):
     def finger_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2587,7 +2587,7 @@ class Simulator(GenericWorker):
     def finger_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -2596,7 +2596,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2606,7 +2606,7 @@ class Simulator(GenericWorker):
     def finger_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2622,7 +2622,7 @@ class Simulator(GenericWorker):
         self.ports["finger"].setMaxCurrent(motors, current)
 
     def finger_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -2630,14 +2630,14 @@ class Simulator(GenericWorker):
         self.ports["finger"].setEncoder(joint, position)
 
     def finger_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].setMotorEncoder(motor, counts)
 
     def finger_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -2668,51 +2668,51 @@ class Simulator(GenericWorker):
         self.ports["finger"].setVariable(key, values)
 
     def finger_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].calibrate(joints)
 
     def finger_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].home(joints)
 
     def finger_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger"].park(joints)
 
     def finger_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["finger"].isBusy
         answer: bool = ask()
         return answer
 
     def finger_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["finger"].quit()
 
     def finger2_getJoints(self) -> Joints:
-        """What joints there are."""
+        """Properties of all joints."""
         ask = self.ports["finger2"].getJoints
         answer: Joints = ask()
         return answer
 
     def finger2_getState(self) -> BoardState:
-        """Everything that was measured last."""
+        """The latest measurements."""
         ask = self.ports["finger2"].getState
         answer: BoardState = ask()
         return answer
 
     def finger2_getTargets(self, joints: RoboCompControlBoard_Names) -> Targets:
-        """The references as they were accepted.
+        """The accepted references.
 
         May raise UnknownJoint.
         """
@@ -2723,7 +2723,8 @@ class Simulator(GenericWorker):
     def finger2_setControlMode(
         self, joints: RoboCompControlBoard_Names, mode: ControlMode
     ) -> None:
-        """Ask for one control mode. A hardware fault is left by ForceIdle only.
+        """Set one control mode for these joints. ForceIdle is the only way to clear a
+        hardware fault.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2732,8 +2733,7 @@ class Simulator(GenericWorker):
     def finger2_setControlModes(
         self, joints: RoboCompControlBoard_Names, modes: Modes
     ) -> None:
-        """Ask for a control mode of its own for each joint: all of them change, or
-        none.
+        """Set a control mode per joint: all change, or none.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2742,7 +2742,7 @@ class Simulator(GenericWorker):
     def finger2_setInteractionMode(
         self, joints: RoboCompControlBoard_Names, mode: InteractionMode
     ) -> None:
-        """Stiff or compliant, whatever the control mode.
+        """Stiff or compliant, independent of the control mode.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2751,8 +2751,8 @@ class Simulator(GenericWorker):
     def finger2_positionMove(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Minimum jerk to these positions at the reference speeds; tells which goals
-        were clipped to the limits.
+        """Minimum-jerk motion to these positions at the reference speeds; returns which
+        goals were clipped.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2763,7 +2763,7 @@ class Simulator(GenericWorker):
     def finger2_relativeMove(
         self, joints: RoboCompControlBoard_Names, way: RoboCompControlBoard_Values
     ) -> Flags:
-        """The same, by these ways from where the reference is.
+        """The same, relative to the current references.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2772,7 +2772,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_motionDone(self, joints: RoboCompControlBoard_Names) -> Flags:
-        """Whether the motions have ended.
+        """Whether the motions are complete.
 
         May raise UnknownJoint.
         """
@@ -2781,7 +2781,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_stopMotion(self, joints: RoboCompControlBoard_Names) -> None:
-        """End motions: stop trajectories, ramp velocities down.
+        """Stop motions: trajectories end, velocities ramp down.
 
         May raise UnknownJoint.
         """
@@ -2790,7 +2790,7 @@ class Simulator(GenericWorker):
     def finger2_setPosition(
         self, joints: RoboCompControlBoard_Names, position: RoboCompControlBoard_Values
     ) -> Flags:
-        """Follow these positions at once; for streams of small steps.
+        """Set position references without a trajectory; for streams of small steps.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2804,7 +2804,7 @@ class Simulator(GenericWorker):
         velocity: RoboCompControlBoard_Values,
         hold: float,
     ) -> Flags:
-        """Turn at these speeds for `hold` seconds, or for ever if that is 0.
+        """Move at these speeds for `hold` seconds, or without limit if that is 0.
 
         Units: hold in s.
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
@@ -2816,7 +2816,7 @@ class Simulator(GenericWorker):
     def finger2_setVelocity(
         self, joints: RoboCompControlBoard_Names, velocity: RoboCompControlBoard_Values
     ) -> Flags:
-        """Turn at these speeds at once, without a ramp.
+        """Move at these speeds immediately, without a ramp.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2827,9 +2827,9 @@ class Simulator(GenericWorker):
     def finger2_setTorque(
         self, joints: RoboCompControlBoard_Names, torque: RoboCompControlBoard_Values
     ) -> Flags:
-        """Reference torques. Torques, duty cycles and currents are to be sent again and
-        again: a joint that gets none for the time in the variable
-        `reference_timeout` [s] holds its place.
+        """Reference torques. Torques, duty cycles and currents must be sent repeatedly:
+        a joint without a new reference for the time in the variable
+        `reference_timeout` [s] holds its position.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint, WrongMode.
         """
@@ -2862,7 +2862,7 @@ class Simulator(GenericWorker):
     def finger2_setReferenceSpeed(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Mean speeds of the next position moves.
+        """Mean speeds of later position motions.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2884,7 +2884,7 @@ class Simulator(GenericWorker):
         joints: RoboCompControlBoard_Names,
         acceleration: RoboCompControlBoard_Values,
     ) -> None:
-        """How fast velocities may change, in rad/s^2.
+        """Acceleration limits of velocity commands, in rad/s^2.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2902,7 +2902,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setImpedance(self, joint: str, impedance: Impedance) -> None:
-        """Spring and damper of the compliant interaction.
+        """Stiffness and damping of the compliant interaction.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2918,7 +2918,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setPid(self, loop: Loop, joint: str, pid: Pid) -> None:
-        """A regulator of a joint, or of a motor for currents.
+        """The PID parameters of a joint, or of a motor for currents.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -2936,7 +2936,7 @@ class Simulator(GenericWorker):
     def finger2_enablePid(
         self, loop: Loop, joints: RoboCompControlBoard_Names, on: bool
     ) -> None:
-        """Switch regulators on or off; one that is off gives nothing.
+        """Enable or disable PIDs; a disabled PID outputs 0.
 
         May raise UnknownJoint.
         """
@@ -2954,7 +2954,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_resetPid(self, loop: Loop, joints: RoboCompControlBoard_Names) -> None:
-        """Forget what the regulators have summed up.
+        """Reset the integral terms of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2963,7 +2963,7 @@ class Simulator(GenericWorker):
     def finger2_getPidReferences(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators are to bring about, and what is missing from it.
+        """Set-points and errors of the PIDs.
 
         May raise UnknownJoint.
         """
@@ -2985,7 +2985,7 @@ class Simulator(GenericWorker):
     def finger2_getPidOutputs(
         self, loop: Loop, joints: RoboCompControlBoard_Names
     ) -> RoboCompControlBoard_Values:
-        """What regulators give now; 0 where those of this kind do not work.
+        """Current outputs of the PIDs; 0 for inactive ones.
 
         May raise UnknownJoint.
         """
@@ -2994,7 +2994,7 @@ class Simulator(GenericWorker):
         return answer
 
     def finger2_setPositionLimits(self, joint: str, low: float, high: float) -> None:
-        """Limits may be narrowed, never be wider than the joint's own.
+        """Limits may be narrowed, but never exceed the joint's own.
 
         Units: low in rad, high in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -3004,7 +3004,7 @@ class Simulator(GenericWorker):
     def finger2_setSpeedLimits(
         self, joints: RoboCompControlBoard_Names, speed: RoboCompControlBoard_Values
     ) -> None:
-        """Largest speeds.
+        """Maximum speeds.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
@@ -3020,7 +3020,7 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setMaxCurrent(motors, current)
 
     def finger2_setEncoder(self, joint: str, position: float) -> None:
-        """Let the joint's encoder stand at this position now.
+        """Set the current reading of the joint's encoder.
 
         Units: position in rad.
         May raise RoboCompControlBoard_Refused, UnknownJoint.
@@ -3028,14 +3028,14 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setEncoder(joint, position)
 
     def finger2_setMotorEncoder(self, motor: str, counts: float) -> None:
-        """Let the motor's counter stand at this count now.
+        """Set the current count of the motor's encoder.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].setMotorEncoder(motor, counts)
 
     def finger2_getLastFault(self, joint: str) -> JointFault:
-        """The last fault of a joint, also after it was cleared.
+        """The last fault of a joint; it stays available after the fault is cleared.
 
         May raise UnknownJoint.
         """
@@ -3068,35 +3068,35 @@ class Simulator(GenericWorker):
         self.ports["finger2"].setVariable(key, values)
 
     def finger2_calibrate(self, joints: RoboCompControlBoard_Names) -> None:
-        """Find the zero of the encoders and go home; returns at once.
+        """Find the encoders' zero and move to the home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].calibrate(joints)
 
     def finger2_home(self, joints: RoboCompControlBoard_Names) -> None:
-        """Send calibrated joints to their home; returns at once.
+        """Move calibrated joints to their home position; returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].home(joints)
 
     def finger2_park(self, joints: RoboCompControlBoard_Names) -> None:
-        """Go to a pose in which the joints may be switched off, and switch them off;
-        returns at once.
+        """Move to a pose in which the joints can be switched off, and switch them off;
+        returns immediately.
 
         May raise RoboCompControlBoard_Refused, UnknownJoint.
         """
         self.ports["finger2"].park(joints)
 
     def finger2_isBusy(self) -> bool:
-        """Whether joints are still being calibrated or parked."""
+        """Whether calibration or parking is in progress."""
         ask = self.ports["finger2"].isBusy
         answer: bool = ask()
         return answer
 
     def finger2_quit(self) -> None:
-        """Stop calibrating and parking."""
+        """Abort calibration and parking."""
         self.ports["finger2"].quit()
 
     def camera_top_getImage(self) -> TImage:
@@ -3118,7 +3118,7 @@ class Simulator(GenericWorker):
         return answer
 
     def imu_getDataImu(self) -> DataImu:
-        """Everything."""
+        """All measurements."""
         ask = self.ports["imu"].getDataImu
         answer: DataImu = ask()
         return answer
@@ -3148,7 +3148,7 @@ class Simulator(GenericWorker):
         return answer
 
     def imu_resetImu(self) -> None:
-        """The present orientation becomes the reference."""
+        """Make the current orientation the reference."""
         self.ports["imu"].resetImu()
 
     def cartesian_LArm_getJoints(self) -> JointNames:
@@ -3158,20 +3158,20 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_getPose(self) -> HandPose:
-        """Where the hand is, from what the encoders tell."""
+        """The pose of the end effector, computed from the encoders."""
         ask = self.ports["cartesian_LArm"].getPose
         answer: HandPose = ask()
         return answer
 
     def cartesian_LArm_getState(self) -> HandState:
-        """The same, and what the controller does."""
+        """The pose, and the state of the controller."""
         ask = self.ports["cartesian_LArm"].getState
         answer: HandState = ask()
         return answer
 
     def cartesian_LArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
-        """Take the hand to a pose on a straight line, in so many seconds, or in the
-        usual time if that is 0.
+        """Move the end effector to a pose on a straight line, in `seconds` (0: the
+        default duration).
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -3183,7 +3183,7 @@ class Simulator(GenericWorker):
     def cartesian_LArm_goToPosition(
         self, place: HandPlace, seconds: float
     ) -> HandSolution:
-        """The same for its place alone; its turn is free.
+        """Move the end effector to a position; its orientation is free.
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -3193,7 +3193,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_getDesired(self) -> HandSolution:
-        """What was solved for the last goal.
+        """The solution for the last goal.
 
         May raise CartesianRefused.
         """
@@ -3202,17 +3202,17 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_checkMotionDone(self) -> bool:
-        """Whether the hand is on no way any more."""
+        """Whether no motion is in progress."""
         ask = self.ports["cartesian_LArm"].checkMotionDone
         answer: bool = ask()
         return answer
 
     def cartesian_LArm_stopControl(self) -> None:
-        """Stay where the hand is."""
+        """Stop the end effector at its current pose."""
         self.ports["cartesian_LArm"].stopControl()
 
     def cartesian_LArm_askForPose(self, pose: HandPose) -> HandSolution:
-        """Solve for a pose; nothing moves.
+        """Solve for a pose without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -3221,7 +3221,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_askForPosition(self, place: HandPlace) -> HandSolution:
-        """Solve for a place; nothing moves.
+        """Solve for a position without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -3230,7 +3230,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_setTrajTime(self, seconds: float) -> None:
-        """The time that a motion usually takes.
+        """The default duration of a motion.
 
         Units: seconds in s.
         May raise CartesianRefused.
@@ -3244,7 +3244,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_setInTargetTol(self, distance: float, angle: float) -> None:
-        """How near to a goal a posture must bring the hand.
+        """The accuracy with which a solution must reach its goal.
 
         Units: distance in m, angle in rad.
         May raise CartesianRefused.
@@ -3262,7 +3262,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_setTrackingMode(self, on: bool) -> None:
-        """Whether the hand is kept at its goal when it has arrived, even when other
+        """Whether the end effector tracks its goal after arrival, also when other
         joints move it.
         """
         self.ports["cartesian_LArm"].setTrackingMode(on)
@@ -3274,8 +3274,8 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_LArm_setDOF(self, free: FreeJoints) -> None:
-        """Which joints may move, in the order of getJoints; the others stay as they
-        are. Not while the hand moves.
+        """Which joints may move, in the order of getJoints; the others are fixed.
+        Rejected during a motion.
 
         May raise CartesianRefused.
         """
@@ -3294,20 +3294,20 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_getPose(self) -> HandPose:
-        """Where the hand is, from what the encoders tell."""
+        """The pose of the end effector, computed from the encoders."""
         ask = self.ports["cartesian_RArm"].getPose
         answer: HandPose = ask()
         return answer
 
     def cartesian_RArm_getState(self) -> HandState:
-        """The same, and what the controller does."""
+        """The pose, and the state of the controller."""
         ask = self.ports["cartesian_RArm"].getState
         answer: HandState = ask()
         return answer
 
     def cartesian_RArm_goToPose(self, pose: HandPose, seconds: float) -> HandSolution:
-        """Take the hand to a pose on a straight line, in so many seconds, or in the
-        usual time if that is 0.
+        """Move the end effector to a pose on a straight line, in `seconds` (0: the
+        default duration).
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -3319,7 +3319,7 @@ class Simulator(GenericWorker):
     def cartesian_RArm_goToPosition(
         self, place: HandPlace, seconds: float
     ) -> HandSolution:
-        """The same for its place alone; its turn is free.
+        """Move the end effector to a position; its orientation is free.
 
         Units: seconds in s.
         May raise Unreachable, CartesianRefused.
@@ -3329,7 +3329,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_getDesired(self) -> HandSolution:
-        """What was solved for the last goal.
+        """The solution for the last goal.
 
         May raise CartesianRefused.
         """
@@ -3338,17 +3338,17 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_checkMotionDone(self) -> bool:
-        """Whether the hand is on no way any more."""
+        """Whether no motion is in progress."""
         ask = self.ports["cartesian_RArm"].checkMotionDone
         answer: bool = ask()
         return answer
 
     def cartesian_RArm_stopControl(self) -> None:
-        """Stay where the hand is."""
+        """Stop the end effector at its current pose."""
         self.ports["cartesian_RArm"].stopControl()
 
     def cartesian_RArm_askForPose(self, pose: HandPose) -> HandSolution:
-        """Solve for a pose; nothing moves.
+        """Solve for a pose without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -3357,7 +3357,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_askForPosition(self, place: HandPlace) -> HandSolution:
-        """Solve for a place; nothing moves.
+        """Solve for a position without moving.
 
         May raise Unreachable, CartesianRefused.
         """
@@ -3366,7 +3366,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_setTrajTime(self, seconds: float) -> None:
-        """The time that a motion usually takes.
+        """The default duration of a motion.
 
         Units: seconds in s.
         May raise CartesianRefused.
@@ -3380,7 +3380,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_setInTargetTol(self, distance: float, angle: float) -> None:
-        """How near to a goal a posture must bring the hand.
+        """The accuracy with which a solution must reach its goal.
 
         Units: distance in m, angle in rad.
         May raise CartesianRefused.
@@ -3398,7 +3398,7 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_setTrackingMode(self, on: bool) -> None:
-        """Whether the hand is kept at its goal when it has arrived, even when other
+        """Whether the end effector tracks its goal after arrival, also when other
         joints move it.
         """
         self.ports["cartesian_RArm"].setTrackingMode(on)
@@ -3410,8 +3410,8 @@ class Simulator(GenericWorker):
         return answer
 
     def cartesian_RArm_setDOF(self, free: FreeJoints) -> None:
-        """Which joints may move, in the order of getJoints; the others stay as they
-        are. Not while the hand moves.
+        """Which joints may move, in the order of getJoints; the others are fixed.
+        Rejected during a motion.
 
         May raise CartesianRefused.
         """
@@ -3424,7 +3424,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Skin_getGeometry(self) -> Geometry:
-        """Where the taxels are."""
+        """Positions of the taxels."""
         ask = self.ports["Skin"].getGeometry
         answer: Geometry = ask()
         return answer
@@ -3448,7 +3448,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Skin_calibrate(self, seconds: float) -> None:
-        """Take the baseline from the next `seconds`; nothing may touch the skin
+        """Measure the baseline during the next `seconds`; the skin must not be touched
         meanwhile.
 
         Units: seconds in s.
@@ -3459,7 +3459,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_addTransform(
         self, item: str, engine: str, base: str, pose: Pose3D
     ) -> bool:
-        """Put a new transform below `base`.
+        """Add a transform below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3468,7 +3468,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addJoint(self, item: str, base: str, j: jointType) -> bool:
-        """Put a new joint below `base`.
+        """Add a joint below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3477,7 +3477,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addMesh(self, item: str, base: str, m: meshType) -> bool:
-        """Put a new mesh below `base`, which must be a transform.
+        """Add a mesh below `base`, which must be a transform.
 
         May raise InnerModelManagerError.
         """
@@ -3486,7 +3486,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_addPlane(self, item: str, base: str, plane: Plane3D) -> bool:
-        """Put a new plane below `base`.
+        """Add a plane below `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3504,7 +3504,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_setPose(self, base: str, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of `base`.
+        """Set the pose of `item`, expressed in the frame of `base`.
 
         May raise InnerModelManagerError.
         """
@@ -3513,7 +3513,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_setPoseFromParent(self, item: str, pose: Pose3D) -> bool:
-        """Move `item` to a pose that is told in the frame of its parent.
+        """Set the pose of `item`, expressed in the frame of its parent.
 
         May raise InnerModelManagerError.
         """
@@ -3553,7 +3553,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_transform(
         self, base: str, item: str, coordInItem: coord3D
     ) -> tuple[bool, coord3D]:
-        """A point in the frame of `item`, told in the frame of `base`.
+        """Transform a point from the frame of `item` to the frame of `base`.
 
         Returns the result, coordInBase.
         May raise InnerModelManagerError.
@@ -3585,7 +3585,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_addAttribute(
         self, idNode: str, name: str, type: str, value: str
     ) -> bool:
-        """Give a node a new attribute.
+        """Add an attribute to a node.
 
         May raise InnerModelManagerError.
         """
@@ -3594,7 +3594,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_removeAttribute(self, idNode: str, name: str) -> bool:
-        """Take an attribute away from a node.
+        """Remove an attribute from a node.
 
         May raise InnerModelManagerError.
         """
@@ -3626,7 +3626,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_removeNode(self, item: str) -> bool:
-        """Remove a node and all below it.
+        """Remove a node and its subtree.
 
         May raise InnerModelManagerError.
         """
@@ -3635,7 +3635,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_moveNode(self, src: str, dst: str) -> bool:
-        """Move a node and all below it under another parent.
+        """Move a node and its subtree to another parent.
 
         May raise InnerModelManagerError.
         """
@@ -3644,7 +3644,7 @@ class Simulator(GenericWorker):
         return answer
 
     def InnerModelManager_collide(self, a: str, b: str) -> bool:
-        """Whether two subtrees touch."""
+        """Whether two subtrees are in collision."""
         ask = self.ports["InnerModelManager"].collide
         answer: bool = ask(a, b)
         return answer
@@ -3652,7 +3652,7 @@ class Simulator(GenericWorker):
     def InnerModelManager_setPointCloudData(
         self, id: str, cloud: PointCloudVector
     ) -> None:
-        """Replace the points of a cloud."""
+        """Replace the points of a point cloud."""
         self.ports["InnerModelManager"].setPointCloudData(id, cloud)
 
     def Simulation_getState(self) -> State:
@@ -3670,7 +3670,7 @@ class Simulator(GenericWorker):
         self.ports["Simulation"].resume()
 
     def Simulation_step(self, steps: int) -> float:
-        """While it is paused: so many steps of the physics, at once; tells the time
+        """While paused: run a number of physics steps without delay; returns the time
         afterwards.
 
         May raise RoboCompSimulation_Refused.
@@ -3680,39 +3680,39 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_reset(self) -> None:
-        """Everything as it was at the start, with the present seed and nodes.
+        """Reset everything to the start, with the current seed and nodes.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].reset()
 
     def Simulation_setSeed(self, seed: int) -> None:
-        """Counts from the next reset on.
+        """Takes effect at the next reset.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setSeed(seed)
 
     def Simulation_setSpeed(self, speed: float) -> None:
-        """Simulated seconds per second; 0: as fast as it can.
+        """Simulated seconds per second; 0: as fast as possible.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setSpeed(speed)
 
     def Simulation_setNoise(self, factor: float) -> None:
-        """A factor on the noise that the devices declare.
+        """Factor on the noise that the devices declare.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].setNoise(factor)
 
     def Simulation_setPhysics(self, on: bool) -> None:
-        """Off: no gravity and no contacts; motors work as ever."""
+        """Off: no gravity and no contacts; motors still work."""
         self.ports["Simulation"].setPhysics(on)
 
     def Simulation_snapshot(self) -> int:
-        """Keep the world as it is now, under a number.
+        """Save the current state of the world under a number.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3721,7 +3721,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_restore(self, snapshot: int) -> None:
-        """The world is again as it was then.
+        """Restore a saved state.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3735,8 +3735,7 @@ class Simulator(GenericWorker):
         self.ports["Simulation"].forget(snapshot)
 
     def Simulation_fork(self) -> int:
-        """A copy of the world that runs only when it is told to, to see what would
-        happen.
+        """A copy of the world that runs only on request, for prediction.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3745,7 +3744,7 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_advance(self, fork: int, seconds: float) -> float:
-        """Let time pass in a fork; tells its time afterwards.
+        """Advance a fork; returns its time afterwards.
 
         Units: seconds in s.
         May raise RoboCompSimulation_Refused.
@@ -3757,7 +3756,7 @@ class Simulator(GenericWorker):
     def Simulation_drive(
         self, fork: int, base: str, side: float, adv: float, rot: float
     ) -> None:
-        """Drive a base, until told otherwise; 0 is the world itself.
+        """Drive a base until the next command; fork 0 is the world itself.
 
         Units: side in mm/s, adv in mm/s, rot in rad/s.
         May raise RoboCompSimulation_Refused.
@@ -3770,14 +3769,15 @@ class Simulator(GenericWorker):
         joints: RoboCompSimulation_Names,
         positions: RoboCompSimulation_Values,
     ) -> None:
-        """Joints go to positions (rad, mm) as fast as they can; 0 is the world itself.
+        """Move joints to positions (rad, mm) at maximum speed; fork 0 is the world
+        itself.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].move(fork, joints, positions)
 
     def Simulation_getPoses(self, fork: int, frames: RoboCompSimulation_Names) -> Poses:
-        """Where frames are, in the frame of the world; 0 is the world itself.
+        """Poses of frames in the world frame; fork 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3788,7 +3788,7 @@ class Simulator(GenericWorker):
     def Simulation_getJoints(
         self, fork: int, joints: RoboCompSimulation_Names
     ) -> RoboCompSimulation_Values:
-        """Positions of joints (rad, mm); 0 is the world itself.
+        """Joint positions (rad, mm); fork 0 is the world itself.
 
         May raise RoboCompSimulation_Refused.
         """
@@ -3797,20 +3797,20 @@ class Simulator(GenericWorker):
         return answer
 
     def Simulation_release(self, fork: int) -> None:
-        """A fork is needed no more.
+        """Delete a fork.
 
         May raise RoboCompSimulation_Refused.
         """
         self.ports["Simulation"].release(fork)
 
     def Simulation_getModel(self) -> Model:
-        """What is simulated; some MB, needed once for each `revision`."""
+        """The simulated model; some MB, to be fetched once per `revision`."""
         ask = self.ports["Simulation"].getModel
         answer: Model = ask()
         return answer
 
     def Simulation_getSight(self) -> Sight:
-        """Where everything is."""
+        """Poses of all bodies."""
         ask = self.ports["Simulation"].getSight
         answer: Sight = ask()
         return answer

@@ -8,14 +8,14 @@ from robocomp_dsl.runtime import types as rt
 
 
 class HardwareFailedException(rt.DeclaredError):
-    """The base cannot do what was asked; `what` says why."""
+    """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator
-    puts the true pose there.
+    """Odometry of the base. The corrected pose is compensated for known drift; in a
+    simulator it is the true pose.
     """
 
     x: rt.Float = 0.0  # [mm]
@@ -31,8 +31,8 @@ class TBaseState(rt.Struct):
 
 
 class PathSummary(rt.Struct):
-    """`runs` counts how often the base has begun again, `time` is that of the last
-    state heard.
+    """`runs` counts the restarts of the base; `time` is that of the last received
+    state.
     """
 
     samples: rt.Int = 0

@@ -5,14 +5,14 @@ from robocomp_dsl.runtime import types as rt
 
 
 class RoboCompGenericArm_NotPossible(rt.DeclaredError):
-    """The command cannot be carried out; the arm does what it did before."""
+    """The command cannot be executed; the arm continues its previous motion."""
 
     what: rt.String = ""
 
 
 class Unreachable(rt.DeclaredError):
-    """No angles within the limits bring the hand there; the nearest pose is so far
-    away.
+    """No joint angles within the limits reach the goal; the fields have the error of
+    the best solution.
     """
 
     what: rt.String = ""
@@ -45,15 +45,15 @@ class ArmLimits(rt.Struct):
 
 
 class Row(rt.Struct):
-    """One row of Denavit and Hartenberg: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q the
-    generic angle.
+    """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
+    the generic angle.
     """
 
     a: rt.Double = 0.0  # [m]
     d: rt.Double = 0.0  # [m]
     alpha: rt.Double = 0.0  # [rad]
     offset: rt.Double = 0.0  # [rad]
-    joint: rt.Int = 0  # Index of the generic joint, -1 for a row that does not move.
+    joint: rt.Int = 0  # Index of the generic joint, -1 for a fixed row.
 
 
 class Rows(rt.StructArray[Row]):
@@ -68,7 +68,7 @@ class Rows(rt.StructArray[Row]):
 
 
 class Chain(rt.Struct):
-    """`base` and `tool` are matrices of 4 by 4, row by row, in m."""
+    """`base` and `tool` are 4x4 matrices, row by row, in m."""
 
     rows: Rows = rt.default()
     base: RoboCompGenericArm_Angles = rt.default()
@@ -76,7 +76,7 @@ class Chain(rt.Struct):
 
 
 class Pose(rt.Struct):
-    """Position and rotation of the hand in the frame of the chain's base."""
+    """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
     y: rt.Double = 0.0  # [m]
@@ -93,8 +93,8 @@ class Pose(rt.Struct):
 
 
 class Outcome(rt.Struct):
-    """What of a command was not possible: clipped to a limit, or dropped for want of a
-    joint.
+    """The parts of a command that were clipped to a limit or dropped because the robot
+    lacks the joint.
     """
 
     clipped: Flags = rt.default()
@@ -102,7 +102,7 @@ class Outcome(rt.Struct):
 
 
 class RoboCompReflex_NotPossible(rt.DeclaredError):
-    """The field or setting does not exist or makes no sense; nothing has changed."""
+    """The field or setting does not exist or is invalid; nothing has changed."""
 
     what: rt.String = ""
 
@@ -121,7 +121,7 @@ RoboCompReflex_Angles = rt.Float64Array
 
 
 class Field(rt.Struct):
-    """A round field on a limb's skin, centre in the limb's frame, and the motion of a
+    """A round field on a limb's skin: centre in the limb's frame, and the motion at
     full stimulus in rad.
     """
 
@@ -138,7 +138,7 @@ Fields = list[Field]
 
 
 class Event(rt.Struct):
-    """One field answered a touch."""
+    """The response of one field to a touch."""
 
     time: rt.Double = 0.0  # [s]
     field: rt.String = ""
@@ -148,8 +148,8 @@ class Event(rt.Struct):
     z: rt.Double = 0.0  # [m]
     distance: rt.Double = 0.0  # [m] Distance from the centre of the field.
     force: rt.Double = 0.0  # [N] Weighted mean force of the touched taxels.
-    gain: rt.Double = 0.0  # Between 0 and 1.
-    motion: RoboCompReflex_Angles = rt.default()  # Displacements, in rad.
+    gain: rt.Double = 0.0  # Strength of the response, between 0 and 1.
+    motion: RoboCompReflex_Angles = rt.default()  # Joint displacements, in rad.
 
 
 class Statistics(rt.Struct):
@@ -165,7 +165,7 @@ class Statistics(rt.Struct):
 
 
 class HardwareFailedException(rt.DeclaredError):
-    """The skin or its electronics cannot do what was asked."""
+    """The skin or its electronics cannot execute the request."""
 
     what: rt.String = ""
 
@@ -177,8 +177,8 @@ Names = list[rt.String]
 
 
 class Limb(rt.Struct):
-    """Where a limb's frame is: on the body of that name, `r00` to `r22` are the
-    rotation, row by row.
+    """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
+    row by row.
     """
 
     name: rt.String = ""  # Part and limb, as in `left_arm/lower_arm`.
@@ -201,7 +201,7 @@ Limbs = list[Limb]
 
 
 class Patch(rt.Struct):
-    """Taxels that are electronics of one kind. Newtons are `gain` times the raw counts
+    """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
 
@@ -215,8 +215,8 @@ Patches = list[Patch]
 
 
 class Geometry(rt.Struct):
-    """Where the taxels are. It changes rarely; `version` then goes up, and frames tell
-    to which they belong.
+    """Positions of the taxels. When it changes, `version` increases; every frame
+    carries the version it belongs to.
     """
 
     version: rt.Int = 0
@@ -226,7 +226,7 @@ class Geometry(rt.Struct):
     x: FloatSeq = rt.default()
     y: FloatSeq = rt.default()
     z: FloatSeq = rt.default()
-    nx: FloatSeq = rt.default()  # Outward normal, of length 1.
+    nx: FloatSeq = rt.default()  # Outward normal, of unit length.
     ny: FloatSeq = rt.default()
     nz: FloatSeq = rt.default()
     patches: Patches = rt.default()
@@ -234,26 +234,25 @@ class Geometry(rt.Struct):
 
 
 class Frame(rt.Struct):
-    """What all taxels feel. `shearX` to `shearZ` and `raw` are empty unless the skin is
-    set up to send them.
+    """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
+    is configured to send them.
     """
 
-    sequence: rt.Long = 0  # Goes up by one from frame to frame.
+    sequence: rt.Long = 0  # Increases by one per frame.
     time: rt.Double = 0.0  # [s]
     geometry: rt.Int = 0  # Version of the geometry.
-    force: FloatSeq = rt.default()  # Force into the limb, in N.
-    shearX: FloatSeq = rt.default()  # Force along the skin, in N.
+    force: FloatSeq = rt.default()  # Normal force into the limb, in N.
+    shearX: FloatSeq = rt.default()  # Shear force along the skin, in N.
     shearY: FloatSeq = rt.default()
     shearZ: FloatSeq = rt.default()
-    # What the electronics send, 0 to 255, lower under pressure.
+    # Raw values of the electronics, 0 to 255, lower under pressure.
     raw: ByteSeq = rt.default()
-    # [N] Contact force on the limbs that no taxel was near to; 0 where that cannot be
-    # known.
+    # [N] Contact force on the limbs away from all taxels; 0 if unknown.
     offSkin: rt.Float = 0.0
 
 
 class Contact(rt.Struct):
-    """One touch: neighbouring taxels that feel something."""
+    """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
     taxels: rt.Int = 0
@@ -381,25 +380,25 @@ class GenericArmProxy(rt.Proxy):
     INTERFACE = GENERICARM
 
     def getState(self) -> ArmState:
-        """Where the arm is and how it moves.
+        """Positions and velocities of the arm.
 
         May raise RoboCompGenericArm_NotPossible.
         """
         return self._call("getState")
 
     def getLimits(self) -> ArmLimits:
-        """Its limits, and which joints there are."""
+        """The limits of the arm, and the joints that the robot has."""
         return self._call("getLimits")
 
     def getChain(self) -> Chain:
-        """Its kinematic chain in generic angles.
+        """The kinematic chain in generic angles.
 
         May raise RoboCompGenericArm_NotPossible.
         """
         return self._call("getChain")
 
     def getHand(self) -> Pose:
-        """Where the hand is.
+        """The pose of the end effector.
 
         May raise RoboCompGenericArm_NotPossible.
         """
@@ -408,8 +407,8 @@ class GenericArmProxy(rt.Proxy):
     def move(
         self, position: RoboCompGenericArm_Angles, speed: RoboCompGenericArm_Angles
     ) -> Outcome:
-        """Go to angles, at these mean speeds or, without any, as fast as the limits
-        allow.
+        """Move to joint angles at these mean speeds, or as fast as the limits allow if
+        `speed` is empty.
 
         May raise RoboCompGenericArm_NotPossible.
         """
@@ -418,14 +417,14 @@ class GenericArmProxy(rt.Proxy):
     def moveBy(
         self, way: RoboCompGenericArm_Angles, speed: RoboCompGenericArm_Angles
     ) -> Outcome:
-        """Go by these angles from here.
+        """Move by these angles from the current position.
 
         May raise RoboCompGenericArm_NotPossible.
         """
         return self._call("moveBy", way, speed)
 
     def reach(self, x: float, y: float, z: float) -> Outcome:
-        """Bring the hand to a point.
+        """Move the end effector to a point.
 
         Units: x in m, y in m, z in m.
         May raise RoboCompGenericArm_NotPossible, Unreachable.
@@ -433,28 +432,28 @@ class GenericArmProxy(rt.Proxy):
         return self._call("reach", x, y, z)
 
     def reachPose(self, pose: Pose) -> Outcome:
-        """Bring the hand to a point and a rotation.
+        """Move the end effector to a point and a rotation.
 
         May raise RoboCompGenericArm_NotPossible, Unreachable.
         """
         return self._call("reachPose", pose)
 
     def follow(self, position: RoboCompGenericArm_Angles) -> None:
-        """Be at these angles at once; for streams of small steps."""
+        """Set these angles without a trajectory; for streams of small steps."""
         self._call("follow", position)
 
     def drive(self, velocity: RoboCompGenericArm_Angles) -> None:
-        """Turn at these speeds until the next command."""
+        """Move at these joint velocities until the next command."""
         self._call("drive", velocity)
 
     def push(self, torque: RoboCompGenericArm_Angles) -> None:
-        """Give these torques; a push that is not renewed ends, and the arm holds its
-        place.
+        """Apply these torques; without renewal they expire, and the arm holds its
+        position.
         """
         self._call("push", torque)
 
     def glide(self, vx: float, vy: float, vz: float) -> None:
-        """Move the hand at this velocity until the next command.
+        """Move the end effector at this velocity until the next command.
 
         Units: vx in m/s, vy in m/s, vz in m/s.
         """
@@ -463,15 +462,15 @@ class GenericArmProxy(rt.Proxy):
     def setStiffness(
         self, stiffness: RoboCompGenericArm_Angles, damping: RoboCompGenericArm_Angles
     ) -> None:
-        """Give way like springs and dampers, in N m/rad and N m s/rad; two empty
-        sequences make it stiff.
+        """Joint impedance in N m/rad and N m s/rad; two empty sequences make the arm
+        stiff.
 
         May raise RoboCompGenericArm_NotPossible.
         """
         self._call("setStiffness", stiffness, damping)
 
     def stop(self) -> None:
-        """End every motion.
+        """Stop all motion.
 
         May raise RoboCompGenericArm_NotPossible.
         """
@@ -507,7 +506,7 @@ class SkinProxy(rt.Proxy):
     INTERFACE = SKIN
 
     def getGeometry(self) -> Geometry:
-        """Where the taxels are."""
+        """Positions of the taxels."""
         return self._call("getGeometry")
 
     def getFrame(self) -> Frame:
@@ -525,7 +524,7 @@ class SkinProxy(rt.Proxy):
         return self._call("getContacts")
 
     def calibrate(self, seconds: float) -> None:
-        """Take the baseline from the next `seconds`; nothing may touch the skin
+        """Measure the baseline during the next `seconds`; the skin must not be touched
         meanwhile.
 
         Units: seconds in s.
@@ -576,11 +575,11 @@ class ReflexEventsProxy(rt.Proxy):
     INTERFACE = REFLEXEVENTS
 
     def reflex(self, event: Event) -> None:
-        """A field answered a touch."""
+        """A field responded to a touch."""
         self._call("reflex", event)
 
     def stateChanged(self, state: ReflexState) -> None:
-        """The reflex does something else from now on."""
+        """The state of the reflex has changed."""
         self._call("stateChanged", state)
 
     def publish(self, request: Event) -> None:

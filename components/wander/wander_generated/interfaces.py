@@ -8,14 +8,14 @@ from robocomp_dsl.runtime import types as rt
 
 
 class HardwareFailedException(rt.DeclaredError):
-    """The base cannot do what was asked; `what` says why."""
+    """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
 class TBaseState(rt.Struct):
-    """Odometry of the base. The corrected pose has known drift removed; a simulator
-    puts the true pose there.
+    """Odometry of the base. The corrected pose is compensated for known drift; in a
+    simulator it is the true pose.
     """
 
     x: rt.Float = 0.0  # [mm]
@@ -31,7 +31,7 @@ class TBaseState(rt.Struct):
 
 
 class TMechParams(rt.Struct):
-    """How the base is built and how fast it may go."""
+    """Dimensions and speed limits of the base."""
 
     wheelRadius: rt.Int = 0  # [mm]
     axisLength: rt.Int = 0  # [mm]
@@ -48,7 +48,7 @@ shortVector = rt.Int32Array
 
 
 class LaserConfData(rt.Struct):
-    """How the laser is set up. A `staticConf` of 0 means that it may change while
+    """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
 
@@ -68,7 +68,7 @@ class LaserConfData(rt.Struct):
 
 
 class TData(rt.Struct):
-    """One ray. A ray that hits nothing has the largest range."""
+    """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]
     dist: rt.Float = 0.0  # [mm]
@@ -146,28 +146,28 @@ class DifferentialRobotProxy(rt.Proxy):
         self._call("setSpeedBase", adv, rot)
 
     def stopBase(self) -> None:
-        """Stop as fast as the base can.
+        """Stop as fast as possible.
 
         May raise HardwareFailedException.
         """
         self._call("stopBase")
 
     def resetOdometer(self) -> None:
-        """The odometry starts again at x = z = alpha = 0.
+        """Reset the odometry to x = z = alpha = 0.
 
         May raise HardwareFailedException.
         """
         self._call("resetOdometer")
 
     def setOdometer(self, state: TBaseState) -> None:
-        """The odometry goes on from the pose in `state`.
+        """Set the odometry to the pose in `state`.
 
         May raise HardwareFailedException.
         """
         self._call("setOdometer", state)
 
     def setOdometerPose(self, x: int, z: int, alpha: float) -> None:
-        """The odometry goes on from this pose.
+        """Set the odometry to this pose.
 
         Units: x in mm, z in mm, alpha in rad.
         May raise HardwareFailedException.
@@ -175,7 +175,7 @@ class DifferentialRobotProxy(rt.Proxy):
         self._call("setOdometerPose", x, z, alpha)
 
     def correctOdometer(self, x: int, z: int, alpha: float) -> None:
-        """The corrected pose goes on from this pose; the raw odometry is left alone.
+        """Set the corrected pose; the raw odometry is unchanged.
 
         Units: x in mm, z in mm, alpha in rad.
         May raise HardwareFailedException.
@@ -209,12 +209,12 @@ class LaserProxy(rt.Proxy):
 
     def getLaserAndBStateData(self) -> tuple[TLaserData, TBaseState]:
         """The latest scan, and the state of the base that carries the laser at that
-        moment.
+        instant.
 
         Returns the result, bState.
         """
         return self._call("getLaserAndBStateData")
 
     def getLaserConfData(self) -> LaserConfData:
-        """How the laser is set up."""
+        """Configuration of the laser."""
         return self._call("getLaserConfData")

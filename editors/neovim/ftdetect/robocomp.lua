@@ -1,4 +1,4 @@
--- Names the types of RoboComp's files. (`vim.filetype.add` would do, but not in Neovim 0.7.)
+-- Sets the file types of RoboComp's files. (`vim.filetype.add` does not exist in Neovim 0.7.)
 
 vim.api.nvim_create_autocmd({ 'BufRead', 'BufNewFile' }, {
   pattern = { '*.idsl', '*.cdsl', '*.pdsl', '*.ddsl', '*.smdsl' },

@@ -16,7 +16,7 @@ return {
     if robocomp.command(root) then
       found(root)
     else
-      robocomp.tell_missing()
+      robocomp.report_missing()
     end
   end,
 }

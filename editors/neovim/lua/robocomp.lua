@@ -1,4 +1,4 @@
--- What Neovim of every version needs to know of RoboComp's languages.
+-- Shared by all Neovim versions: languages, project folders, server command.
 -- In: a buffer. Out: its language, the folder of its project, the command of its server.
 
 local M = {}
@@ -6,15 +6,15 @@ local M = {}
 M.languages = { 'idsl', 'cdsl', 'pdsl', 'ddsl', 'smdsl' }
 M.filetypes = vim.list_extend({ 'xml' }, M.languages)
 
--- A file with one of these beside or above it belongs to the project in that folder.
+-- The project of a file is the nearest folder above it that contains one of these.
 M.markers = { '.venv', '.git', 'pyproject.toml' }
 
 local MISSING = 'RoboComp: `rcgen` was not found: neither in a .venv of this project nor on the PATH. '
   .. "Install it with `pip install 'robocomp_dsl[editor]'`, "
-  .. "or say where it is: vim.g.robocomp_server = '/path/to/rcgen'"
+  .. "or set its path: vim.g.robocomp_server = '/path/to/rcgen'"
 
--- An XML file may be anything; it is ours when it is SCXML, or its root element is that of InnerModel.
-local function is_ours(buffer)
+-- An XML file is supported if it is SCXML, or its root element is `<innerModel>`.
+local function is_supported(buffer)
   if vim.bo[buffer].filetype ~= 'xml' then
     return true
   end
@@ -25,10 +25,10 @@ local function is_ours(buffer)
   return head:find('<innerModel', 1, true) ~= nil
 end
 
--- The folder of the project that `buffer` is in, or nil where it is none of our files.
+-- The project folder of `buffer`, or nil if its language is not supported.
 function M.root(buffer)
   local name = vim.api.nvim_buf_get_name(buffer)
-  if name == '' or not is_ours(buffer) then
+  if name == '' or not is_supported(buffer) then
     return nil
   end
   local start = vim.fn.fnamemodify(name, ':p:h')
@@ -56,15 +56,15 @@ function M.command(root)
   return nil
 end
 
--- Says once that there is no server, and what to do about it.
-function M.tell_missing()
-  if not M.told then
-    M.told = true
+-- Reports a missing server once, with how to install it.
+function M.report_missing()
+  if not M.missing_reported then
+    M.missing_reported = true
     vim.notify(MISSING, vim.log.levels.WARN)
   end
 end
 
--- Neovim 0.7 to 0.10: attach the buffer to the server of its project, which is started if need be.
+-- Neovim 0.7 to 0.10: attach the buffer to the server of its project; starts the server if necessary.
 function M.attach(buffer)
   local root = M.root(buffer)
   if not root then
@@ -72,7 +72,7 @@ function M.attach(buffer)
   end
   local command = M.command(root)
   if not command then
-    return M.tell_missing()
+    return M.report_missing()
   end
   local config = { name = 'robocomp', cmd = command, root_dir = root }
   if vim.lsp.start then

@@ -1,14 +1,14 @@
--- Loaded when Neovim starts: has the language server started for the files of RoboComp.
+-- Loaded when Neovim starts: enables the language server for RoboComp's files.
 
 local robocomp = require('robocomp')
 local group = vim.api.nvim_create_augroup('robocomp', { clear = true })
 
-local function on_file(types, what)
+local function on_file(types, handler)
   vim.api.nvim_create_autocmd('FileType', {
     group = group,
     pattern = types,
     callback = function(event)
-      what(event.buf)
+      handler(event.buf)
     end,
   })
 end

@@ -1,11 +1,11 @@
-/** What a user can have done: programs that run in a terminal of their own. */
+/** The commands: each runs a program in its own terminal. */
 
 import * as path from "path";
 import * as vscode from "vscode";
 
-import { besides } from "./finding";
+import { siblingProgram } from "./find_server";
 import { rcgen } from "./places";
-import { tellMissing } from "./server";
+import { reportMissing } from "./server";
 
 /** The commands by the names that `package.json` gives them. */
 export const COMMANDS: Readonly<Record<string, (chosen?: vscode.Uri) => Promise<void>>> = {
@@ -44,7 +44,7 @@ async function checkWorkspace(): Promise<void> {
   }
 }
 
-/** The programs read files, so that what they shall know must be in them. */
+/** Save all files, because the programs read them from disk. */
 async function saved(): Promise<boolean> {
   return vscode.workspace.saveAll(false);
 }
@@ -52,10 +52,10 @@ async function saved(): Promise<boolean> {
 async function run(name: string, words: readonly string[], cwd: string, title: string): Promise<void> {
   const generator = await rcgen();
   if (generator === undefined) {
-    await tellMissing();
+    await reportMissing();
     return;
   }
-  const program = name === "rcgen" ? generator : besides(generator, name, process.platform === "win32");
+  const program = name === "rcgen" ? generator : siblingProgram(generator, name, process.platform === "win32");
   const execution = new vscode.ProcessExecution(program, [...words], { cwd });
   const kind: vscode.TaskDefinition = { type: "robocomp", title };
   const task = new vscode.Task(kind, vscode.TaskScope.Workspace, title, "RoboComp", execution, []);

@@ -1,4 +1,4 @@
-/** The extension: what happens when VS Code loads it and when it leaves. */
+/** Entry point: called when VS Code loads and unloads the extension. */
 
 import * as vscode from "vscode";
 

@@ -1,11 +1,11 @@
-/** Bodies are XML files, and an XML file may be anything: the root element tells. */
+/** Detects InnerModel among XML files by the root element. */
 
 import * as vscode from "vscode";
 
 const HEAD = 20_000;
 const ROOT = /^\uFEFF?(?:\s|<\?[^]*?\?>|<!--[^]*?-->|<![A-Z][^>]*>)*<innerModel[\s/>]/;
 
-/** Have every XML file that describes a body known as such, from now on. */
+/** Set the language of every InnerModel file, now and when it is opened. */
 export function recognize(): vscode.Disposable {
   vscode.workspace.textDocuments.forEach(look);
   return vscode.workspace.onDidOpenTextDocument(look);

@@ -1,14 +1,14 @@
-/** What VS Code knows of where programs are. */
+/** Collects the places where VS Code's settings and extensions locate programs. */
 
 import * as fs from "fs";
 import * as path from "path";
 import * as vscode from "vscode";
 
-import { findServer } from "./finding";
+import { findServer } from "./find_server";
 
 const WINDOWS = process.platform === "win32";
 
-/** The path of `rcgen`, or nothing. */
+/** The path of `rcgen`, or undefined. */
 export async function rcgen(): Promise<string | undefined> {
   return findServer({
     configured: vscode.workspace.getConfiguration("robocomp").get<string>("server.path", "").trim(),
@@ -20,7 +20,7 @@ export async function rcgen(): Promise<string | undefined> {
   });
 }
 
-/** What the part of the Python extension that we use looks like. */
+/** The part of the Python extension's API that is used here. */
 interface PythonExtension {
   readonly environments?: { getActiveEnvironmentPath?: () => { readonly path?: string } };
 }
@@ -33,9 +33,9 @@ async function interpreters(): Promise<string[]> {
     const its = python && (python.isActive ? python.exports : await python.activate());
     chosen = its?.environments?.getActiveEnvironmentPath?.().path;
   } catch {
-    // Another extension's failure is told by that extension; there are other places to look at.
+    // The Python extension reports its own failure; the other places are still searched.
   }
-  return [chosen, set].filter((one): one is string => Boolean(one) && path.isAbsolute(one ?? ""));
+  return [chosen, set].filter((file): file is string => Boolean(file) && path.isAbsolute(file ?? ""));
 }
 
 function isProgram(file: string): boolean {

@@ -1,4 +1,4 @@
-/** The language server of this window: started, stopped, and asked. */
+/** Starts, stops and queries the language server of this window. */
 
 import * as vscode from "vscode";
 import {
@@ -19,12 +19,12 @@ const SETTINGS = "Open settings";
 
 let client: LanguageClient | undefined;
 
-/** Start the server, or say what is missing. */
+/** Start the server, or report that it is missing. */
 export async function start(output: vscode.OutputChannel): Promise<void> {
   const program = await rcgen();
   if (program === undefined) {
     output.appendLine("rcgen was not found");
-    void tellMissing();
+    void reportMissing();
     return;
   }
   output.appendLine(`starting ${program} lsp`);
@@ -39,18 +39,18 @@ export async function start(output: vscode.OutputChannel): Promise<void> {
   }
 }
 
-/** End the server, if there is one. */
+/** Stop the server, if it runs. */
 export async function stop(): Promise<void> {
   const ending = client;
   client = undefined;
   await ending?.dispose();
 }
 
-/** Say that there is no server, with a way out. */
-export async function tellMissing(): Promise<void> {
+/** Report a missing server, with buttons to fix it. */
+export async function reportMissing(): Promise<void> {
   const answer = await vscode.window.showErrorMessage(
     "RoboComp: `rcgen` was not found in the workspace's .venv, beside the Python interpreter, or on the PATH. " +
-      "Install it there with pip install 'robocomp_dsl[editor]', or say where it is.",
+      "Install it there with pip install 'robocomp_dsl[editor]', or set its path.",
     CHOOSE,
     SETTINGS,
   );
@@ -83,7 +83,7 @@ function options(output: vscode.OutputChannel): LanguageClientOptions {
   };
 }
 
-/** VS Code has a list of places of its own; everything else is the server's to execute. */
+/** Lists of references are shown by VS Code; all other commands are executed by the server. */
 function executeCommand(command: string, given: unknown[], next: ExecuteCommandSignature): unknown {
   if (command !== SHOW_REFERENCES || !client) {
     return next(command, given);

@@ -1,7 +1,7 @@
 //! Tells Zed how to start the language server of RoboComp's languages.
 //!
-//! In: a worktree. Out: the command `rcgen lsp`: the one that the settings say, that of the
-//! worktree's `.venv`, or the one on the PATH of its shell.
+//! In: a worktree. Out: the command `rcgen lsp`: from the settings, from the
+//! worktree's `.venv`, or from the PATH of its shell.
 
 use zed_extension_api::{self as zed, settings::LspSettings, Command, LanguageServerId, Result};
 
@@ -25,7 +25,7 @@ impl zed::Extension for RoboComp {
         let set = settings
             .and_then(|all| all.binary)
             .and_then(|binary| binary.path);
-        // An extension may not look at the disk, but the program is a text that it may read.
+        // An extension cannot list files, but it can read the program, which is a text.
         let own = worktree
             .read_text_file(OWN)
             .ok()

@@ -230,3 +230,24 @@ Right:
 What needs more is a method of the worker: `on_enter_<state>` calls `self.machine.go("done")`.
 """,
 )
+
+EVENTLESS_CYCLE = Code(
+    "RC711",
+    Severity.ERROR,
+    "endless loop of transitions without events",
+    """\
+A transition without an event is taken as soon as its source is active. A cycle of such transitions
+without conditions never ends: the component would hang when it reaches one of these states. At run
+time, more than 1000 transitions without an event are an error, too.
+
+Wrong:
+
+    <state id="ask"> <transition target="wait"/> </state>
+    <state id="wait"> <transition target="ask"/> </state>
+
+Right:
+
+    <state id="ask"> <transition target="wait"/> </state>
+    <state id="wait"> <transition event="timeout" target="ask"/> </state>
+""",
+)

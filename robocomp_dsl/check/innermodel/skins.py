@@ -15,6 +15,7 @@ from robocomp_dsl.check.innermodel.tactile import report_findings
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.hardware.kinematics.rotations import rotation
 from robocomp_dsl.model.innermodel import MAX_MODULES, InnerModel, Patch, Taxel
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.source import Span
 from robocomp_dsl.tactile.arrays import Floats, Ints
 from robocomp_dsl.tactile.errors import DescriptionError
@@ -49,7 +50,7 @@ def _read(patch: Patch, report: Report) -> TaxelPositions | None:
         return None
     path = patch.span.source.path.parent / patch.file
     try:
-        return read_positions(path.read_text(encoding="utf-8"), path)
+        return read_positions(read_text(path), path)
     except DescriptionError as error:
         report_findings(error, patch.span.source, report)
     except (OSError, ValueError) as error:

@@ -13,17 +13,19 @@ from pathlib import Path
 from robocomp_dsl.check.codes import tactile as codes
 from robocomp_dsl.check.innermodel.resolve import resolve_innermodel
 from robocomp_dsl.check.workspace.workspace import Workspace
-from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.diagnostics import Code, Report
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.model import innermodel as nouns
 from robocomp_dsl.model.innermodel import InnerModel
-from robocomp_dsl.source import Source, Span, UnreadableSource
+from robocomp_dsl.regular_file import read_bytes
+from robocomp_dsl.source import Source, UnreadableSource
 from robocomp_dsl.tactile.description.check import RobotStructure, compare
 from robocomp_dsl.tactile.description.model import RobotDescription
 from robocomp_dsl.tactile.description.part_xml import read_part_xml
 from robocomp_dsl.tactile.description.read import read_robot
-from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
-CODES = {
+CODES: dict[str, Code] = {
     Fault.FORM: codes.TACTILE_SYNTAX,
     Fault.JOINT: codes.TACTILE_JOINT,
     Fault.LIMITS: codes.TACTILE_LIMITS,
@@ -31,7 +33,6 @@ CODES = {
     Fault.OFF_BODY: codes.TAXELS_OFF_SURFACE,
     Fault.TWICE: codes.TACTILE_DUPLICATE,
 }
-_WORD = re.compile(r"[^\s,:{}\[\]<>]*")
 _PARTS = re.compile(r"^parts\s*:", re.MULTILINE)
 _MODELS = (b"mujoco", b"robot")
 
@@ -65,8 +66,8 @@ def check_against_model(
     try:
         check_against_facts(robot, _facts(robot, workspace), source, report)
     except _ModelUnavailable as error:
-        place = Finding("", robot.model_place.line, robot.model_place.column, "")
-        report.add(codes.TACTILE_MODEL, _span(place, source), str(error))
+        finding = Finding(robot.model_place, str(error))
+        report.add_finding(codes.TACTILE_MODEL, finding, source)
 
 
 def check_against_facts(
@@ -86,7 +87,7 @@ class _ModelUnavailable(Exception):
 def _facts(robot: RobotDescription, workspace: Workspace) -> RobotStructure:
     path = robot.file.parent / robot.model
     try:
-        head = path.read_bytes()
+        head = read_bytes(path)
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise _ModelUnavailable(f"`{robot.model}` cannot be read: {why}") from None
@@ -127,10 +128,9 @@ def _simulated(path: Path, name: str) -> RobotStructure:
 def report_findings(error: DescriptionError, source: Source, report: Report) -> None:
     """Report the findings about `source` and the taxel position files that it names."""
     for finding in error.findings:
-        text_source = source if finding.file == str(source.path) else _opened(Path(finding.file))
-        report.add(
-            CODES[finding.fault], _span(finding, text_source), finding.message, help=finding.help
-        )
+        file = finding.location.file
+        about = source if file == str(source.path) else _opened(Path(file))
+        report.add_finding(CODES[finding.kind], finding, about)
 
 
 def _opened(path: Path) -> Source:
@@ -138,17 +138,3 @@ def _opened(path: Path) -> Source:
         return Source.read(path)
     except UnreadableSource:  # deleted in the meantime
         return Source(path, "")
-
-
-def _span(found: Finding, source: Source) -> Span:
-    """The word at the position of a finding, or the rest of its line."""
-    lines = source.line_starts
-    start = min(lines[min(found.line, len(lines)) - 1] + found.column - 1, len(source.text))
-    word = _WORD.match(source.text, start)
-    end = word.end() if word and word.end() > start else _end_of_line(source.text, start)
-    return source.span(start, max(end, start))
-
-
-def _end_of_line(text: str, start: int) -> int:
-    end = text.find("\n", start)
-    return len(text) if end < 0 else end

@@ -30,12 +30,14 @@ def smdsl_machine(file: Parsed[smdsl.File], report: Report) -> StateMachine | No
 
 def scxml_machine(file: Parsed[innermodel.File], report: Report) -> StateMachine | None:
     """The machine of an SCXML file."""
+    from robocomp_dsl.check.states.eventless_cycles import check_eventless_cycles  # noqa: PLC0415
     from robocomp_dsl.check.states.resolve_scxml import resolve_scxml  # noqa: PLC0415 - on first use
     from robocomp_dsl.check.states.rules import check_machine_rules  # noqa: PLC0415
 
     machine = resolve_scxml(file, report)
     if machine is not None:
         check_machine_rules(machine, report)
+        check_eventless_cycles(machine, report)
     return machine
 
 

@@ -1,7 +1,7 @@
-"""How many findings of a file are shown to people: the first ones, and how many there are more.
+"""Limits the number of findings shown per file.
 
-In: sorted findings. Out: those to show, and a line for each file that has more. What machines read
-is always complete.
+In: sorted findings. Out: the findings to show, and a line for each file that has more. Machine-
+readable formats are always complete.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ MAX_FINDINGS = 100
 
 
 def limit_findings(findings: Sequence[Diagnostic]) -> tuple[list[Diagnostic], list[str]]:
-    """The findings to show, errors before others where there are too many, in their order."""
+    """The findings to show, in order; if there are too many, errors take precedence."""
     of_file = Counter(_file(finding) for finding in findings)
     crowded = {path for path, count in of_file.items() if count > MAX_FINDINGS}
     if not crowded:

@@ -1,7 +1,7 @@
-"""Findings for people: the excerpt with carets, in colours where the terminal has them.
+"""Findings as text: the excerpt with carets, in colours if the terminal supports them.
 
-In: diagnostics. Out: text. Everything that comes from a file or a path is made harmless first:
-control characters must not reach the terminal.
+In: diagnostics. Out: text. Control characters in files and paths are escaped, so that they do not
+reach the terminal.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from robocomp_dsl.source import Span
 
 TAB = 4
 MAX_EXCERPT_COLUMNS = 160
-"""Columns of an excerpt, at most; of a longer line only the part around the carets is shown."""
+"""Maximum columns of an excerpt; of a longer line only the part around the carets is shown."""
 MARGIN = 40
 MAX_EXCERPT_LINES = 4
-"""Lines of an excerpt, at most; of more only the first and the last are shown."""
+"""Maximum lines of an excerpt; of more only the first and the last are shown."""
 
 _COLOURS = {Severity.ERROR: "1;31", Severity.WARNING: "1;33", Severity.NOTE: "1;36"}
 _FRAME = "1;34"
@@ -27,7 +27,7 @@ _STRONG = "1"
 
 
 class AnsiStyler(ValueRecord):
-    """Puts colours around texts, or leaves them as they are."""
+    """Adds colours to texts, or leaves them unchanged."""
 
     colours: bool
 
@@ -43,12 +43,12 @@ def full(findings: Iterable[Diagnostic], *, colours: bool = False) -> str:
 
 
 def strip_control_chars(text: str) -> str:
-    """`text` without characters that could steer a terminal."""
+    """`text` without characters that control a terminal."""
     return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def display_path(path: Path) -> str:
-    """`path` as short as it stays clear: relative where it is below the working folder."""
+    """The shortest unambiguous `path`: relative if it is below the working folder."""
     try:
         return strip_control_chars(str(path.relative_to(Path.cwd())))
     except (ValueError, OSError):
@@ -89,7 +89,7 @@ def _excerpt(span: Span, label: str, style: str, paint: AnsiStyler) -> Iterator[
 
 
 _Row = tuple[int | None, str, int, int, bool]
-"""Line number (None: left out), text, columns of the carets [start, end), whether the span ends."""
+"""Line number (None: omitted), text, columns of the carets [start, end), whether the span ends."""
 
 
 def _excerpt_rows(span: Span) -> Iterator[_Row]:

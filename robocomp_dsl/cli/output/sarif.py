@@ -1,6 +1,6 @@
 """Findings as a log of SARIF 2.1.0 (OASIS standard), which code scanners and editors read.
 
-In: diagnostics. Out: the JSON text. Columns count characters, as everywhere here.
+In: diagnostics. Out: the JSON text. Columns count characters, as everywhere in this project.
 """
 
 from __future__ import annotations
@@ -110,5 +110,5 @@ def _replacements(fix: Fix, path: Path) -> Iterable[Record]:
 
 def _uri(path: Path) -> str:
     """A path as given, so that a relative one stays relative to the working folder (RFC 3986)."""
-    # Through bytes, because a name on the disk need not be a valid text.
+    # Through bytes, because file names need not be valid text.
     return path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))

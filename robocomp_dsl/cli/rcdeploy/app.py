@@ -1,6 +1,6 @@
-"""From a DDSL file to something that can run: all checks of the text and of this machine.
+"""Loads a DDSL file for running: all checks of the text and of this machine.
 
-In: a path and the options. Out: the deployment and its plan, or the findings that forbid it.
+In: a path and the options. Out: the deployment and its plan, or the findings that prevent it.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ group = click.option("--group", metavar="NAME", help="Only the components of thi
 
 @dataclass(frozen=True, slots=True)
 class CheckedDeployment:
-    """`plan` is None when the text has errors; `ready`: nothing keeps it from running here."""
+    """`plan` is None if the text has errors; `ready`: it can run on this machine."""
 
     findings: Sequence[Diagnostic]
     plan: Plan | None
@@ -42,10 +42,10 @@ def check(
     domain: str | None = None,
     group: str | None = None,
 ) -> CheckedDeployment:
-    """Judge a deployment: first the text and all it imports, then what this machine has.
+    """Check a deployment: first the text and its imports, then the requirements on this machine.
 
-    With `group` it is about that group alone; raises `click.BadParameter` where there is none.
-    Without `domain` the plan has the domain of the deployment if it runs, otherwise a new one.
+    With `group` only that group is checked; raises `click.BadParameter` for an unknown one. Without
+    `domain` the plan has the domain of the deployment if it runs, otherwise a new one.
     """
     from robocomp_dsl.check.passes import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415

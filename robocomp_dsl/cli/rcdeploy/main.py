@@ -1,6 +1,6 @@
 """`rcdeploy`: runs deployments. In: the command line. Out: an exit code.
 
-0: stopped on request, or all components ended well; 1: findings, or a component failed; 2: usage.
+0: stopped on request, or all components succeeded; 1: findings, or a component failed; 2: usage.
 """
 
 from __future__ import annotations

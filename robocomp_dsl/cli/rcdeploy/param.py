@@ -1,7 +1,7 @@
-"""`rcdeploy param`: parameters of running components, read and changed while they run.
+"""`rcdeploy param`: reads and changes parameters of running components.
 
-In: a running deployment, a component of it, parameters. Out: a table or values; exit code 1 where
-a component refuses, and then nothing has changed.
+In: a running deployment, a component of it, parameters. Out: a table or values; exit code 1 if a
+component rejects a change; then nothing has changed.
 """
 
 from __future__ import annotations

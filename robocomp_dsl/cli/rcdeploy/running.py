@@ -1,4 +1,4 @@
-"""Which running deployment a command means. In: a name, a file or nothing. Out: a `Running`."""
+"""Selects a running deployment. In: a name, a file or nothing. Out: a `RunningDeployment`."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
 
 
 def components(deployment: instances.RunningDeployment) -> list[str]:
-    """The whole names of its components."""
+    """The full names of its components."""
     try:
         answer = next(control.send_request(deployment.name, {"verb": "status"}))
     except (instances.Unavailable, StopIteration):

@@ -1,6 +1,6 @@
-"""`rcdeploy status`: how the components are. In: a running deployment. Out: a table or JSON.
+"""`rcdeploy status`: shows a deployment's components. In: a running one. Out: a table or JSON.
 
-Processes are known to the engine; life cycles and state machines are asked of the components.
+The supervisor knows the processes; lifecycles and state machines are queried from the components.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.deploy.component_queries import ComponentState
 
 CALL_TIMEOUT_S = 1.0
-"""A component answers within a millisecond, whatever its code does; one that is stopped never."""
+"""Time-out of a reply; a running component replies within milliseconds."""
 
 
 @click.command()
@@ -86,7 +86,7 @@ def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
 def _with_component_state(
     deployment: instances.RunningDeployment, rows: list[status.ProcessStatus]
 ) -> list[status.ProcessStatus]:
-    """`rows` with what the components tell of themselves."""
+    """`rows` with the information of the components themselves."""
     from robocomp_dsl.deploy import component_queries  # noqa: PLC0415 - loads a middleware
 
     states = component_queries.fetch_states(

@@ -12,7 +12,7 @@ from robocomp_dsl.cli.rcdeploy import components
 from robocomp_dsl.deploy import control, instances
 
 EXIT_TIMEOUT_S = 5.0
-"""How long rcdeploy takes, at most, to leave after all its components have ended."""
+"""Maximum time for rcdeploy to exit after all its components have exited."""
 
 
 @click.command()
@@ -36,7 +36,7 @@ def command(words: tuple[str, ...]) -> None:
             EXIT_FINDINGS, f"`{deployment.name}` ended without a word; it may have been killed"
         )
     if ended is not None:
-        select.select([ended], [], [], EXIT_TIMEOUT_S)  # so that its name is free when we return
+        select.select([ended], [], [], EXIT_TIMEOUT_S)  # so that its name is free afterwards
     print(f"{deployment.name}: {answer['reason']}")
     if code := int(answer["code"]):
         raise CliError(code)

@@ -1,8 +1,8 @@
-"""A deployment on a terminal: lines of all components, and below them a table that stays.
+"""Terminal output of a deployment: lines of all components above a permanent table.
 
-In: records and the wish to see the status anew, from the event loop. Out: text on one stream,
-written by a thread of its own, so that a terminal that is held (Ctrl-S) holds nothing else. What a
-full disk refuses is dropped and counted.
+In: records and redraw requests, from the event loop. Out: text on one stream, written by its own
+thread, so that a stopped terminal (Ctrl-S) blocks nothing else. Lines that a full disk refuses are
+dropped and counted.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ FLUSH_TIMEOUT_S = 2.0
 
 
 class Terminal(Display):
-    """Shows one deployment until `close`. `live`: with the table; `as_json`: one record a line."""
+    """Shows one deployment until `close`. `live`: with the table; `as_json`: JSON lines."""
 
     def __init__(
         self, stream: TextIO, names: list[str], *, live: bool, colours: bool, as_json: bool
@@ -50,7 +50,7 @@ class Terminal(Display):
         self._thread.start()
 
     def record(self, record: LogRecord) -> None:
-        """Show a line, soon."""
+        """Queue a line."""
         with self._wake:
             if len(self._waiting) >= MAX_QUEUED_LINES:
                 self._waiting.popleft()
@@ -64,21 +64,21 @@ class Terminal(Display):
         abort: Callable[[str], object],
         log: Callable[[str], object],
     ) -> None:
-        """Where the table comes from, what a closed output ends, and where its errors are said."""
+        """Set the source of the table, what a closed output ends, and where errors are logged."""
         self._rows, self._abort = statuses, abort
         self._output.on_error = lambda reason: log(
             f"standard output refuses log lines ({reason}); they are dropped until it takes them"
         )
 
     def changed(self) -> None:
-        """Show the table anew, soon."""
+        """Request a redraw of the table."""
         if self._live:
             with self._wake:
                 self._dirty = True
                 self._wake.notify()
 
     def close(self) -> None:
-        """Show what is waiting; a terminal that takes nothing is not waited for long."""
+        """Write the queued output, with a time limit for a blocked terminal."""
         with self._wake:
             self._ending = True
             self._wake.notify()

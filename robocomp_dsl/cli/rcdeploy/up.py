@@ -1,4 +1,4 @@
-"""`rcdeploy up`: run a deployment. In: a DDSL file. Out: its outcome as an exit code."""
+"""`rcdeploy up`: runs a deployment. In: a DDSL file. Out: its outcome as an exit code."""
 
 from __future__ import annotations
 

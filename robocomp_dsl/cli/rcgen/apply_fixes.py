@@ -1,7 +1,7 @@
-"""What `rcgen check --fix` does to one file.
+"""Applies the fixes of `rcgen check --fix` to one file.
 
-In: a path and how it is judged. Out: the file rewritten whole, or the difference on standard
-output; a line on standard error says what was fixed.
+In: a path and its check. Out: the rewritten file, or the difference on standard output; a line on
+standard error says what was fixed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Check = Callable[[Path, Workspace, Report], object]
 
 
 def apply_fixes(path: Path, check: Check, workspace: Workspace, *, diff: bool) -> None:
-    """Fix the file at `path`; with `diff` only show it. Raises `CannotWrite`.
+    """Fix the file at `path`; with `diff` only show the changes. Raises `CannotWrite`.
 
     The check reports a file that cannot be read.
     """

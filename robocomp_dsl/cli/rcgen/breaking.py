@@ -1,7 +1,7 @@
 """`rcgen breaking`: reports breaking changes of descriptions.
 
 In: a folder or file, and an earlier version of it: a git revision or another folder. Out: findings;
-the exit code is 1 where peers, code, configurations or deployments break.
+the exit code is 1 if peers, code, configurations or deployments break.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from robocomp_dsl.source import Source, Span
 SUFFIXES = (".idsl", ".cdsl", ".pdsl")
 DEPLOYMENTS = ".ddsl"
 ARCHIVED_SUFFIXES = (*SUFFIXES, DEPLOYMENTS, ".smdsl", ".scxml", ".yaml", ".yml", ".toml")
-"""What is taken out of an archive: descriptions, and what they name."""
+"""The files extracted from an archive: descriptions, and the files that they name."""
 GIT_TIMEOUT_S = 60.0
 SKIPPED_FOLDERS = {".git", ".venv", "node_modules", "build", ".rcgen"}
 
@@ -94,7 +94,7 @@ def command(*, path: Path, against: str, output_format: str, folders: tuple[Path
 
 @dataclass(frozen=True, slots=True)
 class _EarlierVersion:
-    """Where the earlier version is: `path` of it, its whole tree `root` and that of the new one.
+    """Location of the earlier version: `path` in it, its tree `root`, and the new version's tree.
 
     With a `revision` the tree is a temporary copy, and locations in it are written as in git:
     `v1:sub/Laser.idsl`.
@@ -106,16 +106,16 @@ class _EarlierVersion:
     revision: str = ""
 
     def folders(self, paths: tuple[Path, ...]) -> tuple[Path, ...]:
-        """Folders within the tree as they were; others are the same for both."""
+        """Earlier versions of folders within the tree; other folders are the same for both."""
         return (*(self.old_path(item) or item for item in paths), _root(self.path))
 
     def old_path(self, item: Path) -> Path | None:
-        """Where a file or folder was; None for one that is not in the tree."""
+        """The earlier path of a file or folder; None outside the tree."""
         new, whole = self.new_root.resolve(), item.resolve()
         return self.root / whole.relative_to(new) if whole.is_relative_to(new) else None
 
     def with_names(self, item: Diagnostic) -> Diagnostic:
-        """With places that the user can look up."""
+        """Findings with locations that the user can look up."""
         notes = tuple(n.replace(span=self._span(n.span)) if n.span else n for n in item.notes)
         return item.replace(span=self._span(item.span), notes=notes)
 
@@ -125,7 +125,7 @@ class _EarlierVersion:
         return Source(self.name(span.source.path), span.source.text).span(span.start, span.end)
 
     def name(self, path: Path) -> Path:
-        """What a file of the earlier version is called."""
+        """The displayed name of a file of the earlier version."""
         inside = path.relative_to(self.root) if self.revision else path
         return Path(f"{self.revision}:{inside}") if self.revision else path
 
@@ -186,7 +186,7 @@ def _open_earlier_version(path: Path, against: str) -> Iterator[_EarlierVersion]
 
 
 def _unpack(data: bytes, folder: Path) -> None:
-    """The descriptions of an archive (Python 3.11.2 has no safe way of its own to unpack one)."""
+    """The descriptions of an archive (Python 3.11.2 has no safe function to extract one)."""
     with tarfile.open(fileobj=io.BytesIO(data)) as archive:
         for member in archive:
             content = archive.extractfile(member) if member.isfile() else None

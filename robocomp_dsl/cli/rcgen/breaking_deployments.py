@@ -35,7 +35,7 @@ _IMPORT_ERRORS = frozenset((name_codes.MISSING_IMPORT, name_codes.UNREADABLE_IMP
 
 @dataclass(slots=True)
 class DeploymentCheck:
-    """`broken`: findings of kind wiring and values; `own`: the file itself is wrong."""
+    """`broken`: findings about connections and values; `own`: errors of the file itself."""
 
     broken: list[Diagnostic] = field(default_factory=list)
     own: list[Diagnostic] = field(default_factory=list)
@@ -45,9 +45,9 @@ class DeploymentCheck:
 def check_deployment(
     path: Path, then: Path | None, new: Iterable[Path], old: Iterable[Path]
 ) -> DeploymentCheck:
-    """The deployment at `path`; `then` is its place in the earlier version, if it has one there.
+    """The deployment at `path`; `then` is its path in the earlier version, if it exists there.
 
-    `new` and `old` are the folders of interfaces of now and of then.
+    `new` and `old` are the interface folders of both versions.
     """
     current, deployment = _check(path, Workspace(new))
     result = DeploymentCheck(deployment=deployment)
@@ -67,7 +67,7 @@ def check_deployment(
 
 
 def _check(path: Path, workspace: Workspace) -> tuple[list[Diagnostic], Deployment | None]:
-    """What is wrong at the places of the file itself."""
+    """Errors of the file itself."""
     report = Report()
     deployment = check_ddsl(path, workspace, report)
     found = [finding for finding in report if finding.span.source.path == path]
@@ -81,7 +81,7 @@ def _check(path: Path, workspace: Workspace) -> tuple[list[Diagnostic], Deployme
 def _check_against_earlier(
     path: Path, then: Path, old: Iterable[Path]
 ) -> tuple[list[Diagnostic], Deployment | None]:
-    """The text of now among the descriptions of then."""
+    """The current text among the earlier descriptions."""
     workspace = Workspace(old)
     workspace.sources.set_overlay(then, workspace.sources.read(path).text)
     return _check(then, workspace)
@@ -102,7 +102,7 @@ def _with_deployment_name(deployment: Deployment | None, finding: Diagnostic) ->
 
 
 def _values(deployment: Deployment, earlier: Deployment) -> Iterator[Diagnostic]:
-    """What the components of now refuse of their configurations, and those of then took."""
+    """Configuration values that the current components reject and the earlier ones accepted."""
     was = {instance.name: instance.component for instance in earlier.instances}
     processes = plan(deployment, name="", domain="", interpreter="python3").processes
     before = _rejected_values(deployment, processes, was)
@@ -114,7 +114,7 @@ def _values(deployment: Deployment, earlier: Deployment) -> Iterator[Diagnostic]
 def _rejected_values(
     deployment: Deployment, processes: Iterable[Process], instead: Mapping[str, Component]
 ) -> dict[tuple[str, int, int, str], Diagnostic]:
-    """What is wrong with values; the components of some instances are taken from `instead`."""
+    """Invalid values; the components of some instances are replaced by those in `instead`."""
     result = {}
     for instance, process in zip(deployment.instances, processes, strict=True):
         judged = instance.replace(component=instead.get(instance.name, instance.component))

@@ -23,14 +23,14 @@ from robocomp_dsl.model.component import Component
 
 
 class NearestChoice(click.ParamType[str]):
-    """One of some names, whatever their case; the nearest is offered for another one."""
+    """A case-insensitive choice; suggests the nearest name for an unknown one."""
 
     def __init__(self, what: str, names: tuple[str, ...]) -> None:
         self.name = what
         self.names = names
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """The name as it is spelled. Fails for an unknown one."""
+        """The name in its canonical spelling. Fails for an unknown one."""
         found = next((name for name in self.names if name.lower() == value.lower()), None)
         if found is None:
             hint = did_you_mean(value, self.names) or f"it is one of {', '.join(self.names)}"
@@ -101,7 +101,7 @@ def command(
 
 
 def _selected_mode(modes: dict[str, bool]) -> str:
-    """The one that was asked for, or nothing."""
+    """The requested one, or None."""
     asked = [name for name, on in modes.items() if on]
     if len(asked) > 1:
         names = " and ".join(f"--{name.replace('_', '-')}" for name in asked)
@@ -110,7 +110,7 @@ def _selected_mode(modes: dict[str, bool]) -> str:
 
 
 def _component(file: Path, language: str, workspace: Workspace, report: Report) -> Component | None:
-    """The component of a file without errors, if there is a target for its language."""
+    """The component of a file without errors, if its language has a target."""
     found = check_cdsl(file, workspace, report)
     if found is None or report.has_errors:
         return None
@@ -128,7 +128,7 @@ def _component(file: Path, language: str, workspace: Workspace, report: Report) 
 def _update_user_files(
     folder: Path, component: Component, files: list[OutputFile], report: Report, *, writes: bool
 ) -> list[OutputFile]:
-    """The files as they are to be written over what the user made of them."""
+    """The files to write over the user's files."""
     from robocomp_dsl.generate.regeneration.update import update_user_files  # noqa: PLC0415 - only with a component
 
     return update_user_files(folder, component, files, report, writes=writes)
@@ -160,7 +160,7 @@ def _run_mode(mode: str, folder: Path, files: list[OutputFile], quiet: bool) -> 
 
 
 def _summary(folder: Path, changes: list[Change]) -> str:
-    """One line: how many files were written, and which of the user's are new."""
+    """One line: how many files were written, and which write-once files are new."""
     removed = sum(change.action is FileAction.DELETE for change in changes)
     changes = [
         change for change in changes if not (change.file.is_internal or change.file.is_removed)

@@ -17,15 +17,16 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.inputs import expand_inputs
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.regular_file import open_regular
 
 if TYPE_CHECKING:
     from robocomp_dsl.generate.output import OutputFile
 
 FORMATS = {"html": ("html",), "markdown": ("markdown",), "both": ("html", "markdown")}
 FOLDERS = ("components", "deployments", "interfaces", "modules", "parameters", "statemachines")
-"""Where pages go, beside the first one."""
+"""Folder of the other pages, beside the first one."""
 MARK_BYTES = 1000
-"""The mark of our files is in the first bytes of each."""
+"""The mark of generated files is within this number of bytes."""
 
 
 @click.command()
@@ -128,7 +129,7 @@ def _stale_pages(output: Path, written_paths: set[str]) -> list[str]:
 
 def _is_generated_file(path: Path) -> bool:
     try:
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             return _is_generated(stream.read(MARK_BYTES))
     except OSError:  # a folder or an unreadable file is not a generated page
         return False

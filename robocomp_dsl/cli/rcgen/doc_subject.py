@@ -1,4 +1,4 @@
-"""What `rcgen doc` documents. In: files. Out: a `Subject`, and findings."""
+"""Loads the subject of `rcgen doc`. In: files. Out: a `DocumentationSubject`, and findings."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def read_subject(
 
 
 def _unique(models: Iterable[_Noun]) -> tuple[_Noun, ...]:
-    """One of each file, in the order of names."""
+    """One model per file, sorted by name."""
     unique: dict[str, _Noun] = {}
     for model in models:
         unique.setdefault(canonical_path(model.path), model)

@@ -1,4 +1,4 @@
-"""`rcgen examples`: what ships to be copied. In: nothing. Out: a table of names, kinds, lines."""
+"""`rcgen examples`: lists the shipped examples. Out: a table of names, kinds, descriptions."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ def command(
 
 
 class _FormatRun:
-    """The texts of one run: `new` holds what each shall be, if that is known."""
+    """The texts of one run: `new` is the formatted text of each, if known."""
 
     def __init__(self) -> None:
         self.report = Report()

@@ -65,7 +65,7 @@ def _default_output(first: Path) -> Path:
 
 
 def _validate_output(inputs: tuple[Path, ...], out: Path) -> None:
-    """Leave with 2 where writing would touch something that is there."""
+    """Exit with code 2 if existing files would be overwritten."""
     real = out.resolve()
     for folder in inputs:
         if folder.is_dir() and real.is_relative_to(folder.resolve()):
@@ -109,7 +109,7 @@ def _migrate(
 
 
 def _path_formatter(inputs: tuple[Path, ...], out: Path) -> Callable[[Path], str]:
-    """How the report writes paths: from the folder that an input or the output is in."""
+    """Formats paths in the report: relative to the folder of an input or of the output."""
 
     def shown(path: Path) -> str:
         absolute = path.resolve()

@@ -1,6 +1,6 @@
-"""How commands change files of the user in place: `check --fix` and `fmt`.
+"""Rewrites files of the user in place, for `check --fix` and `fmt`.
 
-In: a path and its new text. Out: the file rewritten whole, or the difference as text.
+In: a path and its new text. Out: the file rewritten atomically, or the difference as text.
 """
 
 from __future__ import annotations
@@ -9,17 +9,18 @@ from pathlib import Path
 
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.write import write
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import declare_utf8
 
 BOM = "\N{ZERO WIDTH NO-BREAK SPACE}"
 
 
 def rewrite_file(path: Path, text: str) -> None:
-    """Put `text` into the file at `path`, which keeps a BOM and becomes UTF-8.
+    """Write `text` to the file at `path`; a BOM is kept, the encoding is UTF-8.
 
     Raises `CannotWrite`.
     """
-    mark = BOM if path.read_bytes().startswith(BOM.encode()) else ""
+    mark = BOM if read_bytes(path).startswith(BOM.encode()) else ""
     # Write the target of a symbolic link, so that the link stays.
     real = path.resolve()
     write(real.parent, [OutputFile(real.name, mark + declare_utf8(text))])

@@ -21,7 +21,7 @@ _SENTENCE = re.compile(r"(.+?\.)(\s|$)", re.DOTALL)
 
 
 class Example(ValueRecord):
-    """One example: its name for users, its kind, what it does in one line, and its folder."""
+    """One example: its name, its kind, a one-line description, and its folder."""
 
     name: str
     kind: str
@@ -76,7 +76,7 @@ def _needed(folder: Path) -> list[Path]:
 
 
 def _imported(folder: Path) -> Iterator[Path]:
-    """The folders beside `folder` that hold what its deployments import."""
+    """The folders beside `folder` that contain files imported by its deployments."""
     folders: dict[Path, None] = {}
     for path in sorted(folder.glob("*.ddsl")):
         for statement in parse_ddsl(Source.read(path), Report()).imports:

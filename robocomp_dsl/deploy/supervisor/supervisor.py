@@ -23,7 +23,7 @@ from robocomp_dsl.deploy.supervisor.child import ChildProcess
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
 from robocomp_dsl.deploy.supervisor.managed_process import KILL_TIMEOUT_S, ManagedProcess
 from robocomp_dsl.deploy.supervisor.notify import SOCKET_VARIABLE, NotifySocket
-from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch
+from robocomp_dsl.deploy.supervisor.process_watch import ProcessWatch, WatchedProcess
 from robocomp_dsl.deploy.supervisor.waiting import wait_any
 
 
@@ -90,9 +90,9 @@ class Supervisor:
         if watch := self._watches.get(record.component):
             watch.observe(record.text)
 
-    def on_started(self, managed: ManagedProcess, child: ChildProcess) -> None:
+    def on_started(self, managed: WatchedProcess, child: ChildProcess) -> None:
         """Watch a process that was started."""
-        self._watches[managed.name] = ProcessWatch(managed, child)
+        self._watches[managed.process.name] = ProcessWatch(managed, child)
 
     def receive_notifications(self, folder: Path) -> None:
         """Listen for sd_notify messages at a socket in `folder`, before `run`."""

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.supervisor.child import ChildProcess
-
-if TYPE_CHECKING:
-    from robocomp_dsl.deploy.supervisor.managed_process import ManagedProcess
+from robocomp_dsl.deploy.supervisor.process_watch import WatchedProcess
 
 
 class SupervisorContext(Protocol):
@@ -27,5 +25,5 @@ class SupervisorContext(Protocol):
     def changed(self) -> None:
         """A status has changed."""
 
-    def on_started(self, managed: ManagedProcess, child: ChildProcess) -> None:
+    def on_started(self, managed: WatchedProcess, child: ChildProcess) -> None:
         """A process was started."""

@@ -54,7 +54,7 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Prose:
-    """Paragraphs and lists, as `prose.py` makes them."""
+    """Paragraphs and lists, as parsed by `prose.py`."""
 
     kind: ClassVar[str] = "prose"
     parts: tuple[Paragraph | Bullets, ...]

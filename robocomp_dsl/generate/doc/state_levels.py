@@ -1,9 +1,9 @@
 """Lay out the nested boxes of a state diagram.
 
 In: a state machine. Out: `Level`s within levels. Each is a graph of its own. A transition that
-leads out of a box, or into one, goes to a point on its border inside and from there on outside;
-from which side is known from the ranks outside, which need no sizes. So ranks are found from the
-outermost box inwards, sizes and places on the way back.
+leaves or enters a box has a point on the border: one part inside, one part outside. The side
+of the box follows from the ranks outside, which need no sizes. So ranks are computed from the
+outermost box inwards, sizes and positions on the way back.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ MIN_STATE_WIDTH = 72.0
 INITIAL_DOT_SIZE = 12.0
 INSET = 18.0
 HEADER_HEIGHT = LINE_HEIGHT + 10.0
-"""Height of the head of a box with states in it."""
+"""Height of the header of a composite state."""
 
 
 @dataclass(frozen=True, slots=True)
 class Crossing:
-    """A line through the border of a box; `inside` is the state in it that is or holds its end.
+    """A line through the border of a box; `inside` is the state in it that is or contains its end.
 
-    `out` tells its direction, `right` the side of the box; one that `ends` goes no further.
+    `out` is its direction, `right` the side of the box; `ends`: it ends at the border.
     """
 
     pair: StatePair
@@ -40,7 +40,7 @@ class Crossing:
 
 @dataclass(frozen=True, slots=True)
 class LevelEdge:
-    """A line between two nodes of a level; `arrow` where it ends at its target."""
+    """A line between two nodes of a level; `arrow`: it ends at its target."""
 
     source: int
     target: int
@@ -51,7 +51,7 @@ class LevelEdge:
 
 @dataclass(slots=True)
 class Level:
-    """What is in one box, and where. The nodes: states, crossings, and the dot if there is one.
+    """The contents of one box. Its nodes: states, crossings, and the initial dot, if any.
 
     `width` and `height` are those of the whole box; `left` and `top` of its contents in it.
     """
@@ -68,7 +68,7 @@ class Level:
     top: float = 0.0
 
     def crossing_offset(self, pair: StatePair) -> float | None:
-        """How far from the top of the box a line crosses its border; None for one that does not."""
+        """Distance from the top of the box to where a line crosses its border; None without one."""
         for i, crossing in enumerate(self.crossings, len(self.states)):
             if crossing.pair == pair:
                 return self.top + self.layout.nodes[i][1]
@@ -83,7 +83,7 @@ class LevelBuilder:
     labels: Mapping[StatePair, tuple[str, ...]]
 
     def level(self, name: str, states: tuple[State, ...], passing: Sequence[Crossing]) -> Level:
-        """The box `name`, through whose border lines are `passing`; its size is left to do."""
+        """The box `name`, whose border the lines `passing` cross; its size is set later."""
         crossings = [*passing, *self._boundary_crossings(name)]
         level = Level(states, crossings, [])
         index = {state.name: i for i, state in enumerate(states)}
@@ -117,7 +117,7 @@ class LevelBuilder:
         return level
 
     def _boundary_crossings(self, name: str) -> list[Crossing]:
-        """Lines between this state itself and what is inside it: they end at its border inside."""
+        """Lines between this state and states inside it; they end at the border's inner side."""
         crossings = []
         for pair in self.labels:
             source, target = pair
@@ -130,7 +130,7 @@ class LevelBuilder:
         return crossings
 
     def _inner_edges(self, name: str, index: Mapping[str, int]) -> list[LevelEdge]:
-        """Lines between two states of this box, or between what is inside them."""
+        """Lines between two states of this box, or between their contents."""
         edges = []
         for pair, labels in self.labels.items():
             source, target = (self._ancestor_in(state, name) for state in pair)
@@ -146,7 +146,7 @@ class LevelBuilder:
     def _passing_crossings(
         self, node: int, name: str, edges: Sequence[LevelEdge], ranks: layered.Ranks
     ) -> list[Crossing]:
-        """The lines that cross the border of a state of the level."""
+        """The lines that cross the border of a state in the level."""
         crossings = []
         for i, edge in enumerate(edges):
             if edge.source == edge.target:
@@ -182,9 +182,9 @@ def _crossing_edges(
     index: Mapping[str, int],
     lines: Mapping[StatePair, tuple[str, ...]],
 ) -> list[LevelEdge]:
-    """The lines between the border and what is inside; the label is where the line ends or begins.
+    """The lines between the border and the contents; the label is at the innermost part.
 
-    Of a line that goes on outside, it is there.
+    A line that continues outside has its label there.
     """
     edges = []
     for i, crossing in enumerate(crossings, len(index)):

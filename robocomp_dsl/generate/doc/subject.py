@@ -20,7 +20,7 @@ from robocomp_dsl.model.statemachine import StateMachine
 class DocumentationSubject:
     """All models that get a page, sorted by name.
 
-    `parameters` and `machines` are those that no component uses. A component that several
+    `parameters` and `machines` are those without a component. A component that several
     deployments import is read once for each: `canonical_components` maps the identity of each copy
     to the one in `components`.
     """

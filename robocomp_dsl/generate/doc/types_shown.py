@@ -45,7 +45,7 @@ KINDS: dict[type[Declaration], str] = {
 
 
 def type_blocks(declaration: Declaration, anchor: str, site: DocumentationSite) -> Iterator[Block]:
-    """A heading, what it is, its doc comment and its parts. An interface gives nothing."""
+    """A heading, the kind, the doc comment and the parts; empty for an interface."""
     yield Heading(
         3, (PlainText(f"{KINDS[type(declaration)]} "), InlineCode(declaration.name)), anchor
     )

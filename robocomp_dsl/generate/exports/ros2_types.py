@@ -99,7 +99,7 @@ class Ros2Types:
         return self._packages[module]
 
     def message(self, declaration: Declaration) -> str:
-        """The message that a type becomes."""
+        """The message of a type."""
         return self._messages[declaration]
 
     def entry(self, dictionary: Dictionary) -> str:

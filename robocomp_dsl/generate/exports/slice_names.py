@@ -35,7 +35,7 @@ def escape_keyword(name: str) -> str:
 
 
 def valid_name(name: str) -> str:
-    """`name` without what Slice forbids: outer and double underscores, reserved affixes."""
+    """`name` without forbidden parts: outer and double underscores, reserved affixes."""
     plain = re.sub("_+", "_", name).strip("_") or "n"
     if plain[0].isdigit() or plain[:3].lower() == "ice":
         plain = f"n_{plain}"

@@ -44,13 +44,13 @@ PROTOCOLS: Mapping[str, tuple[str, str]] = {
     "touchsensor": ("devices.touch_sensor", "TouchSensorDevice"),
     "model_touch": ("devices.touch_sensor", "TouchSensorDevice"),
 }
-"""Module of `robocomp_dsl.hardware` and Protocol that a driver of each kind keeps to."""
+"""Module of `robocomp_dsl.hardware`, and the Protocol that a driver of each kind implements."""
 
 JOINTS = ("joint", "prismaticjoint")
 
 
 class UnsupportedDevice(Exception):
-    """No driver component can be generated; the message says why, and names the valid devices."""
+    """No driver component can be generated; the message gives the reason and the valid devices."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,27 +63,27 @@ class DriverComponent:
 
     @property
     def name(self) -> str:
-        """Of the component."""
+        """Name of the component."""
         return self.simulator.name
 
     @property
     def title(self) -> str:
-        """The name as the first part of the name of a class."""
+        """The name in CamelCase, as the first part of class names."""
         return camel(self.simulator.name)
 
     @property
     def devices(self) -> str:
-        """The devices, as a text."""
+        """The ids of the devices, joined."""
         return ", ".join(self.ids)
 
     @property
     def motors(self) -> bool:
-        """Whether it is a bus of motors."""
+        """Whether the device is a bus of motors."""
         return self.kind in JOINTS
 
 
 def driver_component(simulator: Simulator, ids: Sequence[str], name: str) -> DriverComponent:
-    """The driver component `name` of devices of one kind; a board's name selects all its motors.
+    """The driver component `name` for devices of one kind; a board's name selects all its motors.
 
     Raises `UnsupportedDevice`.
     """
@@ -127,7 +127,7 @@ def _kind(id: str, kinds: Mapping[str, str], there: Mapping[str, str]) -> str:
 
 
 def descriptions(device: DriverComponent) -> list[OutputFile]:
-    """The CDSL and the PDSL file; both are the user's from now on."""
+    """The CDSL and the PDSL file; the user owns them afterwards."""
     imports = dict.fromkeys(port.interface for port in device.simulator.ports)
     imports |= dict.fromkeys(topic.topic.file for topic in device.simulator.topics)
     context: dict[str, Any] = {"device": device, "simulator": device.simulator, "imports": imports}
@@ -142,9 +142,9 @@ def descriptions(device: DriverComponent) -> list[OutputFile]:
 def files(
     device: DriverComponent, component: Component, known: Mapping[str, object]
 ) -> list[OutputFile]:
-    """All files but the descriptions. `known` has the values of the properties of the device."""
+    """All files except the descriptions. `known` has the values of the device's properties."""
     py_names, topics = names_of(component), device.simulator.topics
-    # a device that nobody listens to is looked after as well
+    # a device without subscribers is monitored as well
     code = simulator_code(device.simulator.source, component, py_names, topics, publish_always=True)
     module, protocol = PROTOCOLS[device.kind]
     bones: Skeleton = skeleton(module, protocol, known)

@@ -1,4 +1,4 @@
-"""A driver with nothing in it: the methods of a Protocol, each saying that it is not written yet.
+"""An unimplemented driver: the methods of a Protocol, each raising `DriverMethodMissing`.
 
 In: a module of `robocomp_dsl.hardware`, the name of a Protocol in it, and values of its properties.
 Out: the source of the methods, and the imports that they need. The module is read, not run.
@@ -29,9 +29,9 @@ class Skeleton:
 
 
 def skeleton(module: str, protocol: str, known: Mapping[str, object]) -> Skeleton:
-    """A class that keeps to `protocol`; properties in `known` have these values already.
+    """A class that implements `protocol`; properties in `known` already return these values.
 
-    `module` is that of the protocol in `robocomp_dsl.hardware`, as `devices.laser`.
+    `module` contains the protocol, relative to `robocomp_dsl.hardware`, as `devices.laser`.
     """
     path = _HARDWARE.joinpath(*module.split(".")).with_suffix(".py")
     tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -49,7 +49,7 @@ def skeleton(module: str, protocol: str, known: Mapping[str, object]) -> Skeleto
 
 
 def _method(method: ast.FunctionDef, value: object) -> Iterator[str]:
-    """Its decorators, head and docstring, and a body that returns the value, or raises."""
+    """Decorators, head and docstring, and a body that returns the value or raises."""
     for decorator in method.decorator_list:
         yield f"{INNER}@{ast.unparse(decorator)}"
     returns = ast.unparse(method.returns) if method.returns else "None"
@@ -68,7 +68,7 @@ def _docstring(method: ast.FunctionDef) -> list[str]:
 
 
 def _homes(tree: ast.Module, module: str) -> dict[str, str]:
-    """The module in which each name was made that is known in this one."""
+    """The module that defines each imported name of this module."""
     homes: dict[str, str] = {}
     for node in tree.body:
         if isinstance(node, ast.ImportFrom) and node.module:
@@ -85,7 +85,7 @@ def _mentioned(method: ast.FunctionDef) -> set[str]:
 
 
 def _written(value: Any, indent: str) -> str:
-    """A value as source, as the formatter leaves it: an entry a line."""
+    """A value as source, formatted with one entry per line."""
     if is_dataclass(value) and not isinstance(value, type):
         arguments = [
             f"{field.name}={_written(getattr(value, field.name), indent + '    ')}"
@@ -108,7 +108,7 @@ def _called(name: str, arguments: list[str], indent: str) -> str:
 
 
 def _usual(field: Any, value: Any) -> bool:
-    """Whether a field need not be told: it has its default, or is an array, which is worked out."""
+    """Whether a field can be omitted: it has its default, or is an array, which is computed."""
     if hasattr(value, "shape"):
         return True
     return field.default is not MISSING and bool(field.default == value)
@@ -126,7 +126,7 @@ def _types(value: Any) -> Iterator[tuple[str, str]]:
 
 
 def _imports(needed: set[tuple[str, str]], body: str) -> Iterator[str]:
-    """One line a module, or as the formatter breaks it."""
+    """One line per module, or broken as the formatter does."""
     if "math." in body:
         yield "import math"
         yield ""

@@ -1,6 +1,6 @@
-"""The target Python: a component's model to the files of its folder.
+"""Target language Python: from a component's model to the files of its folder.
 
-In: a `Component`. Out: `OutputFile`s; nothing is read from the disk but the templates.
+In: a `Component`. Out: `OutputFile`s. Only the templates are read from disk.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:
-    """A row of the table in the README."""
+    """One row of the parameter table in the README."""
     default = "" if parameter.default is None else literals.yaml_value(parameter.default)
     about = (params.takes(parameter), literals.sentence(parameter.doc))
     takes, what = map(literals.markdown_cell, about)

@@ -1,6 +1,6 @@
-"""What everything of a component is called in Python.
+"""The Python names of a component.
 
-In: a component. Out: `Called`: its types, interfaces, proxies and methods, each with its name.
+In: a component. Out: `PythonNames`: the names of its types, interfaces, proxies and methods.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from robocomp_dsl.model.interface import Interface, Module, Operation
 from robocomp_dsl.record import ValueRecord
 
 SERVED_ROLES = (Role.IMPLEMENTS, Role.SUBSCRIBES)
-"""The roles in which others call the component."""
+"""The roles of ports that other components call."""
 
 
 class InterfaceNames(ValueRecord):
-    """What the other generated modules call an interface."""
+    """The names of an interface in the other generated modules."""
 
     constant: str
     proxy: str
@@ -30,7 +30,7 @@ class InterfaceNames(ValueRecord):
 def name_interfaces(
     interfaces: Iterable[Interface], types: PythonTypes
 ) -> dict[Interface, InterfaceNames]:
-    """Names for the interfaces of a component, none of them that of a type."""
+    """Names for the interfaces of a component that differ from all type names."""
     interface_list = list(interfaces)
     count = Counter(i.name for i in interface_list)
     found = {}
@@ -66,7 +66,7 @@ class PythonNames(ValueRecord):
 def members(
     component: Component, types: PythonTypes, interfaces: dict[Interface, InterfaceNames]
 ) -> PythonNames:
-    """Names for the methods and proxies; none hides a type or what every component has."""
+    """Names for the methods and proxies; none hides a type or a member of the base class."""
     params = types.scope.claim(f"{names.camel(component.name)}Params")
     ref = component.statemachine
     states = method_names(ref.machine) if ref and ref.machine else set()
@@ -83,13 +83,13 @@ def members(
 
 
 def names_of(component: Component) -> PythonNames:
-    """What everything of a component is called in Python."""
+    """All Python names of a component."""
     types = PythonTypes(modules_of(component))
     interfaces = name_interfaces(dict.fromkeys(p.interface for p in component.ports), types)
     return members(component, types, interfaces)
 
 
 def modules_of(component: Component) -> tuple[Module, ...]:
-    """All imported modules, directly or not, imported ones first."""
+    """All directly or indirectly imported modules, imported ones first."""
     found = (m for module in component.modules for m in module.closure())
     return tuple(dict.fromkeys(found))

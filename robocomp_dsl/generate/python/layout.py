@@ -1,7 +1,7 @@
-"""Line breaking: nested brackets in, Python source out that `ruff format` leaves as it is.
+"""Line breaking: nested brackets in, Python source out that `ruff format` does not change.
 
-A bracket that fits stays on its line. Arguments that do not fit stand on a line of their own; where
-that is too long, too, and in all other brackets, each item gets a line and a trailing comma.
+A bracket that fits stays on its line. Arguments that do not fit go on a line of their own; if that
+is too long as well, and in all other brackets, each item gets a line and a trailing comma.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from robocomp_dsl.record import ValueRecord
 WIDTH = 88
 STEP = "    "
 INNER = STEP
-"""Indentation of what stands in a class."""
+"""Indentation of class members."""
 BODY = STEP * 2
-"""Indentation of what stands in a method."""
+"""Indentation of statements in a method."""
 
 _ARGUMENTS = re.compile(r"[\w\])]\($")
-"""The end of the head of a call or a definition; other brackets are collections."""
+"""The last character of the head of a call or definition; other brackets are collections."""
 
 
 class Brackets(ValueRecord):
     """`head` (ends with the open bracket), comma-separated `items`, `tail` (begins with the close).
 
-    `is_tuple`: a single item needs its comma also on one line.
+    `is_tuple`: a single item keeps its comma on one line.
     """
 
     head: str
@@ -50,7 +50,7 @@ def flat(item: Item) -> str:
 
 
 def call(name: str, *items: Item, tail: str = ")") -> Brackets:
-    """`name(items)`; `tail` may carry what follows, as in `) -> None:`."""
+    """`name(items)`; `tail` is the text that follows, as in `) -> None:`."""
     return Brackets(f"{name}(", items, tail)
 
 
@@ -65,9 +65,9 @@ def subscript(name: str, *items: Item) -> Brackets:
 
 
 def laid_out(item: Item, indent: str = "", used: int = 0, after: int = 0) -> str:
-    """`item` as source. `used` columns are taken on the first line, `after` on the last one.
+    """`item` as source. `used` columns of the first line and `after` columns of the last are taken.
 
-    Lines behind the first start with `indent`, the indentation of the statement.
+    Later lines start with `indent`, the indentation of the statement.
     """
     if isinstance(item, str):
         return item
@@ -88,8 +88,8 @@ def laid_out(item: Item, indent: str = "", used: int = 0, after: int = 0) -> str
 def statement(prefix: str, item: Item, indent: str = "") -> str:
     """`prefix` and `item` as one statement, without the indentation of its first line.
 
-    Where not even the head of `item` fits behind `return`, but would on a line of its own, the
-    formatter gives it one, in brackets.
+    If the head of `item` does not fit behind `return` but fits on a line of its own, the formatter
+    encloses it in brackets on its own line.
     """
     inner = indent + STEP
     if prefix == "return " and isinstance(item, Brackets) and item.items:
@@ -100,7 +100,7 @@ def statement(prefix: str, item: Item, indent: str = "") -> str:
 
 
 def assignment(target: str, value: str, indent: str, sign: str = " = ") -> str:
-    """`target = value`, the value on a line of its own where it does not fit."""
+    """`target = value`, with the value on a line of its own if it does not fit."""
     if len(indent) + len(target) + len(sign) + len(value) <= WIDTH:
         return f"{target}{sign}{value}"
     return f"{target}{sign}(\n{indent}{STEP}{value}\n{indent})"
@@ -109,12 +109,12 @@ def assignment(target: str, value: str, indent: str, sign: str = " = ") -> str:
 def optional(name: str, type_: str, indent: str) -> str:
     """`name: type_ | None = None` as one of several parameters at `indent`."""
     flat_ = f"{name}: {type_} | None = None"
-    # The formatter breaks at the bar, because the line is one parameter and can break nowhere else.
+    # The formatter breaks at the bar: the line is one parameter and has no other break point.
     return flat_ if len(indent) + len(flat_) < WIDTH else f"{name}: {type_}\n{indent}| None = None"
 
 
 def choice(target: str, then: str, condition: str, otherwise: str, indent: str) -> str:
-    """`target = then if condition else otherwise`, broken as the formatter breaks it."""
+    """`target = then if condition else otherwise`, broken like `ruff format`."""
     value = f"{then} if {condition} else {otherwise}"
     if len(indent) + len(target) + 3 + len(value) <= WIDTH:
         return f"{target} = {value}"
@@ -127,9 +127,9 @@ def choice(target: str, then: str, condition: str, otherwise: str, indent: str) 
 def definition(
     name: str, parameters: Iterable[Item], returns: Item, indent: str = INNER, after: int = 0
 ) -> str:
-    """`def name(parameters) -> returns:`, without its first indentation.
+    """`def name(parameters) -> returns:`, without the indentation of the first line.
 
-    `after` columns follow on its last line.
+    `after` columns follow on the last line.
     """
     answer = flat(returns)
     whole = call(f"def {name}", *parameters, tail=f") -> {answer}:")
@@ -147,6 +147,6 @@ def class_head(name: str, base: Item) -> str:
 
 
 def natural(name: str) -> list[tuple[int, int, str]]:
-    """Sorting by it gives the order that ruff calls natural: `a2` before `a10`."""
+    """Sort key for the order that ruff calls natural: `a2` before `a10`."""
     parts = re.findall(r"[0-9]+|[^0-9]", name)
     return [(ord(p[0]), 0, p) if not p[0].isdigit() else (ord("0"), int(p), "") for p in parts]

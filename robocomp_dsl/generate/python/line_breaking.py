@@ -1,6 +1,6 @@
-"""Breaks the lines of generated Python: a statement on one line in, broken as `ruff format` does.
+"""Breaks the lines of generated Python: one-line statements in, broken like `ruff format`.
 
-Templates state every statement on one line; what is longer than `layout.WIDTH` is parsed into
+Templates write every statement on one line; statements longer than `layout.WIDTH` are parsed into
 brackets and commas and laid out.
 """
 
@@ -21,11 +21,11 @@ from robocomp_dsl.generate.python.layout import (
 
 _STRING = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'(?:[^'\\]|\\.)*'")
 _HEAD_END = re.compile(r"( *\) -> )(.*)(:(?: \.\.\.)?)")
-"""The last line of the head of a function whose parameters are broken already."""
+"""The last line of a function head whose parameters are already broken."""
 
 
 def break_lines(text: str) -> str:
-    """A module with every line longer than `WIDTH` broken; docstrings and comments stay."""
+    """A module with all lines longer than `WIDTH` broken; docstrings and comments are unchanged."""
     return "".join(_broken_lines(text.split("\n")))[:-1]
 
 
@@ -43,7 +43,7 @@ def _broken_lines(lines: Iterable[str]) -> Iterator[str]:
 
 
 def one_statement(code: str, indent: str = "") -> str:
-    """A statement written on one line, broken; without its first indentation."""
+    """A one-line statement, broken; without the indentation of its first line."""
     if len(indent) + len(code) <= WIDTH:
         return code
     if code.startswith(("def ", "class ")):
@@ -75,7 +75,7 @@ def _block_head(code: str, indent: str) -> str:
 
 
 def parsed(text: str) -> Item:
-    """An expression as nested brackets; the last one that is not empty is broken first."""
+    """An expression as nested brackets; the last non-empty bracket is broken first."""
     filled = [(start, end) for start, end in _brackets(text) if end > start + 1]
     if not filled:
         return text
@@ -85,7 +85,7 @@ def parsed(text: str) -> Item:
 
 
 def _items(text: str) -> tuple[tuple[Item, ...], bool]:
-    """What stands between commas, and whether one follows the last."""
+    """The items between commas, and whether a trailing comma follows."""
     parts, start = [], 0
     for at, sign, depth in _signs(text):
         if sign == "," and not depth:
@@ -97,7 +97,7 @@ def _items(text: str) -> tuple[tuple[Item, ...], bool]:
 
 
 def _brackets(text: str) -> Iterator[tuple[int, int]]:
-    """Where the outermost brackets open and close."""
+    """Positions at which the outermost brackets open and close."""
     start = 0
     for at, sign, depth in _signs(text):
         if sign in "([{" and depth == 1:
@@ -107,13 +107,13 @@ def _brackets(text: str) -> Iterator[tuple[int, int]]:
 
 
 def _at_top(text: str, sign: str) -> int:
-    """Where `sign` stands outside all brackets and strings; -1 for nowhere."""
+    """Position of `sign` outside all brackets and strings; -1 if it does not occur."""
     places = (at for at, _, depth in _signs(text) if not depth and text.startswith(sign, at))
     return next(places, -1)
 
 
 def _signs(text: str) -> Iterator[tuple[int, str, int]]:
-    """Each character outside strings with its place, and how many brackets are open behind it."""
+    """Each character outside strings with its position and the bracket depth after it."""
     depth, at = 0, 0
     while at < len(text):
         if string := _STRING.match(text, at):

@@ -19,7 +19,7 @@ METHODS = {
     "on_enter": "`{}` is entered.",
     "on_exit": "`{}` is left.",
 }
-"""What a state may have in the worker, and when it is called."""
+"""The methods of a state in the worker, and when they are called."""
 
 
 class StateMethod(ValueRecord):
@@ -42,17 +42,17 @@ class MachineCode(ValueRecord):
 
     @property
     def imports(self) -> str:
-        """The names that the constant needs."""
+        """The names that the constant imports."""
         more = ", TransitionSpec" if "TransitionSpec(" in self.spec else ""
         return f"MachineSpec, StateSpec{more}"
 
     def of_verb(self, verb: str) -> tuple[StateMethod, ...]:
-        """Those that are called in one way."""
+        """The methods with one verb."""
         return tuple(m for m in self.methods if m.verb == verb)
 
 
 def machine_code(machine: StateMachine) -> MachineCode:
-    """Everything that the templates print of it."""
+    """The data of both templates."""
     states = [state for state in machine.all_states() if not state.history]
     suffixes = _suffixes(states)
     methods = tuple(
@@ -67,7 +67,7 @@ def machine_code(machine: StateMachine) -> MachineCode:
 
 
 def method_names(machine: StateMachine) -> set[str]:
-    """What the methods of its states are called."""
+    """The names of the states' methods."""
     states = [state for state in machine.all_states() if not state.history]
     return {f"{verb}_{suffix}" for suffix in _suffixes(states).values() for verb in METHODS}
 
@@ -86,7 +86,7 @@ def _doc(state: State, text: str) -> str:
 
 
 def _scxml(machine: StateMachine) -> tuple[str, ...]:
-    """The document as string literals, a line each."""
+    """The document as string literals, one per line."""
     if machine.path.suffix.lower() != ".scxml":
         return ()
     lines = re.sub(r"\r\n?", "\n", machine.span.source.text).split("\n")

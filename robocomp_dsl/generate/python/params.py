@@ -1,4 +1,4 @@
-"""What `params.py` and `etc/config.yaml` say of the parameters.
+"""The content of `params.py` and `etc/config.yaml`.
 
 In: the parameters of a component. Out: plain data for the two templates: the classes, inner groups
 first, and the lines of the configuration.
@@ -33,7 +33,7 @@ class AttributeCode(ValueRecord):
 
 
 class ParametersCode(ValueRecord):
-    """One class: the component's own, or that of a group."""
+    """One class: the component's parameters, or a group."""
 
     name: str
     base: str
@@ -43,7 +43,7 @@ class ParametersCode(ValueRecord):
 
 
 class ParamsCode(ValueRecord):
-    """The whole module; `source` is the PDSL file, or the CDSL file without one."""
+    """The whole module; `source` is the PDSL file, or the CDSL file if there is none."""
 
     source: str
     imports: tuple[str, ...]
@@ -51,7 +51,7 @@ class ParamsCode(ValueRecord):
 
 
 def params_code(name: str, component: Component) -> ParamsCode:
-    """Everything that the template of `params.py` prints; `name` is the main class."""
+    """The data of the template of `params.py`; `name` is the main class."""
     description = component.parameters
     doc = (description and description.doc.strip()) or f"The parameters of {component.name}."
     classes: list[ParametersCode] = []
@@ -73,7 +73,7 @@ def _imports(classes: list[ParametersCode]) -> Iterator[str]:
 
 
 class _Classes(ValueRecord):
-    """Makes the classes, those of groups before the ones that hold them."""
+    """Builds the classes; a group precedes the class that contains it."""
 
     scope: names.NameScope
     classes: list[ParametersCode]
@@ -114,7 +114,7 @@ def _declared(attribute: str, parameter: Parameter, group: str) -> str:
 
 
 def _entry(parameter: Parameter, attribute: str, group: str) -> Item:
-    """The line of `SCHEMA`; what has its usual value is not said."""
+    """The line of `SCHEMA`; default settings are omitted."""
     quoted = literals.python_string
     arguments: list[Item] = [quoted(parameter.name)]
     arguments.append(group or quoted(parameter.kind.value))
@@ -140,12 +140,12 @@ def _entry(parameter: Parameter, attribute: str, group: str) -> Item:
 
 
 def _of_kind(parameter: Parameter, default: Literal) -> Literal:
-    """The default; a whole number for a float becomes one."""
+    """The default; an integer default of a float is converted."""
     return float(default) if parameter.kind is Kind.FLOAT else default
 
 
 def config_lines(parameters: Iterable[Parameter], indent: str = "") -> Iterator[str]:
-    """`etc/config.yaml` without its head: every parameter with its default and what it takes."""
+    """`etc/config.yaml` without its head: each parameter with default and permitted values."""
     for parameter in parameters:
         yield ""
         yield from literals.comment(parameter.doc, indent)
@@ -166,7 +166,7 @@ def config_lines(parameters: Iterable[Parameter], indent: str = "") -> Iterator[
 
 
 def _list_lines(parameter: Parameter, key: str, indent: str) -> Iterator[str]:
-    """The least number of entries, the first with all comments."""
+    """The minimum number of entries, the first with all comments."""
     least = int(parameter.low or 0)
     if not least:
         yield f"{key} []"
@@ -180,7 +180,7 @@ def _list_lines(parameter: Parameter, key: str, indent: str) -> Iterator[str]:
 
 
 def takes(parameter: Parameter) -> str:
-    """What values it takes, in a line: `a number from 1 to 1000 [Hz], may change while running`."""
+    """The permitted values: `a number from 1 to 1000 [Hz], may change while running`."""
     unit = f" [{literals.printable(parameter.unit)}]" if parameter.unit else ""
     live = ", may change while running" if parameter.live else ""
     must = (

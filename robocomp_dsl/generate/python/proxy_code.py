@@ -1,4 +1,4 @@
-"""The methods of a proxy: one for each operation, and `query`, `command`, `publish`.
+"""The methods of a proxy: one per operation, and `query`, `command`, `publish`.
 
 In: an interface, its names and the ports that call it. Out: plain data for the template.
 """
@@ -29,7 +29,7 @@ class MethodCode(ValueRecord):
 
 
 class FormCode(ValueRecord):
-    """`query`, `command` or `publish` of a proxy, whose operation follows from the struct it takes.
+    """`query`, `command` or `publish` of a proxy; the argument's struct selects the operation.
 
     `request` is the parameter; `takers` are struct, result and method of each operation.
     """
@@ -43,7 +43,7 @@ class FormCode(ValueRecord):
 def method_code(
     operation: Operation, interface_names: InterfaceNames, types: PythonTypes
 ) -> MethodCode:
-    """The method of an operation."""
+    """The proxy method of an operation."""
     arguments = types.arguments(operation)
     doc = docs.of_operation(operation, types)
     return MethodCode(
@@ -58,7 +58,7 @@ def method_code(
 def form_codes(
     interface: Interface, interface_names: InterfaceNames, ports: list[Port], types: PythonTypes
 ) -> Iterable[FormCode]:
-    """The calls by request: `query(req)`, `command(req)`, `publish(req)`."""
+    """The calls by request struct: `query(req)`, `command(req)`, `publish(req)`."""
     for form in (Pattern.QUERY, Pattern.COMMAND, Pattern.PUBLISH):
         takers = [
             o

@@ -1,6 +1,6 @@
-"""IDSL types in Python: their names, which schema they have, what their zero value is.
+"""IDSL types in Python: their names, annotations and default values.
 
-In: the types that a component can meet. Out: `PythonTypes`, which answers for each of them.
+In: the types that a component uses. Out: `PythonTypes`, with one method per question.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _ZERO = {BOOL: "False", STRING: '""', FLOAT: "0.0", DOUBLE: "0.0"}  # others: 0
 
 
 class NumpyArray(ValueRecord):
-    """The annotation of an array, that of a column of structs, and the type of the elements."""
+    """The annotation of an array, of a column of structs, and the type of the elements."""
 
     alias: str
     column: str
@@ -58,14 +58,14 @@ _NUMPY = {
 
 
 class Zero(ValueRecord):
-    """The value of a field that nobody gave; a `fresh` one must be made anew each time."""
+    """The default of a field; a `fresh` default is created for each instance."""
 
     text: str
     fresh: bool = False
 
 
 class PythonTypes:
-    """The types of some modules, named."""
+    """The types of some modules with their Python names."""
 
     def __init__(self, modules: Iterable[Module]) -> None:
         found = [
@@ -85,19 +85,19 @@ class PythonTypes:
         }
 
     def enumerator(self, enumerator: Enumerator) -> str:
-        """Its name in Python."""
+        """The Python name of a type."""
         return self._enumerators[enumerator]
 
     def annotation(self, type_: Type) -> str:
-        """How it is written behind a colon."""
+        """The annotation of a type after a colon."""
         if isinstance(type_, Primitive):
             return _ANNOTATION.get(type_, "int")
         return self.names[type_]
 
     def declared(self, type_: Type, inside: Struct | ExceptionType | None = None) -> str:
-        """How generated types and operations state it: an annotation that names the wire type.
+        """The annotation in generated types and operations, which includes the wire type.
 
-        In the class of the struct `inside` a field may be called as its type and hide that.
+        In the struct `inside` a field with the name of its type hides the type.
         """
         if isinstance(type_, Primitive):
             return f"rt.{type_.name.capitalize()}"
@@ -105,7 +105,7 @@ class PythonTypes:
         return f"_{name}" if inside is not None and name in field_names(inside) else name
 
     def default(self, field: Field, inside: Struct | ExceptionType) -> str:
-        """The default of a field of the struct `inside`."""
+        """The default of a field in the struct `inside`."""
         zero = self.zero(field.type, field.default)
         if zero.fresh:
             return "rt.default()"
@@ -114,7 +114,7 @@ class PythonTypes:
         return zero.text
 
     def zero(self, type_: Type, default: Literal | None = None) -> Zero:
-        """The value of a field of this type for which nobody gives one."""
+        """The default value of a field of this type."""
         if isinstance(type_, Primitive):
             return Zero(_primitive(type_, default))
         if isinstance(type_, Enum):
@@ -126,17 +126,17 @@ class PythonTypes:
         return Zero("{}" if isinstance(type_, Dictionary) else "[]", fresh=True)
 
     def _first(self, type_: Enum, default: Literal | None) -> str:
-        """The default, else the enumerator 0, else the first one."""
+        """The default, else the enumerator with value 0, else the first one."""
         by_rank = sorted(type_.enumerators, key=lambda e: (e.name != default, e.value != 0))
         return f"{self.names[type_]}.{self._enumerators[by_rank[0]]}"
 
     def results(self, operation: Operation) -> tuple[tuple[str, Type], ...]:
-        """What a call gives: the return value under the name "", then the `out` parameters."""
+        """The results of a call: the return value with the name "", then the `out` parameters."""
         returned = (("", operation.result),) if operation.result is not None else ()
         return (*returned, *((p.name, p.type) for p in operation.outputs))
 
     def returns(self, operation: Operation) -> str:
-        """The annotation of what a call gives."""
+        """The return annotation of a call."""
         annotations = [self.annotation(type_) for _, type_ in self.results(operation)]
         if len(annotations) > 1:
             return f"tuple[{', '.join(annotations)}]"
@@ -158,19 +158,19 @@ def _primitive(type_: Primitive, default: Literal | None) -> str:
 
 
 def numpy_of(type_: Type) -> NumpyArray | None:
-    """The numpy array that a sequence of numbers or bools is; None for other types."""
+    """The numpy array of a sequence of numbers or bools; None for other types."""
     if isinstance(type_, Sequence) and isinstance(type_.element, Primitive):
         return _NUMPY.get(type_.element)
     return None
 
 
 def column_of(type_: Type) -> str:
-    """What makes one column of an array of structs; that of an enum holds its ints."""
+    """The expression for one column of an array of structs; enum columns hold ints."""
     return _NUMPY[type_ if isinstance(type_, Primitive) else INT].column
 
 
 def record_element(type_: Type) -> Struct | None:
-    """The struct of a sequence that is one structured array, because its layout is fixed."""
+    """The struct of a sequence stored as a structured array, which needs a fixed layout."""
     if (
         isinstance(type_, Sequence)
         and isinstance(type_.element, Struct)
@@ -187,7 +187,7 @@ def field_names(type_: Struct | ExceptionType) -> tuple[str, ...]:
 
 
 def _hidden(found: Iterable[Declaration], type_names: dict[Declaration, str]) -> Iterator[str]:
-    """Names of types that a field of the same struct is called by, as in `Pose Pose;`."""
+    """Types whose name is also a field of the same struct, as in `Pose Pose;`."""
     for declaration in found:
         if isinstance(declaration, Struct | ExceptionType):
             needed = {
@@ -212,7 +212,7 @@ def _mentioned(declaration: Declaration) -> Iterator[Type]:
 
 
 def _dependencies_first(declarations: Iterable[Declaration]) -> Iterator[Declaration]:
-    """Each after what it mentions, else in the order given; the checks exclude cycles."""
+    """Topological order, stable otherwise; the checks exclude cycles."""
     done: set[Declaration] = set()
 
     def visit(enumerator: Declaration) -> Iterator[Declaration]:

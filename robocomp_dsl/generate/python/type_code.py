@@ -28,7 +28,7 @@ from robocomp_dsl.record import ValueRecord
 
 
 class FieldCode(ValueRecord):
-    """One field of a struct or exception. What its doc comment says is above it or behind it."""
+    """One field of a struct or exception. Its doc comment is above it or on the same line."""
 
     name: str
     type: str
@@ -46,17 +46,17 @@ class EnumeratorCode(ValueRecord):
 
 
 class ColumnCode(ValueRecord):
-    """The attribute for one field of all elements of an array: its name and what makes it."""
+    """The attribute for one field of all elements of an array: its name and definition."""
 
     name: str
     definition: str
 
 
 class TypeCode(ValueRecord):
-    """One type. `kind`: struct, enum, array, alias; what a kind lacks is empty.
+    """One type. `kind`: struct, enum, array, alias; fields that a kind lacks are empty.
 
-    `base` is that of a struct, the element of an array, what an alias stands for. `rename` is empty
-    where all attributes are called as on the wire. `is_hidden`: a field is called as the type.
+    `base` is the base class of a struct, the element of an array, the target of an alias. `rename`
+    is empty if all attributes have their wire names. `is_hidden`: a field has the type's name.
     """
 
     kind: str
@@ -135,7 +135,7 @@ def _field(
 
 def _columns(element: Struct, types: PythonTypes) -> list[ColumnCode]:
     attributes = field_names(element)
-    # The columns share their scope with the list's own methods, the fields do not.
+    # The columns share a scope with the list's own methods; fields do not.
     column_names = names.unique(
         attributes, names.ARRAY_MEMBERS | names.ANNOTATION | set(types.names.values())
     )

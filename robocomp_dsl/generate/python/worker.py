@@ -1,4 +1,4 @@
-"""What `genericworker.py`, `specificworker.py` and `README.md` say of a component.
+"""The content of `genericworker.py`, `specificworker.py` and `README.md`.
 
 In: the component, its named types and interfaces. Out: plain data for the templates.
 """
@@ -24,7 +24,7 @@ _LISTS = {
 
 
 class HandlerCode(ValueRecord):
-    """One method that others call. `answers`: the caller waits for what it returns."""
+    """One method that other components call. `answers`: the caller waits for the result."""
 
     name: str
     parameters: str
@@ -35,12 +35,12 @@ class HandlerCode(ValueRecord):
 
     @property
     def definition(self) -> str:
-        """Its head, indented as in a class."""
+        """The method's head, indented as in a class."""
         return one_statement(f"def {self.name}({self.parameters}) -> {self.returns}:", INNER)
 
     @property
     def call(self) -> str:
-        """What reaches the method of `GenericWorker`; empty where nobody waits for an answer."""
+        """The arguments for the method of `GenericWorker`; empty if no caller waits."""
         if not self.answers:
             return ""
         keyword = "" if self.returns == "None" else "return "
@@ -48,16 +48,16 @@ class HandlerCode(ValueRecord):
 
 
 class ServedCode(ValueRecord):
-    """One port that others call: `implements RoboCompLaser::Laser`, and its methods."""
+    """One served port, `implements RoboCompLaser::Laser`, and its methods."""
 
     title: str
     handlers: tuple[HandlerCode, ...]
 
 
 class PortCode(ValueRecord):
-    """One port in the specification. `target` is the interface, or the proxy that calls it.
+    """One port in the specification. `target` is the interface, or the proxy class.
 
-    `methods` are operations and methods of a served port; `attribute` is that of a proxy.
+    `methods` are operations and methods of a served port; `attribute` is the proxy's attribute.
     """
 
     name: str
@@ -68,9 +68,9 @@ class PortCode(ValueRecord):
 
 
 class WorkerCode(ValueRecord):
-    """Both classes and what is said of the component as a whole.
+    """Both classes and the component's own data.
 
-    `ports` are lists by keyword of `ComponentSpec`, `called` the attributes of proxies with their
+    `ports` are lists by keyword of `ComponentSpec`, `called` has the proxies' attributes and
     classes; `watchdog` is a literal in s, empty for none; `about` and `rows` are for the README.
     """
 
@@ -95,7 +95,7 @@ class WorkerCode(ValueRecord):
 
 
 def worker_code(component: Component, py_names: PythonNames, middleware: str) -> WorkerCode:
-    """Everything that the templates of the worker print."""
+    """The data of the worker's templates."""
     served = tuple(_served(p, py_names) for p in component.ports if p.role in SERVED_ROLES)
     proxies = [p for p in component.ports if p.role not in SERVED_ROLES]
     ports = {
@@ -127,7 +127,7 @@ def worker_code(component: Component, py_names: PythonNames, middleware: str) ->
 
 
 def machine_of(component: Component) -> MachineCode | None:
-    """Its state machine, if it has one."""
+    """The component's state machine, if any."""
     reference = component.statemachine
     return machine_code(reference.machine) if reference and reference.machine else None
 
@@ -152,7 +152,7 @@ def _served(port: Port, py_names: PythonNames) -> ServedCode:
 
 
 def handler_code(port: Port, operation: Operation, py_names: PythonNames) -> HandlerCode:
-    """One method, as both classes and a stub print it."""
+    """One method for both classes and for stubs."""
     arguments = py_names.types.arguments(operation)
     return HandlerCode(
         py_names.handlers[port, operation],
@@ -167,7 +167,7 @@ def handler_code(port: Port, operation: Operation, py_names: PythonNames) -> Han
 
 
 def _example(port: Port, py_names: PythonNames) -> str:
-    """A call of the first operation, with zero values."""
+    """An example call of the first operation, with zero values."""
     operation = port.interface.operations[0]
     method = py_names.interfaces[port.interface].methods[operation]
     arguments = ", ".join(py_names.types.zero(p.type).text for p in operation.inputs)
@@ -177,7 +177,7 @@ def _example(port: Port, py_names: PythonNames) -> str:
 
 
 def _row(port: Port, py_names: PythonNames) -> tuple[str, str, str]:
-    """A row of the table in the README: the port, what it is for, the methods."""
+    """One row of the port table in the README: port, description, methods."""
     if port in py_names.proxies:
         methods = py_names.interfaces[port.interface].methods
         shown = [f"`self.{py_names.proxies[port]}.{m}`" for m in methods.values()]

@@ -1,4 +1,4 @@
-"""The import lines of the worker's two modules: what is used, sorted as ruff sorts.
+"""The import lines of the worker's two modules, sorted like ruff.
 
 In: a component and its names. Out: lines.
 """
@@ -16,7 +16,7 @@ from robocomp_dsl.model.types import Declaration, Type
 
 
 def mentioned(operation: Operation, types: PythonTypes) -> Iterator[str]:
-    """The types that the signature of a handler names."""
+    """The types in the signature of a handler."""
     kinds: list[Type] = [p.type for p in operation.inputs]
     kinds += [type_ for _, type_ in types.results(operation)]
     return (types.names[t] for t in kinds if isinstance(t, Declaration))
@@ -27,7 +27,7 @@ def _signature_types(py_names: PythonNames) -> set[str]:
 
 
 def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str]:
-    """Those of `genericworker.py`, which stands beside the other generated modules."""
+    """The imports of `genericworker.py`, relative to the other generated modules."""
     runtime = {"Component", "ComponentSpec"}
     runtime |= {"CalledPort"} if py_names.proxies else set()
     runtime |= {"ServedPort"} if len(py_names.proxies) < len(component.ports) else set()
@@ -47,9 +47,9 @@ def generic_imports(component: Component, py_names: PythonNames) -> Iterator[str
 
 
 def specific_imports(py_names: PythonNames, package: str = "") -> Iterator[str]:
-    """Those of a module that defines the handlers, as `specificworker.py` does.
+    """The imports of a module that defines the handlers, such as `specificworker.py`.
 
-    `package` is that of the generated modules; without it the module is in there itself.
+    `package` is the package of the generated modules; if empty, the imports are relative.
     """
     yield f"from {package}.genericworker import GenericWorker"
     if used := _signature_types(py_names):
@@ -57,7 +57,7 @@ def specific_imports(py_names: PythonNames, package: str = "") -> Iterator[str]:
 
 
 def _import(module: str, used: Iterable[str]) -> str:
-    """`from module import …`, sorted as ruff sorts: constants, classes, the rest."""
+    """`from module import …`, sorted like ruff: constants, classes, the rest."""
     ordered = sorted(used, key=_import_order)
     return f"from {module} import {', '.join(ordered)}"
 

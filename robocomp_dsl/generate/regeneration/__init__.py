@@ -1,1 +1,1 @@
-"""Updates of the user's files after a description has changed. `update` starts it."""
+"""Updates the user's files after a description has changed; `update` is the entry point."""

@@ -1,10 +1,10 @@
-"""The user's class compared with the component: missing, stale and changed methods.
+"""Compares the user's class with the component: missing, stale and changed methods.
 
-In: the user's module, the methods there should be, the signatures it was written for. Out: the
-methods without a `def`, and findings about the others.
+In: the user's module, the required methods, the signatures it was written for. Out: the methods
+without a `def`, and findings about the others.
 
-A parameter that the user names or annotates in their own way is theirs: a signature is only called
-changed where the user's has what was generated before and is not generated now, or where a call
+Names and annotations of parameters that the user changed are accepted: a changed signature is only
+reported if the user's `def` has what was generated before and is not generated now, or if a call
 would fail.
 """
 
@@ -21,7 +21,7 @@ from robocomp_dsl.generate.regeneration.python_module import Function
 from robocomp_dsl.generate.regeneration.user_module import UserMethod, UserModule
 
 _PLAIN = {"override", "typing.override"}
-"""Decorators that leave a signature as it is."""
+"""Decorators that do not change a signature."""
 
 
 def missing_methods(
@@ -30,10 +30,10 @@ def missing_methods(
     known: Mapping[str, Signature],
     report: Report,
 ) -> Iterator[Method]:
-    """The methods that the class lacks; the findings about those it has go to `report`.
+    """The methods that the class lacks; findings about existing ones go to `report`.
 
-    What a base from elsewhere may have is only taken for missing when it is new, and so is what a
-    state does: who has deleted it does not need it.
+    A method that a base from another folder may have is only missing if it is new, and so is a
+    method of a state: users may delete these.
     """
     has = user.members
     for name, method in methods.items():
@@ -56,7 +56,7 @@ def report_missing(
     package: str,
     report: Report,
 ) -> None:
-    """Say which methods there are none of, and `why` no stubs are added, or what would be."""
+    """Report the missing methods, and `why` no stubs are added, or what would be added."""
     worker = user.hierarchy.classes[0] if user.hierarchy.classes else None
     where = worker[0].span_of(worker[1]) if worker else user.source.file_span
     name = worker[1].name if worker else CLASS
@@ -73,7 +73,7 @@ def report_missing(
 
 
 def similar_method(user: UserModule, missing: Method, methods: Mapping[str, Method]) -> str | None:
-    """A method of the user's that is most likely meant to be `one`, and is nothing else."""
+    """A method of the user that is probably a renamed or misspelt `one`."""
     free = user.members.keys() - methods.keys()
     return nearest(missing.name, sorted(n for n in free if n.startswith(missing.prefix)))
 
@@ -90,7 +90,7 @@ def _judge_signature(
     if any(ast.unparse(d) not in _PLAIN for d in function.decorator_list) and not (
         old and matches_signature(function, old, old)
     ):
-        return  # behind its decorators it may have any signature, and has had another one
+        return  # a decorator may change the signature, and did before
     if matches_signature(function, old or new, new):
         return
     mine = f"def {function.name}{_shown(function)}"
@@ -119,7 +119,7 @@ def _report_stale(
 
 
 def _callable_with(function: Function, count: int) -> bool:
-    """Whether it can be called with `self` and `given` positional arguments."""
+    """Whether it can be called with `self` and so many positional arguments."""
     a = function.args
     positional = len(a.posonlyargs) + len(a.args)
     needed = positional - len(a.defaults)
@@ -129,7 +129,7 @@ def _callable_with(function: Function, count: int) -> bool:
 
 
 def _leftovers(function: Function, old: Signature, new: Signature) -> list[str]:
-    """What of `old` the `def` still has although `new` has something else there."""
+    """The parts of `old` that the `def` still has although `new` differs."""
     a = function.args
     mine = [*a.posonlyargs, *a.args][1:]
     found = []
@@ -151,7 +151,7 @@ def _differences(function: Function, old: Signature, new: Signature) -> list[str
 
 
 def _annotation(node: ast.expr | None) -> str:
-    """As it would be generated: without quotes and module names."""
+    """A normalised annotation: without quotes and module names."""
     if node is None:
         return ""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):

@@ -1,7 +1,7 @@
 """The user's class and its bases, in any module of the folder.
 
 In: a module of the user. Out: the classes in Python's lookup order, each with its module, and the
-names of bases from elsewhere. Modules in the same folder are read, nothing is imported.
+names of bases from other folders. Modules in the same folder are parsed, nothing is imported.
 """
 
 from __future__ import annotations
@@ -17,27 +17,27 @@ from robocomp_dsl.record import Record
 CLASS = "SpecificWorker"
 BASE = "GenericWorker"
 _EMPTY = {BASE, "object", "Generic", "Protocol", "ABC"}
-"""Bases with no method that anybody calls; what `GenericWorker` has raises."""
+"""Bases without methods that are called; the methods of `GenericWorker` only raise."""
 
 _BLOCKS = (ast.If, ast.Try, ast.TryStar, ast.With, ast.For, ast.While, ast.Match)
 
 
 class Hierarchy(Record):
-    """The classes, the user's first; and bases from elsewhere."""
+    """The classes, the user's first; and bases from other folders."""
 
     classes: list[tuple[PythonModule, ast.ClassDef]]
     unknown: list[str]
 
 
 def hierarchy(user: PythonModule) -> Hierarchy:
-    """The class with its bases, and with theirs."""
+    """The class with all its direct and indirect bases."""
     found = Hierarchy([], [])
     _add(ast.Name(CLASS, ast.Load()), user, found)
     return found
 
 
 def statements(body: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """The statements of a module or a class, and those within `if`, `try` and the like."""
+    """The statements of a module or a class, including those within `if`, `try` etc."""
     for statement in body:
         yield statement
         if not isinstance(statement, _BLOCKS):
@@ -69,7 +69,7 @@ _Seen: TypeAlias = set[tuple[Path, str]]
 
 
 def _found(base: ast.expr, module: PythonModule, seen: _Seen) -> _Place | None:
-    """The class that an expression names, and the module it stands in."""
+    """The class that an expression names, and its module."""
     match base:
         case ast.Name(id=name):
             candidates = (
@@ -85,7 +85,7 @@ def _found(base: ast.expr, module: PythonModule, seen: _Seen) -> _Place | None:
 
 
 def _by_name(name: str, statement: ast.stmt, module: PythonModule, seen: _Seen) -> _Place | None:
-    """The class, if this statement gives it that name."""
+    """The class, if this statement defines it under that name."""
     match statement:
         case ast.ClassDef() if statement.name == name:
             return module, statement
@@ -99,14 +99,14 @@ def _by_name(name: str, statement: ast.stmt, module: PythonModule, seen: _Seen) 
 
 
 def _last_first(module: PythonModule) -> list[ast.stmt]:
-    """Its statements; the last one that makes a name counts."""
+    """Its statements; the last definition of a name is used."""
     return list(statements(module.tree.body))[::-1]
 
 
 def _there(
     name: str, module: PythonModule | None, seen: _Seen, value: ast.expr | None = None
 ) -> _Place | None:
-    """Look on in another module, or for another name; not twice in the same place."""
+    """Continue in another module, or with another name; each place is searched once."""
     if module is None or (key := (module.source.path, name)) in seen:
         return None
     seen.add(key)

@@ -1,7 +1,7 @@
-"""What the local names of a method stand for, as far as its text says it.
+"""Resolves local names of a method from the source text.
 
-In: a statement of a class. Out: for each name the expressions that it is bound to; a name that is
-bound in any other way, too, has none.
+In: a statement of a class. Out: for each name the expressions that it is bound to; a name with any
+other binding has none.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def _of_loop(target: ast.expr, value: ast.expr) -> Iterator[tuple[str, Binding]]
 
 
 def _stored(method: ast.AST) -> Iterator[str]:
-    """Every name, each time that it is bound."""
+    """Every binding of every name."""
     for node in ast.walk(method):
         match node:
             case ast.Name(id=name, ctx=ast.Store() | ast.Del()) | ast.arg(arg=name):

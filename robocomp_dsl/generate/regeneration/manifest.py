@@ -1,7 +1,7 @@
-"""What was generated before: `.rcgen/methods.json`, the methods with the signatures they had.
+"""The manifest `.rcgen/methods.json`: previously generated methods with their signatures.
 
 In: the folder. Out: the signatures that the user's methods were written for; the file to write.
-The record of a method stays while the user's class still has it, so that a stale one is known.
+The entry of a method stays while the user's class has the method, to detect stale ones.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ FILE = f"{MANIFEST_FOLDER}methods.json"
 
 
 def read(folder: Path, report: Report) -> dict[str, Signature]:
-    """The recorded signatures by method; none where there is no record, or no readable one."""
+    """The recorded signatures by method; empty without a readable manifest."""
     path = folder / FILE
     try:
         source = Source.read(path)
@@ -42,7 +42,7 @@ def read(folder: Path, report: Report) -> dict[str, Signature]:
 def of_now(
     methods: Mapping[str, Method], known: Mapping[str, Signature], user: UserModule | None
 ) -> dict[str, Signature]:
-    """What is to be known the next time; `user` None: the user's file is written only now."""
+    """The new entries; `user` None: the user's file is written in this run."""
     has = user.members if user else {}
     signatures = {name: signature for name, signature in known.items() if name in has}
     for name, method in methods.items():
@@ -58,7 +58,7 @@ def of_now(
 
 
 def file_of(known: Mapping[str, Signature]) -> OutputFile:
-    """The record as a file."""
+    """The manifest as a file."""
     rows = {
         name: {"arguments": [list(a) for a in signature.arguments], "returns": signature.returns}
         for name, signature in sorted(known.items())

@@ -1,9 +1,9 @@
-"""Files that are written once and then the user's: both sides' changes are brought together.
+"""Three-way merge of files that are written once and then belong to the user.
 
-In: the new output of such files, and the folder with the user's versions and, in `.rcgen/`, the
-pristine output they come from. Out: the files to write. `git merge-file` does the merging; where
-both sides changed the same lines the user's file stays, and the proposal with conflict markers is
-put into `.rcgen/` beside the pristine output.
+In: the new output of such files, and the folder with the user's versions and, in `.rcgen/`, their
+pristine outputs. Out: the files to write. `git merge-file` merges; if both sides changed the same
+lines, the user's file stays, and the proposal with conflict markers is written to `.rcgen/` beside
+the pristine output.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from pathlib import Path
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.output import MANIFEST_FOLDER, OutputFile
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source
 
 PRISTINE = f"{MANIFEST_FOLDER}pristine"
@@ -30,9 +31,9 @@ _CONFLICT = re.compile(
 def merged(
     folder: Path, files: Iterable[OutputFile], report: Report, *, writes: bool = True
 ) -> Iterator[OutputFile]:
-    """What to write for `files`; those that are rewritten each time pass through.
+    """The files to write for `files`; files that are always rewritten pass unchanged.
 
-    Without `writes` the findings say what would be done.
+    Without `writes` the findings describe what would be done.
     """
     for file in files:
         if file.write_once:
@@ -44,7 +45,7 @@ def merged(
 def _merge_user_file(
     folder: Path, new: OutputFile, report: Report, *, writes: bool
 ) -> Iterator[OutputFile]:
-    """The user's file, or what it is now; and the pristine output that it contains."""
+    """The user's file after the merge, and the pristine output that it is based on."""
     path = folder / new.path
     mine, base = _read(path), _read(folder / PRISTINE / new.path)
     pristine = OutputFile(f"{PRISTINE}/{new.path}", new.text)
@@ -58,7 +59,7 @@ def _merge_user_file(
     elif (result := _merge(mine, _as_mine(base, mine), _as_mine(new.data, mine))) is None:
         message = "rcgen would write it anew; git could not merge, so it stays"
         _report(path, mine, message, report, "install git and run rcgen again")
-        yield new  # the pristine output stays, too, so that the next run can merge
+        yield new  # the pristine output is unchanged, too, so that the next run can merge
     elif result[1]:
         yield from (new, _proposal(path, new, mine, result[0], report, writes=writes), pristine)
     else:
@@ -68,7 +69,7 @@ def _merge_user_file(
 
 
 def _fixed(path: Path) -> str:
-    """What keeps rcgen from writing to a file of the user; nothing where it may."""
+    """Why rcgen cannot write to a file of the user; empty if it can."""
     if path.is_symlink():
         return "a link"
     return "" if path.stat().st_mode & stat.S_IWUSR else "read-only"
@@ -77,7 +78,7 @@ def _fixed(path: Path) -> str:
 def _proposal(
     path: Path, new: OutputFile, mine: bytes, data: bytes, report: Report, *, writes: bool
 ) -> OutputFile:
-    """Both sides with conflict markers, for the user to choose from."""
+    """Both sides with conflict markers."""
     proposal = f"{CONFLICTS}/{new.path}"
     message = "you and rcgen changed the same lines, so it stays as it is"
     where = f"both sides {'are' if writes else 'would be'} in {proposal}; take what you need"
@@ -91,13 +92,13 @@ def _proposal(
 
 
 def _first_conflict(text: str) -> tuple[str, str]:
-    """The lines of the user in the first conflict, and the first new one; empty where none are."""
+    """The first conflict: the user's lines and the first new line; empty without a conflict."""
     found = _CONFLICT.search(text)
     return (found["yours"], found["new"].strip().partition("\n")[0].strip()) if found else ("", "")
 
 
 def _report_merged(path: Path, mine: bytes, data: bytes, report: Report, *, writes: bool) -> None:
-    """Say at which line the new text begins, if there is any."""
+    """Report the first changed line, if there is any."""
     if data == mine:
         return
     pairs = zip(data, mine, strict=False)
@@ -112,7 +113,7 @@ def _report_merged(path: Path, mine: bytes, data: bytes, report: Report, *, writ
 
 
 def _merge(mine: bytes, base: bytes, new: bytes) -> tuple[bytes, bool] | None:
-    """The merged text, and whether there are conflicts; None where git is missing or refuses."""
+    """The merged text, and whether there are conflicts; None if git is missing or fails."""
     import subprocess  # noqa: PLC0415 - most runs merge nothing
     import tempfile  # noqa: PLC0415
     from shutil import which  # noqa: PLC0415
@@ -132,20 +133,20 @@ def _merge(mine: bytes, base: bytes, new: bytes) -> tuple[bytes, bool] | None:
             )
         except (OSError, subprocess.TimeoutExpired):
             return None
-    # The exit code is the number of conflicts, at most 127; above it is a failure.
+    # The exit code is the number of conflicts, at most 127; a higher code is a failure.
     return (run.stdout, run.returncode > 0) if 0 <= run.returncode <= 127 else None
 
 
 def _as_mine(data: bytes, mine: bytes) -> bytes:
-    """`data`, which rcgen wrote, with the line ends of the user's file."""
+    """`data`, generated by rcgen, with the line ends of the user's file."""
     crlf = mine.count(b"\r\n")
     return data.replace(b"\n", b"\r\n") if crlf and crlf == mine.count(b"\n") else data
 
 
 def _read(path: Path) -> bytes | None:
     try:
-        return path.read_bytes()
-    except OSError:  # whatever it is, the writer says what is wrong with it
+        return read_bytes(path)
+    except OSError:  # the writer reports the error
         return None
 
 

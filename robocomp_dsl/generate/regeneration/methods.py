@@ -1,4 +1,4 @@
-"""The methods that the user's class should have: names, signatures, and the text of a stub.
+"""The methods that the user's class should have: names, signatures, and texts of stubs.
 
 In: a component and its names. Out: `Method`s in the order of the ports.
 """
@@ -26,11 +26,10 @@ class Signature(ValueRecord):
 
 
 class Method(ValueRecord):
-    """One method: that of an operation, or of a state.
+    """The method of an operation, or of a state.
 
-    `types` are the names of `interfaces` that its signature mentions; `origin` says
-    where it comes from; methods of the same `prefix` may be meant for it. One that is `optional`
-    needs no stub.
+    `types` are the names of `interfaces` in its signature; `origin` is the declaration; a method
+    with the same `prefix` may be a misspelling of it. An `optional` method needs no stub.
     """
 
     name: str
@@ -44,7 +43,7 @@ class Method(ValueRecord):
 
 
 def methods_of(component: Component, py_names: PythonNames) -> dict[str, Method]:
-    """All methods that others or the state machine call, by name."""
+    """All methods that other components or the state machine call, by name."""
     operations = {
         name: Method(
             name,

@@ -1,8 +1,7 @@
-"""The places of a Python module that name the package `generated`, under another name.
+"""Renames the package `generated` in a Python module of the user.
 
-In: a module of the user and the modules that the package had. Out: its text with the new name in
-import statements, in what these imports bind and in paths of files; nothing else changes. What
-cannot be changed for sure is listed.
+In: the module and the modules of the package. Out: its text with the new name in import statements,
+in the names that these bind, and in file paths; nothing else changes. Uncertain places are listed.
 """
 
 from __future__ import annotations
@@ -18,19 +17,19 @@ from robocomp_dsl.source import Span
 OLD = "generated"
 _FROM = re.compile(rf"from[\s\\]+\.*[\s\\]*({OLD})\b")
 _DATA = re.compile(r"scene\.json|.*\.xml")
-"""Files of data that the package may hold."""
+"""Data files of the package."""
 _MENTION = re.compile(rf"(^|[/\\'\"])({OLD})([./\\]|$)")
 
 
 class Migrated(ValueRecord):
-    """The text with the new name, and what still has the old one: places and messages."""
+    """The text with the new name; places and messages where the old name remains."""
 
     text: str
     left: tuple[tuple[Span, str], ...]
 
 
 def migrated(user: UserModule, package: str, modules: set[str]) -> Migrated:
-    """`user` for the new package; `modules` are those that rcgen wrote into the old one."""
+    """`user` for the new package; `modules` are the generated modules of the old one."""
     nodes = list(ast.walk(user.tree))
     foreign = [node for node in nodes if _is_foreign(node, modules)]
     left = [
@@ -72,7 +71,7 @@ def migrated(user: UserModule, package: str, modules: set[str]) -> Migrated:
 
 
 def _is_foreign(node: ast.AST, modules: set[str]) -> bool:
-    """Whether a statement imports from the old package what rcgen did not write."""
+    """Whether a statement imports something from the old package that was not generated."""
     known = modules | {"*"}
     if isinstance(node, ast.ImportFrom):
         if node.module == OLD:
@@ -86,7 +85,7 @@ def _is_foreign(node: ast.AST, modules: set[str]) -> bool:
 
 
 def _import_places(user: UserModule, node: ast.AST) -> Iterator[int]:
-    """Where an import statement has the name of the package."""
+    """Where an import statement contains the name of the package."""
     if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == OLD:
         if found := _FROM.match(user.source.text, user.offset(node.lineno, node.col_offset)):
             yield found.start(1)
@@ -104,7 +103,7 @@ def _binds(node: ast.AST) -> bool:
 
 
 def _is_bound_otherwise(nodes: list[ast.AST], foreign: list[ast.AST]) -> bool:
-    """Whether the name of the package may stand for another thing in the module."""
+    """Whether the name of the package may have another meaning in the module."""
     return any(
         (isinstance(node, ast.Name) and node.id == OLD and not isinstance(node.ctx, ast.Load))
         or (isinstance(node, ast.arg) and node.arg == OLD)
@@ -114,7 +113,7 @@ def _is_bound_otherwise(nodes: list[ast.AST], foreign: list[ast.AST]) -> bool:
 
 
 def _path_places(user: UserModule, nodes: list[ast.AST]) -> Iterator[tuple[ast.AST, int]]:
-    """`... / "generated" / "scene.json"`: the string, and where the name is in it."""
+    """`... / "generated" / "scene.json"`: the string, and the position of the name in it."""
     for node in nodes:
         match node:
             case ast.BinOp(

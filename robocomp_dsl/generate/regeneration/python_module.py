@@ -1,6 +1,6 @@
 """A Python module as source and syntax tree. The file is only read.
 
-In: a path. Out: a `PythonModule`; `UnreadableSource` for a file that is no text.
+In: a path. Out: a `PythonModule`; `UnreadableSource` for a file that is not text.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from robocomp_dsl.record import Record
 from robocomp_dsl.source import MAX_BYTES, Source, Span, UnreadableSource
 
 Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
-"""What `def` makes."""
+"""Syntax nodes of functions."""
 
 _LINE_END = re.compile(r"\r\n?|\n")
-"""What ends a line for Python."""
+"""Python's line terminators."""
 
 _KEYWORDS = re.compile(r"(?:async[\s\\]+)?(?:def|class)[\s\\]+")
-"""What stands before the name of a function or a class."""
+"""The text before the name of a function or a class."""
 
 
 class PythonModule(Record):
@@ -41,18 +41,18 @@ class PythonModule(Record):
 
     @cached_property
     def starts(self) -> list[int]:
-        """Offset of the first character of every line, as Python counts lines."""
+        """Offset of the first character of every line, with Python's line numbering."""
         return [0, *(m.end() for m in _LINE_END.finditer(self.source.text))]
 
     def offset(self, line: int, column: int) -> int:
-        """Where in the text: `line` from 1, `column` in bytes of UTF-8 from 0, as `ast` counts."""
+        """A position in the text: `line` from 1, `column` in UTF-8 bytes from 0, as in `ast`."""
         start = self.starts[line - 1]
-        # A character has at least one byte, so no more characters than bytes need be looked at.
+        # A character has at least one byte, so at most as many characters as bytes are decoded.
         ahead = self.source.text[start : start + column].encode("utf-8", "surrogatepass")
         return start + len(ahead[:column].decode("utf-8", "replace"))
 
     def span_of(self, node: ast.ClassDef | Function) -> Span:
-        """The name of a class or function; the tree gives only where its statement begins."""
+        """The span of a class's or function's name, which the syntax tree lacks."""
         start = self.offset(node.lineno, node.col_offset)
         found = _KEYWORDS.match(self.source.text, start)
         at = found.end() if found else start
@@ -78,7 +78,7 @@ def read_bytes(path: Path) -> bytes | None:
         if path.parent.exists():
             raise UnreadableSource(f"the file cannot be read: {error.strerror}") from None
         return None
-    except OSError:  # a folder that cannot be entered: the writer says why
+    except OSError:  # an inaccessible folder: the writer reports it
         return None
     if len(data) > MAX_BYTES:
         raise UnreadableSource("it is larger than 4 MB")

@@ -1,8 +1,8 @@
-"""Stubs: the methods that the user's class lacks, put behind its last statement.
+"""Stubs: appends the missing methods to the user's class.
 
-In: the user's module and the methods. Out: its text with the stubs and the imports they need; all
-that was there is there, character for character. libcst says where the class ends and how the
-file is indented and its lines are ended.
+In: the user's module and the methods. Out: its text with the stubs and their imports; all other
+characters are unchanged. libcst locates the end of the class and the style of indentation and line
+ends.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source
 
 QUALIFIER = "generated_interfaces"
-"""What the module of the types is called where the user has another thing of a type's name."""
+"""Alias of the types' module if the user uses the name of a type for something else."""
 
 
 class _Class(ValueRecord):
-    """Where the class ends and how it is written. `open` is the offset of a body on its own line.
+    """End and style of the class. `open` is the offset of a body on its own line.
 
-    `end` is the offset behind the last statement; `open` is None unless the body stands on the
+    `end` is the offset after the last statement; `open` is None unless the body is on the
     line of the `class`.
     """
 
@@ -43,7 +43,7 @@ class _Class(ValueRecord):
 def added(user: UserModule, missing: Sequence[Method], package: str) -> str:
     """The text of the module with a stub for each of `missing`.
 
-    `package` is that of the generated code.
+    `package` is the package of the generated code.
     """
     text = user.source.text
     found = _class(user)
@@ -66,7 +66,7 @@ def report_added(
     methods: Mapping[str, Method],
     report: Report,
 ) -> None:
-    """Say which stubs there are, at their new places."""
+    """Report the stubs, at their new positions."""
     source = Source(user.source.path, text)
     places = _places(source)
     name = user.worker.name if user.worker else CLASS
@@ -86,7 +86,7 @@ def report_added(
 
 
 def _places(source: Source) -> dict[str, int]:
-    """Where the names of the methods of the class are; a stub is the last of its name."""
+    """Positions of the methods' names in the class; a stub is the last definition of its name."""
     module = parsed(source)
     worker = module.worker
     functions = [s for s in worker.body if isinstance(s, Function)] if worker else []
@@ -117,7 +117,7 @@ def _class(user: UserModule) -> _Class:
 
 
 def _after_line(text: str, at: int, more: str, newline: str) -> str:
-    """`more` behind the line in which offset `at` is."""
+    """Insert `more` after the line of offset `at`."""
     end = re.compile(r"\r\n?|\n").search(text, at)
     if end is None:
         return f"{text}{newline}{more}"
@@ -125,7 +125,7 @@ def _after_line(text: str, at: int, more: str, newline: str) -> str:
 
 
 def _stub(method: Method, local: dict[str, str], found: _Class) -> str:
-    """A blank line and the method, indented as the file is."""
+    """A blank line and the method, with the file's indentation."""
     body = [method.code.doc]
     if method.code.call:
         body += ["# Put your code here. Until then callers receive an error."]
@@ -144,7 +144,7 @@ def _indented(row: str, found: _Class) -> str:
 
 
 def _renamed(definition: str, local: dict[str, str]) -> str:
-    """The `def` with the types under the names that they have in the user's module."""
+    """The `def` with the types' names in the user's module."""
     changed = {name: new for name, new in local.items() if name != new}
     if not changed:
         return definition
@@ -156,7 +156,7 @@ def _renamed(definition: str, local: dict[str, str]) -> str:
 def _imports(
     user: UserModule, missing: Iterable[Method], package: str
 ) -> tuple[dict[str, str], list[str]]:
-    """What the types are called in the user's module, and the import lines it lacks."""
+    """The names of the types in the user's module, and the missing import lines."""
     module = f"{package}.interfaces"
     needed = dict.fromkeys(name for method in missing for name in method.types)
     local: dict[str, str] = {}
@@ -176,9 +176,9 @@ def _imports(
 
 
 def _import_place(user: UserModule, module: str) -> int | None:
-    """Offset of the end of the import behind which new ones go: that of the types, or the last.
+    """Offset after the import that new ones follow: the import of the types, or the last one.
 
-    Without imports they go behind the last statement above the class; None if there is none.
+    Without imports they follow the last statement above the class; None if there is none.
     """
     line = user.worker.lineno if user.worker else 0
     above = [n for n in user.tree.body if n.lineno < line]

@@ -1,4 +1,4 @@
-"""Events and states that the user's code names, compared with those of the state machine.
+"""Checks the events and states in the user's code against the state machine.
 
 In: the user's module, the machine of the component. Out: findings about `self.machine.go("x")` and
 `self.machine.is_in("x")` where there is no such event or state.
@@ -18,7 +18,7 @@ _MEANT = {"send": "event", "go": "event", "is_in": "state"}
 
 
 def report_unknown_events(user: UserModule, machine: MachineCode | None, report: Report) -> None:
-    """Look through the user's class and its bases in the same folder."""
+    """Check the user's class and its bases in the same folder."""
     known = {
         "event": machine.events if machine else (),
         "state": tuple(m.state.name for m in machine.of_verb("state")) if machine else (),
@@ -40,7 +40,7 @@ def report_unknown_events(user: UserModule, machine: MachineCode | None, report:
 
 
 def _named(class_: ast.ClassDef) -> Iterator[tuple[str, str, ast.Constant]]:
-    """What is named, how, and where; only texts that stand there as they are."""
+    """The name, the method, and the location; only string literals are checked."""
     for node in ast.walk(class_):
         match node:
             case ast.Call(
@@ -53,7 +53,7 @@ def _named(class_: ast.ClassDef) -> Iterator[tuple[str, str, ast.Constant]]:
 
 
 def _takes(event: str, known: Collection[str]) -> bool:
-    """Whether an event of the machine is this one, or a pattern that takes it (SCXML 3.12.1)."""
+    """Whether an event of the machine is this one, or a pattern that matches it (SCXML 3.12.1)."""
     heads = [name.removesuffix("*").removesuffix(".") for name in known]
     return "*" in known or any(event == head or event.startswith(f"{head}.") for head in heads)
 

@@ -1,7 +1,7 @@
-"""Methods of the user that are called by their names, and would never be, for no name is theirs.
+"""Reports methods named like hooks that are never called, because no such name exists.
 
 In: the user's module, the parameters and the state machine of the component. Out: findings about
-`will_set_x` and `did_set_x` of what cannot change, and about `on_enter_x` and the like of no state.
+`will_set_x` and `did_set_x` of fixed or unknown parameters, `on_enter_x` etc. of unknown states.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ SETTERS = ("will_set_", "did_set_")
 
 
 class _Kind(NamedTuple):
-    """What methods of one prefix are for; `of` maps the rest of their names to what is wrong."""
+    """The hooks with one prefix; `of` maps the rest of a name to the problem."""
 
     what: str
     code: Code
@@ -33,7 +33,7 @@ def report_unknown_hooks(
     known: Collection[str],
     report: Report,
 ) -> None:
-    """Look through the user's class and its bases; those in `known` are judged as methods."""
+    """Check the user's class and its bases; methods in `known` are checked elsewhere."""
     hooks = dict(_hooks(parameters))
     kinds = {prefix: _Kind("parameter", codes.UNKNOWN_PARAMETER, hooks) for prefix in SETTERS}
     if machine:
@@ -45,7 +45,7 @@ def report_unknown_hooks(
             continue
         kind, rest = kinds[prefix], name.removeprefix(prefix)
         wrong = kind.of.get(rest, f"there is no {kind.what} `{rest}`")
-        # Other methods may well be called `state_…`; that one is misspelt is likely if it is near.
+        # Other methods may start with `state_`, too; only similar names are misspellings.
         if wrong and (prefix != "state_" or nearest(rest, kind.of)):
             message = f"`{name}` is never called: {wrong}"
             label = did_you_mean(rest, kind.of) if rest not in kind.of else ""
@@ -53,7 +53,7 @@ def report_unknown_hooks(
 
 
 def _hooks(parameters: Iterable[Parameter], path: str = "") -> Iterator[tuple[str, str]]:
-    """The ends of the names of hooks, and why one is never called."""
+    """The suffixes of the hooks, and why a hook is never called."""
     for parameter in parameters:
         name = f"{path}{parameter.name}"
         if parameter.kind is Kind.GROUP:

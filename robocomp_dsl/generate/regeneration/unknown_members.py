@@ -1,7 +1,7 @@
-"""Parameters and operations that the user's code names, compared with those there are.
+"""Checks the parameters and operations in the user's code against the component.
 
-In: the user's module. Out: findings about `self.params.x` and
-`self.laser_proxy.y` where there is no such parameter or operation.
+In: the user's module. Out: findings about `self.params.x` and `self.laser_proxy.y` without such a
+parameter or operation.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from robocomp_dsl.record import ValueRecord
 
 
 class _Group(ValueRecord):
-    """Attributes that an object has; the value is what one of them holds, None for a value."""
+    """Attributes of an object; each maps to the members of its value, None for a plain value."""
 
     what: str
     attributes: dict[str, _Group | None]
@@ -29,18 +29,18 @@ class _Group(ValueRecord):
 
     @property
     def element(self) -> _Group | None:
-        """One of a list."""
+        """A list of such objects."""
         return _Group(self.what, self.attributes) if self.listed else None
 
     def has(self, name: str) -> bool:
-        """Whether it has an attribute, its own or that of its base."""
+        """Whether it has an attribute, itself or by its base."""
         return name in self.attributes or name in _MEMBERS[self.what]
 
 
 def report_unknown_members(
     user: UserModule, component: Component, py_names: PythonNames, report: Report
 ) -> None:
-    """Look through the user's class and its bases in the same folder."""
+    """Check the user's class and its bases in the same folder."""
     parameters = component.parameters.parameters if component.parameters else ()
     known = {"params": _parameters(parameters)} | _proxies(py_names)
     for module, class_ in user.hierarchy.classes:
@@ -74,13 +74,13 @@ def _proxies(py_names: PythonNames) -> dict[str, _Group]:
 
 
 class _Scope(ValueRecord):
-    """What attributes of `self` are, and what local names stand for."""
+    """The members of the attributes of `self`, and the meaning of local names."""
 
     known: dict[str, _Group]
     local: Names
 
     def group_of(self, node: ast.expr) -> _Group | None:
-        """What is known of the object that an expression gives: `self.params.motors[0]`."""
+        """The members of the object of an expression: `self.params.motors[0]`."""
         match node:
             case ast.Subscript(value=value, slice=index):
                 group = self.group_of(value)
@@ -95,7 +95,7 @@ class _Scope(ValueRecord):
         return None
 
     def _of_name(self, name: str) -> _Group | None:
-        """What a local name stands for, if it is the same each time."""
+        """The meaning of a local name, if all bindings agree."""
         rest = _Scope(self.known, {n: ways for n, ways in self.local.items() if n != name})
         found = [(rest.group_of(binding.value), binding.each) for binding in self.local[name]]
         groups = [group and group.element if each else group for group, each in found]

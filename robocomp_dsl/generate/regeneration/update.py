@@ -1,10 +1,10 @@
-"""Regeneration: what becomes of the user's files when the descriptions have changed.
+"""Regeneration: updates the user's files after the descriptions have changed.
 
-In: a component, the files that generation gives, and the folder with what the user made of the
-former ones. Out: the files to write, and findings about the user's code. Nothing is written here.
+In: a component, its generated files, and the folder with the user's files. Out: the files to write,
+and findings about the user's code. Nothing is written here.
 
-`specificworker.py` only ever grows: a stub for each operation without a method. The other files
-that are written once are merged three ways with their pristine output, which `.rcgen/` keeps.
+`specificworker.py` only grows: a stub is appended for each operation without a method. The other
+files that are written once are merged three ways with their pristine output in `.rcgen/`.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ def update_user_files(
     *,
     writes: bool = True,
 ) -> list[OutputFile]:
-    """`files` as they are to be written over what `folder` holds; `report` gets the findings.
+    """The files to write over those in `folder`; `report` gets the findings.
 
-    Without `writes` the findings say what would be done, at places in the files as they are.
+    Without `writes` the findings describe what would be done, at locations in the current files.
     """
     py_names = names_of(component)
     files = package_rename.renamed(folder, py_names.package, files, report)
@@ -75,7 +75,7 @@ def update_user_files(
         unknown_hooks.report_unknown_hooks(
             user, parameters, machine, known.keys() | methods.keys(), report
         )
-    # What Python cannot read now is judged by the old record when it is mended.
+    # While Python cannot parse the file, its old entries stay for the time when it is fixed.
     unread = any(finding.code is codes.UNREADABLE_WORKER for finding in report)
     recorded = manifest.file_of(known if unread else manifest.of_now(methods, known, user))
     return [*worker_files, *merge.merged(folder, others, report, writes=writes), recorded]
@@ -84,7 +84,7 @@ def update_user_files(
 def _with_new_imports(
     user: UserModule | None, worker_files: Sequence[OutputFile]
 ) -> UserModule | None:
-    """The user's module as it will be when it imports from another package."""
+    """The user's module as it will be with imports from the new package."""
     changed = next((file for file in worker_files if file.expected_bytes is not None), None)
     if user is None or changed is None:
         return user

@@ -94,7 +94,7 @@ def _motion(node: innermodel.Joint | innermodel.PrismaticJoint, kind: str, offse
 
 def _box(node: innermodel.Plane, parent: innermodel.Node) -> Data:
     normal = [node.nx, node.ny, node.nz]
-    if all(abs(part) < 0.001 for part in normal):  # as RoboComp has it
+    if all(abs(part) < 0.001 for part in normal):  # RoboComp's default
         normal[2] = -1.0
     box: Data = {
         "id": node.id,
@@ -126,7 +126,7 @@ def _mesh(node: innermodel.Mesh, parent: innermodel.Node) -> Data:
 
 
 def unique_name(name: str, taken: set[str]) -> str:
-    """A name like `wanted` that is not taken."""
+    """A free name based on the requested one."""
     while name in taken:
         name += "'"
     return name

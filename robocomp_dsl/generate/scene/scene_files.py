@@ -1,4 +1,4 @@
-"""Resolve the files that a scene refers to; most worlds come from another machine.
+"""Resolve the files that a scene refers to; many worlds were written on another machine.
 
 In: a lowered scene and the folder of its description. Out: the same scene with absolute paths, to
 existing files if possible.

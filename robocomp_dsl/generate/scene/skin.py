@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.kinematics.rotations import rotation
 from robocomp_dsl.model import innermodel
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.tactile.description.model import RobotDescription
 from robocomp_dsl.tactile.errors import DescriptionError
 from robocomp_dsl.tactile.skin.cone import Cone
@@ -34,7 +35,7 @@ _EMPTY_LAYOUT = TaxelLayout(np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0
 
 @dataclass(frozen=True, eq=False)
 class _Frame:
-    """A frame in the body: a point of it is at `orientation` @ point + `position`."""
+    """A frame in the body: a point p of it is at `orientation` @ p + `position`."""
 
     position: Floats
     orientation: Floats
@@ -51,7 +52,7 @@ class _Frame:
 
 
 def lower_robot(robot: RobotDescription) -> Data:
-    """All skin of a description."""
+    """The complete skin of a description."""
     limbs, patches = [], []
     for part in robot.parts:
         for limb in part.limbs:
@@ -115,7 +116,7 @@ def _layout(patch: innermodel.Patch, frame: _Frame) -> TaxelLayout:
 
 def _from_file(path: Path, frame: _Frame) -> TaxelLayout:
     """Positions measured in the frame of the body; rows without a taxel only count."""
-    read = read_positions(path.read_text(encoding="utf-8"), path)
+    read = read_positions(read_text(path), path)
     used = np.flatnonzero(read.used)
     return TaxelLayout(
         used, frame.from_body(read.positions[used]), read.normals[used] @ frame.orientation

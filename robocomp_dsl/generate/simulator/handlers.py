@@ -1,4 +1,4 @@
-"""What `simulator.py` says: for every operation a method that asks the device behind it.
+"""The content of `simulator.py`: for every operation a method that calls the device of its port.
 
 In: a component and its names. Out: plain data for the template.
 """
@@ -20,17 +20,17 @@ from robocomp_dsl.model.interface import Operation
 from robocomp_dsl.model.parameter import Kind, Parameter
 
 SKIN = "skin"
-"""The group of parameters that a world with skin has."""
+"""The group of parameters of a world with skin."""
 
 PUSHED = "reference_timeout"
-"""The parameter that a control board has."""
+"""The parameter of a world with control boards."""
 
 _TYPES = {Kind.STRING: "str", Kind.FLOAT: "float", Kind.BOOL: "bool"}
 
 
 @dataclass(frozen=True, slots=True)
 class Delegation:
-    """One method: its head and its body, line by line."""
+    """One method: its head, and the lines of its body."""
 
     definition: str
     doc: str
@@ -39,11 +39,11 @@ class Delegation:
 
 @dataclass(frozen=True, slots=True)
 class SimulatorCode:
-    """The module. `source` is the file that the world was described in.
+    """The module. `source` is the file of the world.
 
-    `topics` are published in every period, `streams` by the devices themselves; `skin` are the
-    names and types of the parameters of a skin, if there is one; `pushed`: there is a parameter
-    for joints that nobody pushes any more.
+    `topics` are published in every period, `streams` by the devices themselves; `skin` has the
+    names and types of the skin's parameters, if any; `has_torque_timeout`: there is a time-out
+    for streamed joint references.
     """
 
     title: str
@@ -66,7 +66,7 @@ def simulator_code(
     *,
     publish_always: bool = False,
 ) -> SimulatorCode:
-    """Everything that the templates print; `unheard`: it is also published where nobody hears."""
+    """The data of the template; `publish_always`: topics are also published without subscribers."""
     proxies = {port.name: attribute for port, attribute in py_names.proxies.items()}
     served = [p for p in component.ports if p.role in SERVED_ROLES]
     return SimulatorCode(
@@ -88,7 +88,7 @@ def simulator_code(
 
 
 def _streams(topics: Sequence[Published], proxies: Mapping[str, str]) -> Iterator[str]:
-    """For each port the statement that lets it publish by itself."""
+    """For each port the statement that starts its own publications."""
     for source in dict.fromkeys(topic.source for topic in topics):
         proxy_names = [f"self.{proxies[topic.port]}" for topic in topics if topic.source == source]
         port = f"self.ports[{literals.quoted(source)}]"
@@ -112,7 +112,7 @@ def _skin_parameters(component: Component) -> tuple[tuple[str, str], ...]:
 def _publications(
     topics: Sequence[Published], proxies: Mapping[str, str], publish_always: bool
 ) -> Iterator[str]:
-    """The lines that publish; topics of a longer period in every so many rounds."""
+    """The lines that publish; a topic with a longer period is published in every n-th round."""
     usual = period_of(topics)
     for every in sorted({topic.topic.period // usual for topic in topics}, reverse=True):
         if every > 1:
@@ -128,7 +128,7 @@ def _publications(
 def _publication(
     published: Published, proxy: str, indent: str, publish_always: bool
 ) -> Iterator[str]:
-    """Where it is heard, what a port answers or its servant has to tell is published."""
+    """Publishes a port's result or new data if there are subscribers."""
     port = f"self.ports[{literals.quoted(published.source)}]"
     asking = layout.call(f"{port}.latest", literals.quoted(published.topic.query), tail="):")
     argument = "message"
@@ -162,7 +162,7 @@ def _method(port: Port, operation: Operation, py_names: PythonNames) -> Delegati
 def _lines(
     port: Port, called_operation: Operation, arguments: list[str], returns: str
 ) -> Iterator[str]:
-    """Two steps for an answer, so that every line is one that the formatter leaves as it is."""
+    """Two statements for a result, so that the formatter need not break a line."""
     operation = f"self.ports[{literals.quoted(port.name)}].{called_operation.name}"
     if returns == "None":
         yield layout.statement("", layout.call(operation, *arguments), BODY)

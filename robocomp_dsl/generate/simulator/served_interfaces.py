@@ -1,4 +1,4 @@
-"""Which interfaces the devices of a scene are served as: one table.
+"""Table of the interfaces that the devices of a scene are served as.
 
 In: the devices of a lowered scene. Out: the ports of the component that serves them.
 """
@@ -16,11 +16,11 @@ from robocomp_dsl.generate import names
 
 @dataclass(frozen=True, slots=True)
 class ServedInterface:
-    """Devices of a `kind` serve `interface` of the file of that name.
+    """Devices of a `kind` serve `interface` of the file with the same name.
 
-    `shared`: one port for all of them, called as the interface; else one for each, called as the
-    device, with `_suffix` behind it where the device serves more than one. `asked`: only for those
-    who ask for it, because there is a newer interface for the same.
+    `shared`: one port for all of them, named after the interface; else one port each, named after
+    the device, with `_suffix` appended if the device serves several. `opt_in`: generated only on
+    request, because a newer interface replaces it.
     """
 
     kind: str
@@ -68,40 +68,40 @@ SERVED = (
 )
 
 OPT_IN = tuple(dict.fromkeys(row.interface for row in SERVED if row.opt_in))
-"""What can be asked for."""
+"""The interfaces that are generated only on request."""
 
 BOARDS = "ControlBoard"
-"""The shared interface that has a port for each group of joints, called as the group; those of no
-group share the port that is called as the interface."""
+"""The shared interface that has one port per group of joints, named after the group. Joints without
+a group share the port named after the interface."""
 
 
 OF_THE_WORLD = ("InnerModelManager", "Simulation")
-"""Interfaces that are served for the world as a whole."""
+"""Interfaces of the world as a whole."""
 
 COMPONENT = "Component"
-"""What every component serves of itself."""
+"""Interfaces that every component serves."""
 
 DEFAULT_RATE = 50.0
-"""Of a skin that does not tell its rate [Hz]."""
+"""Default rate of a skin [Hz]."""
 
 CLOCK = "Clock"
-"""The topic on which it tells the time, where it makes that of a deployment."""
+"""The topic of simulated time, published by the clock source of a deployment."""
 
 
 _ON_A_BASE = ("Laser", "RGBD", "Camera")
-"""Interfaces that tell the state of the base under the device, too."""
+"""Interfaces that also report the state of the base that carries the device."""
 
 DEFAULT_PERIOD = 10
-"""How often a topic is published that says nothing else [ms]."""
+"""Default period of a topic [ms]."""
 
 
 @dataclass(frozen=True, slots=True)
 class Topic:
-    """What the answer of `asked` of a port that serves `interface` is published as.
+    """The topic that publishes the result of `query` of a port that serves `interface`.
 
-    Every `period` ms, if it is heard; or `at_once`, when there is something new, whatever the
-    period; or in those periods in which the servant has `news` (`asked` is empty), which it waits
-    for in lock-step if they are `dear`.
+    It is published every `period` ms while it has subscribers; or, if `immediate`, whenever there
+    is new data; or, with `on_change` (`query` is empty), in periods in which the servant has news,
+    for which lock-step waits if the topic is `expensive`.
     """
 
     interface: str
@@ -152,9 +152,9 @@ TOPICS = (
 
 @dataclass(frozen=True, slots=True)
 class ServedAs:
-    """A port, and the devices (id, kind) that it stands for; none: the world as a whole.
+    """A port, and its devices (id, kind); no devices: the world as a whole.
 
-    `with_` are devices that the first one needs beside it.
+    `with_` are further devices that the first one needs.
     """
 
     port: str
@@ -164,12 +164,12 @@ class ServedAs:
 
     @property
     def ids(self) -> list[str]:
-        """All devices that a servant is given; an empty id is the world."""
+        """All devices of a servant; an empty id is the world."""
         return [*(id_ for id_, _ in self.devices or (("", ""),)), *self.with_]
 
 
 def served(scene: dict[str, Any], also: Sequence[str] = ()) -> tuple[ServedAs, ...]:
-    """The ports for a lowered scene, in the order of the table; `also` is asked for."""
+    """The ports for a lowered scene, in the order of the table; `also` lists opt-in interfaces."""
     offers = [entry for entry in SERVED if not entry.opt_in or entry.interface in also]
     together = dict.fromkeys(offer.interface for offer in offers if offer.shared)
     taken = {entry.lower() for entry in (*together, *OF_THE_WORLD, CLOCK, COMPONENT)}
@@ -192,7 +192,7 @@ def served(scene: dict[str, Any], also: Sequence[str] = ()) -> tuple[ServedAs, .
 
 @dataclass(frozen=True, slots=True)
 class Published:
-    """A topic as the port `port`; its data are those of the port `source`."""
+    """A topic as the port `port`; its data come from the port `source`."""
 
     port: str
     source: str
@@ -218,7 +218,7 @@ def period_of(topics: Sequence[Published]) -> int:
 
 
 def _boards(ports: Sequence[ServedAs], scene: dict[str, Any], taken: set[str]) -> list[ServedAs]:
-    """The same ports, with one for each group of joints in the place of that for all boards."""
+    """The ports with the port of all boards replaced by one port per group of joints."""
     groups = {d["id"]: d["settings"].get("board", "") for d in scene["devices"]}
     split: list[ServedAs] = []
     for served_as in ports:
@@ -233,7 +233,7 @@ def _boards(ports: Sequence[ServedAs], scene: dict[str, Any], taken: set[str]) -
 
 
 def _free(preferred: str, taken: set[str]) -> str:
-    """The name of a port that no other has; upper and lower case are the same."""
+    """A unique port name; case is ignored."""
     name = names.identifier(preferred, ())
     while name.lower() in taken:
         name += "_"
@@ -242,23 +242,23 @@ def _free(preferred: str, taken: set[str]) -> str:
 
 
 def identifier(written: str) -> str:
-    """A text as a name of the languages, not too long for a line of code."""
+    """A text as an identifier of the languages, short enough for a line of code."""
     name = re.sub(r"[^A-Za-z0-9_]", "_", written).strip("_")[:36]
     return name if name[:1].isalpha() else f"n{name}"
 
 
 def not_served(scene: dict[str, Any]) -> Sequence[tuple[str, str]]:
-    """Devices (id, kind) that no interface is there for."""
+    """Devices (id, kind) without an interface."""
     kinds = {entry.kind for entry in SERVED if not entry.opt_in}
     return [(d["id"], d["kind"]) for d in scene["devices"] if d["kind"] not in kinds]
 
 
 SKIN_RATES = (1.0, 1000.0)
-"""Hz: what the parameter takes."""
+"""The permitted range of the rate [Hz]."""
 
 
 def skin_rate(scene: dict[str, Any]) -> float:
-    """The rate of the fastest skin [Hz]; 0 without one: they tell their frames together."""
+    """The rate of the fastest skin [Hz]; 0 without skin. All skin is sampled together."""
     rates = [
         d["settings"].get("rate", DEFAULT_RATE) for d in scene["devices"] if d["kind"] == "skin"
     ]
@@ -267,7 +267,7 @@ def skin_rate(scene: dict[str, Any]) -> float:
 
 
 def _bases(scene: dict[str, Any]) -> Callable[[str, dict[str, Any]], tuple[str, ...]]:
-    """What finds the mobile base under a device, for interfaces that tell its state."""
+    """Finds the mobile base under a device, for interfaces that report its state."""
     parents = {frame["id"]: frame["parent"] for frame in scene["frames"]}
     bases = {d["frame"]: d["id"] for d in scene["devices"] if d["kind"].endswith("robot")}
 

@@ -2,7 +2,7 @@
 
 In: a resolved `Body`, or a model file as the data of a scene; later the `Component` that the
 descriptions resolve to. Out: texts and `OutputFile`s. The scene goes as data into `scene.json` in
-the generated package, a model file beside it; what simulates them is in `robocomp_dsl.hardware`.
+the generated package, a model file beside it; `robocomp_dsl.simulation` simulates them.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from robocomp_dsl.model.component import Component
 from robocomp_dsl.model.innermodel import InnerModel
 
 _NUMBERS = re.compile(r"\[\n\s*(-?[\d.][^\[\]{}\"]*?)\n\s*\]")
-"""A list of nothing but numbers, each on a line of its own."""
+"""A list of numbers, each on a line of its own."""
 
 FOLDER = "python/simulator/"
 WORKER = "specificworker.py"
@@ -51,9 +51,9 @@ LEAST_STEP, MOST_STEP = 0.05, 20.0  # ms, as the PDSL has it
 
 @dataclass(frozen=True, slots=True)
 class Simulator:
-    """What a world becomes: the `scene` as data, its `ports`, devices (id, kind) without one.
+    """The simulator of a world: the `scene` as data, its `ports`, and devices without a port.
 
-    `model` is the text of the model file that the scene begins with; `step` is in ms.
+    `model` is the text of the model file on which the scene is based; `step` is in ms.
     """
 
     name: str
@@ -69,27 +69,22 @@ class Simulator:
 
     @property
     def step_told(self) -> str:
-        """The length of a step as the PDSL tells it."""
+        """The length of a step as written in the PDSL file."""
         return f"{self.step:g}"
 
     @property
     def title(self) -> str:
-        """The name as the first part of the name of a class."""
+        """The name in CamelCase, as the first part of class names."""
         return camel(self.name)
 
     @property
     def pushed(self) -> bool:
-        """Whether it has joints that may be pushed."""
+        """Whether the world has joints with streamed references."""
         return any(port.interface == BOARDS for port in self.ports)
-
-    @property
-    def published(self) -> str:
-        """The ports of its topics, for Markdown."""
-        return ", ".join(f"`{topic.port}`" for topic in self.topics)
 
 
 def simulator(body: InnerModel) -> Simulator:
-    """The simulator of a world. Files that the scene names get absolute paths."""
+    """The simulator of a world. File names in the scene become absolute paths."""
     scene = lower_body(body)
     resolve_files(scene, body.path.parent)
     return _simulator(body.path, scene)
@@ -98,12 +93,12 @@ def simulator(body: InnerModel) -> Simulator:
 def simulator_of_model(
     path: Path, scene: dict[str, Any], model: str, *, step: float = 0.002
 ) -> Simulator:
-    """The simulator of the model file at `path`, whose text is to be `model`; `step` is in s."""
+    """The simulator of the model file at `path`; its text is stored as `model`; `step` is in s."""
     return _simulator(path, scene, model, min(max(round(step * 1000, 6), LEAST_STEP), MOST_STEP))
 
 
 def with_skin(simulator: Simulator, skin: dict[str, Any]) -> Simulator:
-    """The same world with one more skin, lowered by `generate.skin`; its nodes get free names."""
+    """The same world with an additional skin, lowered by `generate.skin`; nodes get free names."""
     taken = {
         node["id"]
         for nodes in ("frames", "boxes", "meshes", "devices")
@@ -121,7 +116,7 @@ def with_skin(simulator: Simulator, skin: dict[str, Any]) -> Simulator:
 
 
 def serving_also(simulator: Simulator, also: Sequence[str]) -> Simulator:
-    """The same world that serves interfaces of `offers.ALSO`, too."""
+    """The same world with further opt-in interfaces (`served_interfaces.OPT_IN`)."""
     return _serving(simulator, simulator.scene, tuple(also))
 
 
@@ -166,7 +161,7 @@ def descriptions(simulator: Simulator) -> list[OutputFile]:
 
 
 def files(simulator: Simulator, component: Component) -> list[OutputFile]:
-    """All files of the component but its descriptions."""
+    """All files of the component except its descriptions."""
     py_names = names_of(component)
     code, package = (
         simulator_code(simulator.source, component, py_names, simulator.topics),
@@ -198,7 +193,7 @@ def rows(ports: Sequence[ServedAs]) -> list[tuple[str, str, str]]:
 
 
 def _named(ids: Sequence[str]) -> str:
-    """Not more than can be read."""
+    """At most as many names as fit."""
     if not ids:
         return "the world"
     more = f" and {len(ids) - _MOST_NAMED} more" if len(ids) > _MOST_NAMED else ""
@@ -206,7 +201,7 @@ def _named(ids: Sequence[str]) -> str:
 
 
 def world_files(simulator: Simulator, package: str) -> list[OutputFile]:
-    """The world as data in a generated package, and the model that it begins with, if any."""
+    """The world as data in a generated package, and its model file, if any."""
     data = {"scene": simulator.scene, "ports": {port.port: port.ids for port in simulator.ports}}
     found = [OutputFile(f"{package}/scene.json", _text(data))]
     if simulator.model:
@@ -215,6 +210,6 @@ def world_files(simulator: Simulator, package: str) -> list[OutputFile]:
 
 
 def _text(data: dict[str, Any]) -> str:
-    """JSON for people: lists of numbers are rows."""
+    """JSON for readers: a list of numbers is one line."""
     spread = json.dumps(data, indent=1, ensure_ascii=False)
     return _NUMBERS.sub(lambda found: f"[{' '.join(found[1].split())}]", spread) + "\n"

@@ -1,4 +1,4 @@
-"""What mobile bases keep to."""
+"""Conformance rules for mobile bases."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def a_state_is_made_of_numbers_and_goes_on(base: MobileBaseDevice, advance: Adva
 
 
 def senseless_speeds_are_refused(base: MobileBaseDevice, _: Advance) -> None:
-    """NaN, and what is beyond the limits."""
+    """NaN, and values beyond the limits."""
     for adv in (math.nan, math.inf, 2 * base.limits.max_adv):
         try:
             base.set_speed(0.0, adv, 0.0)
@@ -45,7 +45,7 @@ def senseless_speeds_are_refused(base: MobileBaseDevice, _: Advance) -> None:
 
 
 def odometry_goes_on_from_where_it_is_set(base: MobileBaseDevice, advance: Advance) -> None:
-    """The corrected pose by itself, too."""
+    """Setting the corrected pose alone."""
     by_wheels, corrected = Pose(-200.0, 300.0, -0.5), Pose(1000.0, -500.0, 1.0)
     advance(0.1)
     base.set_odometry(by_wheels)
@@ -57,7 +57,7 @@ def odometry_goes_on_from_where_it_is_set(base: MobileBaseDevice, advance: Advan
 
 
 def it_drives_ahead_and_stops(base: MobileBaseDevice, advance: Advance) -> None:
-    """100 mm/s for a second and a half."""
+    """100 mm/s for 1.5 s."""
     base.set_odometry(ORIGIN)
     base.set_speed(0.0, SLOW, 0.0)
     advance(1.5)

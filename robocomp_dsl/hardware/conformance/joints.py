@@ -1,4 +1,4 @@
-"""What motors on a control board keep to."""
+"""Conformance rules for motors on a control board."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
 
 STEP = 0.1
-"""How far joints are sent [rad, m]."""
+"""Distance of the test motions [rad, m]."""
 
 NEAR = 0.02
-"""How near they must come [rad, m]."""
+"""Permitted position error [rad, m]."""
 
 
 class JointSubset(NamedTuple):
-    """Some joints of a control board: `device` has it, with its commands and settings."""
+    """Some joints of a control board: `device` is the board, with its commands and settings."""
 
     device: Any
     names: Sequence[str]
@@ -41,7 +41,7 @@ class JointSubset(NamedTuple):
 
 
 def joints_are_measured_within_their_limits(motors: JointSubset, advance: Advance) -> None:
-    """Positions and velocities are numbers, and time goes on."""
+    """Positions and velocities are finite, and time advances."""
     advance(0.1)
     board, at = motors.device.board, motors.at
     state, limits = board.state(), board.limits
@@ -55,7 +55,7 @@ def joints_are_measured_within_their_limits(motors: JointSubset, advance: Advanc
 
 
 def idle_motors_give_no_torque(motors: JointSubset, advance: Advance) -> None:
-    """Whatever they did before."""
+    """In any previous mode."""
     motors.device.commands.set_mode(motors.names, Mode.IDLE)
     advance(0.1)
     torque = motors.device.board.state().torque[motors.at]
@@ -63,7 +63,7 @@ def idle_motors_give_no_torque(motors: JointSubset, advance: Advance) -> None:
 
 
 def a_command_of_another_mode_is_refused(motors: JointSubset, advance: Advance) -> None:
-    """A position while idle."""
+    """A position command while idle."""
     device = motors.device
     device.commands.set_mode(motors.names, Mode.IDLE)
     advance(0.05)
@@ -75,7 +75,7 @@ def a_command_of_another_mode_is_refused(motors: JointSubset, advance: Advance) 
 
 
 def each_joint_goes_where_it_is_sent(motors: JointSubset, advance: Advance) -> None:
-    """A tenth of a rad (of its way, if that is short) to where there is more room, and back."""
+    """Move 0.1 rad (less if the range is short) towards the farther limit, and back."""
     device, at = motors.device, motors.at
     board, commands = device.board, device.commands
     start = board.state().position[at]

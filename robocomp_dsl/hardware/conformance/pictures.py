@@ -1,4 +1,4 @@
-"""What cameras keep to."""
+"""Conformance rules for cameras."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def a_depth_is_a_distance_or_infinite(camera: CameraDevice, advance: Advance) ->
 
 
 def pictures_follow_each_other(camera: CameraDevice, advance: Advance) -> None:
-    """A new one comes within three periods, and the old one stays as it was."""
+    """A new picture arrives within three periods, and the old one is unchanged."""
     advance(2 * camera.settings.period)
     first = camera.picture()
     before = first.colour.copy()

@@ -1,4 +1,4 @@
-"""What range finders keep to."""
+"""Conformance rules for range finders."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from robocomp_dsl.hardware.devices.laser import LaserDevice, Scan
 from robocomp_dsl.hardware.devices.ultrasound import UltrasoundDevice
 
 _SCANS = 3.0
-"""Periods within which a new scan must have come."""
+"""Maximum number of periods until a new scan."""
 
 
 def a_scan_has_as_many_rays_as_the_settings_say(laser: LaserDevice, advance: Advance) -> None:
-    """Angles and distances are arrays of 32 bits, one entry a ray."""
+    """Angles and distances are arrays of 32-bit floats, one entry per ray."""
     scan, n = _fresh(laser, advance), laser.settings.measures
     for name, values in (("angles", scan.angles), ("distances", scan.distances)):
         require(values.shape == (n,), f"`{name}` has the shape {values.shape}, not ({n},)")
@@ -28,7 +28,7 @@ def angles_go_from_left_to_right_as_set(laser: LaserDevice, advance: Advance) ->
 
 
 def distances_lie_within_the_range(laser: LaserDevice, advance: Advance) -> None:
-    """In mm; what is absent or too far reads the largest."""
+    """In mm; without a hit the value is the maximum range."""
     scan, it = _fresh(laser, advance), laser.settings
     finite("distances", scan.distances)
     low, high = float(scan.distances.min()), float(scan.distances.max())
@@ -37,7 +37,7 @@ def distances_lie_within_the_range(laser: LaserDevice, advance: Advance) -> None
 
 
 def scans_follow_each_other(laser: LaserDevice, advance: Advance) -> None:
-    """A new scan comes within three periods, and the old one stays as it was."""
+    """A new scan arrives within three periods, and the old one is unchanged."""
     first = _fresh(laser, advance)
     before = first.distances.copy()
     advance(_SCANS * laser.settings.period)

@@ -9,23 +9,23 @@ from typing import Any
 import numpy as np
 
 Advance = Callable[[float], None]
-"""Lets so many seconds pass in the world of the device."""
+"""Advances the world of the device by a number of seconds."""
 
 
 class Violation(AssertionError):
-    """A device does not keep to a rule; the message says how."""
+    """A device violates a rule; the message describes the violation."""
 
 
 @dataclass(frozen=True, slots=True)
 class ConformanceRule:
-    """`holds(device, advance)` raises `Broken`. A rule that `moves` the robot needs room for it."""
+    """`holds(device, advance)` raises `Violation`. A rule that `moves` needs free space."""
 
     check: Callable[[Any, Advance], None]
     moves_robot: bool = False
 
     @property
     def name(self) -> str:
-        """Its name in plain words."""
+        """The name in plain words."""
         return self.check.__name__
 
     def __str__(self) -> str:
@@ -33,18 +33,18 @@ class ConformanceRule:
 
 
 def rules(*still: Callable[[Any, Advance], None]) -> tuple[ConformanceRule, ...]:
-    """Rules that move nothing."""
+    """Rules without motion."""
     return tuple(ConformanceRule(check) for check in still)
 
 
 def require(condition: object, message: str) -> None:
-    """Pass where the condition holds; else raise `Broken`."""
+    """Raise `Violation` unless the condition holds."""
     if not condition:
         raise Violation(message)
 
 
 def finite(name: str, values: object) -> None:
-    """Pass where all values are finite numbers."""
+    """Raise `Violation` unless all values are finite."""
     require(np.isfinite(np.asarray(values, dtype=float)).all(), f"`{name}` is not finite: {values}")
 
 

@@ -1,7 +1,7 @@
-"""What every device of a kind keeps to, simulated or real: one rule, one function.
+"""Conformance rules of every kind of device, simulated or real: one function per rule.
 
-In: a device and a way to let time pass. Out: nothing, or `Broken` with what is wrong. `rcgen
-hardware` writes a test that holds these against a new driver and against its simulated twin.
+In: a device and a function that advances time. Out: nothing, or `Violation` with the problem.
+`rcgen hardware` writes a test that applies the rules to a new driver and to the simulated device.
 """
 
 from __future__ import annotations
@@ -30,4 +30,4 @@ RULES: dict[str, tuple[ConformanceRule, ...]] = {
     "joint": joints.JOINTS,
     "prismaticjoint": joints.JOINTS,
 }
-"""The rules of each kind of device, by the tag of InnerModel, or as MJCF has it (`model_`)."""
+"""The rules of each kind of device, by the tag of InnerModel; `model_…` kinds come from MJCF."""

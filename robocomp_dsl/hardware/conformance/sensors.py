@@ -1,4 +1,4 @@
-"""What sensors with a few values keep to."""
+"""Conformance rules for sensors with a few values."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from robocomp_dsl.hardware.devices.touch_sensor import TouchSensorDevice
 
 GRAVITY = 9.81
 REST_MM = 5000.0
-"""What a receiver at rest may drift in a moment."""
+"""Permitted drift of a receiver at rest."""
 
 
 def at_rest_it_feels_gravity(imu: ImuDevice, advance: Advance) -> None:
-    """About 9.81 m/s², and hardly any turning (rad/s)."""
+    """About 9.81 m/s², and almost no rotation (rad/s)."""
     advance(0.5)
     it = imu.measure()
     felt = math.hypot(*it.acceleration)
@@ -27,7 +27,7 @@ def at_rest_it_feels_gravity(imu: ImuDevice, advance: Advance) -> None:
 
 
 def the_magnetic_field_is_a_direction(imu: ImuDevice, advance: Advance) -> None:
-    """Of length 1."""
+    """Of unit length."""
     advance(0.1)
     length = math.hypot(*imu.measure().field)
     require(abs(length - 1) < 0.01, f"`field` has the length {length:.3f}")
@@ -60,7 +60,7 @@ def it_is_somewhere_on_the_globe(gps: GpsDevice, advance: Advance) -> None:
 
 
 def reset_makes_this_position_the_origin(gps: GpsDevice, advance: Advance) -> None:
-    """Within what a receiver at rest may drift."""
+    """Within the permitted drift of a receiver at rest."""
     advance(0.2)
     gps.reset()
     advance(0.2)
@@ -69,7 +69,7 @@ def reset_makes_this_position_the_origin(gps: GpsDevice, advance: Advance) -> No
 
 
 def a_charge_is_a_share(battery: BatteryDevice, advance: Advance) -> None:
-    """Of 1; voltage (V) above 0, power (W) and the time left (s) not negative."""
+    """Charge from 0 to 1; voltage (V) above 0, power (W) and remaining time (s) not negative."""
     advance(0.1)
     it = battery.charge()
     require(0 <= it.left <= 1, f"`left` is {it.left:g} of 1")

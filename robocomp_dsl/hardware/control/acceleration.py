@@ -1,4 +1,4 @@
-"""The acceleration of n joints, smoothed, from the speeds that are measured.
+"""Smoothed accelerations of n joints, from measured speeds.
 
 In: speeds, at every step. Out: accelerations.
 """
@@ -14,7 +14,7 @@ SMOOTHING = 0.02
 
 
 class AccelerationFilter:
-    """A first-order high-pass filter: the speed less a slow one that follows it, over time."""
+    """A first-order high-pass filter: the speed minus its low-pass filtered value, over time."""
 
     def __init__(self, velocity: Floats) -> None:
         self._dt = 0.0
@@ -22,19 +22,19 @@ class AccelerationFilter:
         self.begin(velocity)
 
     def begin(self, velocity: Floats) -> None:
-        """It has always been that fast."""
+        """Start from a constant speed."""
         self._slow = velocity.copy()
 
     def add(self, velocity: Floats, dt: float) -> None:
-        """The speeds (n,) after `dt` seconds more."""
+        """Add the speeds (n,) after another `dt` seconds."""
         if dt != self._dt:
             self._dt = dt
-            self._share[:] = dt / (dt + SMOOTHING)  # numpy is slower by a number than by a row
+            self._share[:] = dt / (dt + SMOOTHING)  # numpy is slower with a scalar
         change = velocity - self._slow
         change *= self._share
         self._slow += change
 
     def now(self, velocity: Floats) -> Floats:
-        """Accelerations (n,); `velocity` (n,) are the speeds that were added last."""
+        """Accelerations (n,); `velocity` (n,) are the latest speeds."""
         now: Floats = (velocity - self._slow) / SMOOTHING
         return now

@@ -12,19 +12,19 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from robocomp_dsl.hardware.control.acceleration import AccelerationFilter
-from robocomp_dsl.hardware.control.ease import BoundsCheck
-from robocomp_dsl.hardware.control.faults import FaultCode, Faults, overloaded, too_hot
-from robocomp_dsl.hardware.control.impedance import Bounds, Impedance
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats, Ints, Selector
-from robocomp_dsl.hardware.control.law import ControlLaw
-from robocomp_dsl.hardware.control.limits import JointLimits
-from robocomp_dsl.hardware.control.loops import ControlLoops
 from robocomp_dsl.hardware.control.mode_table import ModeTable
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 from robocomp_dsl.hardware.control.motors import Motors
-from robocomp_dsl.hardware.control.references import References
+from robocomp_dsl.hardware.control.protection.bounds_check import BoundsCheck
+from robocomp_dsl.hardware.control.protection.faults import FaultCode, Faults, overloaded, too_hot
+from robocomp_dsl.hardware.control.protection.limits import JointLimits
+from robocomp_dsl.hardware.control.protection.watchdog import Watchdog
+from robocomp_dsl.hardware.control.regulators.impedance import Bounds, Impedance
+from robocomp_dsl.hardware.control.regulators.law import ControlLaw
+from robocomp_dsl.hardware.control.regulators.loops import ControlLoops
 from robocomp_dsl.hardware.control.state import BoardState
-from robocomp_dsl.hardware.control.watchdog import Watchdog
+from robocomp_dsl.hardware.control.trajectories.references import References
 
 
 class Board:
@@ -62,7 +62,7 @@ class Board:
         return self.motors.current(self.torque)
 
     def begin(self, position: Floats, velocity: Floats) -> None:
-        """The first measurement: everything starts at rest from here, before any command."""
+        """Initialise from the first measurement: everything is at rest, before any command."""
         self._started = True
         self.position = position + self.offset
         self.velocity = velocity
@@ -72,9 +72,9 @@ class Board:
     def step(
         self, position: Floats, velocity: Floats, dt: float, feedforward: Floats | None = None
     ) -> Floats:
-        """Torques (n,) [N m] for the next `dt` seconds; all inputs (n,), not to be changed later.
+        """Torques (n,) [N m] for the next `dt` seconds; inputs (n,) must not be modified later.
 
-        `feedforward` are torques that hold the weight; they are used where a position is held.
+        `feedforward` are gravity torques; they are used while a position is held.
         """
         self.time += dt
         self.dt = dt
@@ -108,12 +108,12 @@ class Board:
         self.refresh()
 
     def force_mode(self, joint: int, mode: Mode, acting: Mode | None = None) -> None:
-        """Force a joint into `mode`, with its motor driven as in the mode `acting`."""
+        """Force a joint into `mode`; its motor is driven as in the mode `acting`."""
         self.table.force(joint, mode, acting)
         self._reset_joints(np.array([joint]))
 
     def fault(self, joints: Ints, code: FaultCode, message: str) -> None:
-        """Switch `joints`, and what is coupled with them, off until force-idle."""
+        """Switch `joints`, and those coupled with them, off until force-idle."""
         self.faults.raise_(joints, code, message)
         whole = self.table.coupled(joints)
         for joint in whole.tolist():
@@ -122,7 +122,7 @@ class Board:
         self.torque = self.torque * self.law.powered
 
     def set_streamed_reference(self, kind: Floats, joints: Ints, values: Floats) -> None:
-        """References of `kind`: the torques, duty cycles or currents of the law."""
+        """References of `kind`: the torques, duty cycles or currents of the control law."""
         kind[joints] = values
         self.law.apply()
         self.watchdog.feed(joints, self.time)
@@ -136,19 +136,19 @@ class Board:
         self.references.reset(joints, position)
 
     def check_torque(self, felt: Floats) -> Floats:
-        """Torque readings (n,), with 0 and a fault where one is not a number."""
+        """Torque readings (n,); NaN becomes 0 and a fault."""
         good = np.isfinite(felt)
         if not good.all():
             self._trip(np.flatnonzero(~good), FaultCode.SENSOR, "the torque sensor reads NaN")
         return np.where(good, felt, 0.0)
 
     def refresh(self) -> None:
-        """Update what depends on modes and calibration."""
+        """Update values that depend on modes and calibration."""
         self.limits.trust(self.table.calibrated)
         self.law.configure(self.table.effective, self.table.interactions)
 
     def state(self) -> BoardState:
-        """A copy of everything that was measured last."""
+        """A copy of the latest measurements."""
         return BoardState(
             time=self.time,
             position=self.position.copy(),
@@ -167,7 +167,7 @@ class Board:
         )
 
     def _reset_joints(self, joints: Ints) -> None:
-        """A new mode starts from what is measured: no jump, no memory."""
+        """Initialise a new mode from the measurements, without jumps or old integrals."""
         self.references.reset(joints, self.position[joints])
         self.pid.reset(joints)
         self.law.currents.reset(joints)
@@ -196,7 +196,7 @@ class Board:
         self.velocity = velocity
 
     def _replace_invalid(self, position: Floats, velocity: Floats) -> tuple[Floats, Floats]:
-        """Fault joints whose encoders read NaN, and keep their last angle."""
+        """Fault joints whose encoders read NaN, and use their last angle."""
         good = np.isfinite(position) & np.isfinite(velocity)
         self._trip(np.flatnonzero(~good), FaultCode.ENCODER, "the encoder reads NaN")
         last = self.position - self.offset
@@ -215,7 +215,7 @@ class Board:
             self._trip(held, FaultCode.TRACKING, "the position error is too large")
 
     def _trip(self, joints: Ints, code: FaultCode, message: str) -> None:
-        """Fault those of `joints` that have none yet."""
+        """Fault those of `joints` that have no fault yet."""
         fresh = [i for i in joints.tolist() if self.table.modes[i] is not Mode.HW_FAULT]
         if fresh:
             self.fault(np.array(fresh), code, message)

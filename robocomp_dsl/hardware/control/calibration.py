@@ -1,11 +1,11 @@
-"""Calibration of joints whose encoders do not know their zero: a state machine per joint.
+"""Calibration of joints whose encoders have no known zero: a state machine per joint.
 
-In: how each joint finds its zero. Out: orders to the board, step by step:
+In: the calibration method of each joint. Out: commands to the board, step by step:
 
     NOT_CONFIGURED -> SEARCH (push towards the hard stop) -> ZERO -> HOME -> CALIB_DONE -> POSITION
 
-An absolute encoder skips the search. Too long a search or way home is a hardware fault;
-force-idle ends it. The joint tells `CALIBRATING` all the while.
+An absolute encoder skips the search. A time-out of the search or the home motion is a hardware
+fault; force-idle clears it. The joint reports mode `CALIBRATING` meanwhile.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ import numpy as np
 
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.errors import BadValue, ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import Ints
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 
 STILL = 0.01
-"""A joint slower than this is at its stop [rad/s]."""
+"""A joint slower than this is at its hard stop [rad/s]."""
 
 SETTLE = 0.2
-"""For so long it must stand there [s]."""
+"""Required time at the hard stop [s]."""
 
 
 class CalibrationMethod(Enum):
-    """How a joint finds its zero."""
+    """How the zero of a joint is found."""
 
     ABSOLUTE = "absolute"
     HARD_STOP = "hard stop"
@@ -37,10 +37,10 @@ class CalibrationMethod(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Procedure:
-    """How one joint is calibrated.
+    """Calibration settings of one joint.
 
-    `zero` is what the encoder reads at angle 0 (absolute), `stop` the angle of the hard stop that
-    `duty` [%] pushes it to; then it goes to `home` at `speed`, all within `timeout` seconds.
+    `zero` is the encoder reading at angle 0 (absolute encoders), `stop` the angle of the hard stop
+    that it searches with `duty` [%]; then it moves to `home` at `speed`, all within `timeout` s.
     """
 
     kind: CalibrationMethod = CalibrationMethod.ABSOLUTE
@@ -60,7 +60,7 @@ class Procedure:
 
 @dataclass(slots=True)
 class _Run:
-    """How far one joint has come."""
+    """Calibration state of one joint."""
 
     procedure: Procedure
     searching: bool
@@ -69,7 +69,7 @@ class _Run:
 
 
 class Calibrator:
-    """Leads joints of a board to their zero and home."""
+    """Calibrates joints of a board and moves them home."""
 
     def __init__(self, board: Board, procedures: tuple[Procedure, ...]) -> None:
         if len(procedures) != len(board.spec.joints):
@@ -79,7 +79,7 @@ class Calibrator:
         board.motion_overrides.append(self.step)
 
     def calibrate(self, joints: Ints | None = None) -> None:
-        """Begin with `joints`, or all. Raises `ModeRefused` for a joint with a fault."""
+        """Start with `joints`, or all. Raises `ModeRefused` for a joint with a fault."""
         chosen = self._board.select.indices(joints)
         for joint in chosen.tolist():
             if self._board.table.modes[joint] is Mode.HW_FAULT:
@@ -89,26 +89,26 @@ class Calibrator:
             self._begin(joint)
 
     def home(self, joints: Ints | None = None) -> None:
-        """Send calibrated joints to their home; raises `ModeRefused` for other joints."""
+        """Move calibrated joints home; raises `ModeRefused` for uncalibrated joints."""
         chosen = self._board.select.indices(joints)
         self._board.set_modes(chosen, [Mode.POSITION] * len(chosen))
         for joint in chosen.tolist():
             self._go_home(joint, self._procedures[joint])
 
     def quit(self, joints: Ints | None = None) -> None:
-        """Stop calibrating; the joints stay without calibration, and idle."""
+        """Abort; the joints stay uncalibrated and idle."""
         for joint in self._runs.keys() & set(self._board.select.indices(joints).tolist()):
             self._board.table.calibrated[joint] = False
             self._board.force_mode(joint, Mode.NOT_CONFIGURED)
             del self._runs[joint]
 
     def leads_any(self, joints: Ints) -> bool:
-        """Whether any of `joints` is still on its way."""
+        """Whether any of `joints` is still being calibrated."""
         return not self._runs.keys().isdisjoint(joints.tolist())
 
     @property
     def busy(self) -> bool:
-        """Whether any joint is still on its way."""
+        """Whether any joint is still being calibrated."""
         return bool(self._runs)
 
     def step(self, dt: float) -> None:
@@ -117,7 +117,7 @@ class Calibrator:
             return
         for joint, run in list(self._runs.items()):
             if self._board.table.modes[joint] is not Mode.CALIBRATING:
-                del self._runs[joint]  # force-idle or a fault took the joint away
+                del self._runs[joint]  # force-idle or a fault has changed the joint's mode
                 continue
             run.elapsed += dt
             if run.elapsed > run.procedure.timeout:

@@ -1,8 +1,8 @@
-"""Orders to a control board, each accepted only in the modes that it belongs to.
+"""Commands to a control board, each accepted only in its control modes.
 
-In: joints by name or number, values in SI units (duty cycles in percent). A command is carried out
-for all its joints or refused for all, with a typed error; positions are clipped to the limits and
-the answer says where.
+In: joints by name or number, values in SI units (duty cycles in percent). A command is executed for
+all its joints or rejected for all, with a typed error; positions are clipped to the limits, and
+the result says which.
 """
 
 from __future__ import annotations
@@ -18,36 +18,36 @@ from robocomp_dsl.hardware.control.joints import Bools, Floats, Ints, numbers
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 
 Joints: TypeAlias = Sequence[str] | Sequence[int] | Ints | None
-"""Which joints: names, numbers, or None for all."""
+"""Selects joints: names, numbers, or None for all."""
 
 Values: TypeAlias = Sequence[float] | Floats | float
 
 
 class Commands:
-    """What a client may ask of a board."""
+    """The commands of a board."""
 
     def __init__(self, board: Board) -> None:
         self._board = board
 
     def set_mode(self, joints: Joints, mode: Mode | Sequence[Mode]) -> None:
-        """Ask for control modes, one for all joints or one for each."""
+        """Request control modes, one for all joints or one per joint."""
         chosen = self._board.select.indices(joints)
         requested = [mode] * len(chosen) if isinstance(mode, Mode) else list(mode)
         numbers("modes", np.zeros(len(requested)), len(chosen))
         self._board.set_modes(chosen, requested)
 
     def set_interaction(self, joints: Joints, mode: Interaction) -> None:
-        """Make joints stiff or compliant, whatever their control mode."""
+        """Make joints stiff or compliant, independent of the control mode."""
         chosen = self._board.select.indices(joints)
         self._board.set_interactions(chosen, [mode] * len(chosen))
 
     def position_move(self, joints: Joints, goal: Values) -> Bools:
-        """Go to `goal` [rad] by minimum jerk at the reference speed; where goals were clipped."""
+        """Minimum-jerk motion to `goal` [rad] at the reference speed; which goals were clipped."""
         chosen = self._in(joints, "position_move", Mode.POSITION, Mode.MIXED)
         return self._move(chosen, numbers("goal", goal, len(chosen)))
 
     def relative_move(self, joints: Joints, way: Values) -> Bools:
-        """Go by `way` [rad] from where the reference is now."""
+        """Minimum-jerk motion by `way` [rad] from the current reference."""
         chosen = self._in(joints, "relative_move", Mode.POSITION, Mode.MIXED)
         here = self._board.references.trajectory.position[chosen]
         return self._move(chosen, here + numbers("way", way, len(chosen)))
@@ -61,7 +61,7 @@ class Commands:
         return clipped
 
     def velocity_move(self, joints: Joints, velocity: Values, hold: float = np.inf) -> Bools:
-        """Turn at `velocity` [rad/s], for `hold` seconds; where velocities were clipped."""
+        """Move at `velocity` [rad/s] for `hold` seconds; returns which were clipped."""
         chosen = self._in(joints, "velocity_move", Mode.VELOCITY, Mode.MIXED)
         values = numbers("velocity", velocity, len(chosen))
         most = self._board.limits.speed[chosen]
@@ -71,7 +71,7 @@ class Commands:
         return clipped
 
     def set_velocity(self, joints: Joints, velocity: Values) -> Bools:
-        """Turn at `velocity` [rad/s] without a ramp; where velocities were clipped."""
+        """Move at `velocity` [rad/s] without a ramp; returns which were clipped."""
         chosen = self._in(joints, "set_velocity", Mode.VELOCITY_DIRECT)
         values = numbers("velocity", velocity, len(chosen))
         most = self._board.limits.speed[chosen]
@@ -81,7 +81,7 @@ class Commands:
         return clipped
 
     def set_torque(self, joints: Joints, torque: Values) -> Bools:
-        """Reference torques [N m]; where they were clipped."""
+        """Reference torques [N m]; returns which were clipped."""
         chosen = self._in(joints, "set_torque", Mode.TORQUE)
         for joint in chosen.tolist():
             spec = self._board.spec.joints[joint]
@@ -93,20 +93,20 @@ class Commands:
         )
 
     def set_duty(self, motors: Joints, duty: Values) -> Bools:
-        """Duty cycles [%] of motors; where they were clipped to +-100."""
+        """Duty cycles [%] of motors; returns which were clipped to +-100."""
         chosen = self._in(motors, "set_duty", Mode.PWM)
         values = numbers("duty", duty, len(chosen))
         return self._store(self._board.law.duty, chosen, values, np.full(len(chosen), 100.0))
 
     def set_current(self, motors: Joints, current: Values) -> Bools:
-        """Currents [A] of motors; where they were clipped to the largest."""
+        """Currents [A] of motors; returns which were clipped to the maximum."""
         chosen = self._in(motors, "set_current", Mode.CURRENT)
         values = numbers("current", current, len(chosen))
         most = self._board.motors.max_current[chosen]
         return self._store(self._board.law.current, chosen, values, most)
 
     def stop(self, joints: Joints = None) -> None:
-        """End motions: trajectories stop where they are, velocities ramp down."""
+        """Stop motions: trajectories end at the current reference, velocities ramp down."""
         self._board.references.stop(self._board.select.indices(joints))
 
     def motion_done(self, joints: Joints = None) -> Bools:
@@ -124,7 +124,7 @@ class Commands:
         return clipped
 
     def _in(self, joints: Joints, command: str, *modes: Mode) -> Ints:
-        """The joints, if all of them take this command now."""
+        """The joints, if all of them accept this command now."""
         chosen = self._board.select.indices(joints)
         for joint in chosen.tolist():
             present = self._board.table.modes[joint]

@@ -1,11 +1,11 @@
-"""Why a control board refuses a command. Nothing has changed then.
+"""Errors of a control board that rejects a command; its state is then unchanged.
 
 CommandRefused
 └── ControlRefused
     ├── UnknownJoint     no joint has this name or number
-    ├── BadValue         NaN, infinity, a wrong number of values, a negative gain
-    ├── WrongMode        the joint is in a mode that does not take this command
-    ├── ModeRefused      this mode cannot follow the present one
+    ├── BadValue         NaN, infinity, wrong number of values, negative gain
+    ├── WrongMode        the joint is in a mode that does not accept the command
+    ├── ModeRefused      the current mode does not permit this one
     ├── NoSpeed          the reference speed is zero: the motion would never end
     └── NotEquipped      the joint has no torque control
 """
@@ -16,7 +16,7 @@ from robocomp_dsl.hardware.devices.errors import CommandRefused
 
 
 class ControlRefused(CommandRefused):
-    """Base of what a control board refuses."""
+    """Base of all rejections by a control board."""
 
 
 class UnknownJoint(ControlRefused):
@@ -24,15 +24,15 @@ class UnknownJoint(ControlRefused):
 
 
 class BadValue(ControlRefused):
-    """A value that no joint can take."""
+    """An invalid value."""
 
 
 class WrongMode(ControlRefused):
-    """The command belongs to another control mode."""
+    """The command needs another control mode."""
 
 
 class ModeRefused(ControlRefused):
-    """The control mode cannot be entered from here."""
+    """The control mode cannot be entered from the current one."""
 
 
 class NoSpeed(ControlRefused):
@@ -40,4 +40,4 @@ class NoSpeed(ControlRefused):
 
 
 class NotEquipped(ControlRefused):
-    """The joint lacks what the command needs."""
+    """The joint lacks the equipment for the command."""

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from robocomp_dsl.hardware.control.errors import BadValue, UnknownJoint
 
 _LARGEST = 1e12
-"""Of any number that a board takes, whatever its unit: what is worked out of such is finite."""
+"""Maximum magnitude of any input, so that all computed values are finite."""
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -55,9 +55,9 @@ class MotorSpec:
 
 @dataclass(frozen=True, eq=False)
 class BoardSpec:
-    """The n joints of a board, its n motors, and motor angle = gear * coupling @ joint angle.
+    """The n joints of a board, its n motors; motor angle = gear * coupling @ joint angle.
 
-    `coupling` (n, n) is the identity unless joints share motors; joints whose rows mix are one set
+    `coupling` (n, n) is the identity unless joints share motors; joints with mixed rows form a set
     and change their mode together.
     """
 
@@ -81,7 +81,7 @@ class BoardSpec:
 
     @cached_property
     def prismatic(self) -> Bools:
-        """Which joints slide, (n,)."""
+        """Which joints are prismatic, (n,)."""
         return np.array([joint.prismatic for joint in self.joints])
 
     def part(self, names: Sequence[str]) -> BoardSpec:
@@ -95,20 +95,20 @@ class BoardSpec:
         )
 
     def column(self, name: str) -> Floats:
-        """One number of every joint, (n,)."""
+        """One attribute of every joint, (n,)."""
         return np.array([float(getattr(joint, name)) for joint in self.joints])
 
     def motor_column(self, name: str) -> Floats:
-        """One number of every motor, (n,)."""
+        """One attribute of every motor, (n,)."""
         return np.array([float(getattr(motor, name)) for motor in self.motors])
 
     def coupled(self, joint: int) -> Ints:
-        """All joints that share motors with `joint`, itself included, ascending."""
+        """All joints that share motors with `joint`, including itself, ascending."""
         return self._coupled_blocks[joint]
 
     @cached_property
     def _coupled_blocks(self) -> list[Ints]:
-        """The set of each joint; sets are merged along the entries off the diagonal."""
+        """The set of each joint; sets are merged along the off-diagonal entries."""
         sets = {i: [i] for i in range(len(self.joints))}
         for row, column in np.argwhere(self.coupling).tolist():
             first, other = sets[row], sets[column]
@@ -119,7 +119,7 @@ class BoardSpec:
 
 
 def _reverses(coupling: Floats) -> bool:
-    """Whether every joint has a motor; most boards need no search for their rank."""
+    """Whether every joint has its own motor, so that no rank search is needed."""
     own = np.diagonal(coupling)
     if np.count_nonzero(coupling) == np.count_nonzero(own):
         return bool(own.all())
@@ -128,7 +128,7 @@ def _reverses(coupling: Floats) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Selector:
-    """Turns what a caller names or numbers into joint indices."""
+    """Converts names or numbers to joint indices."""
 
     names: tuple[str, ...]
 
@@ -137,7 +137,7 @@ class Selector:
         return {name: i for i, name in enumerate(self.names)}
 
     def indices(self, joints: Sequence[str] | Sequence[int] | Ints | None) -> Ints:
-        """Indices of `joints`, all for None. `UnknownJoint` if not there, or there twice."""
+        """Indices of `joints`, all for None. `UnknownJoint` for missing or repeated joints."""
         if joints is None:
             return np.arange(len(self.names))
         found = np.array([self.index(joint) for joint in joints], dtype=np.int64)
@@ -157,7 +157,7 @@ class Selector:
 
 
 def numbers(name: str, values: object, size: int) -> Floats:
-    """`values` as (size,) finite numbers, one number standing for all. Raises `BadValue`."""
+    """`values` as (size,) finite numbers; a scalar is repeated. Raises `BadValue`."""
     try:
         array = np.asarray(values, dtype=float)
     except (TypeError, ValueError):
@@ -166,7 +166,7 @@ def numbers(name: str, values: object, size: int) -> Floats:
         array = np.full(size, float(array))
     if array.shape != (size,):
         raise BadValue(f"`{name}` has {array.size} values, {size} are needed")
-    if not (np.abs(array) <= _LARGEST).all():  # so it is where one is no number
+    if not (np.abs(array) <= _LARGEST).all():  # or a value is not a number
         if not np.isfinite(array).all():
             raise BadValue(f"`{name}` holds NaN or infinity")
         raise BadValue(f"`{name}` is beyond {_LARGEST:g}, which nothing here reaches")
@@ -174,9 +174,9 @@ def numbers(name: str, values: object, size: int) -> Floats:
 
 
 def run(places: Ints) -> slice | Ints:
-    """The same as an index: where they follow each other a slice, which is far cheaper.
+    """The same as an index: a slice for consecutive joints, which is far cheaper.
 
-    What is found by a slice is a view.
+    Indexing with a slice gives a view.
     """
     first = int(places[0]) if len(places) else 0
     if np.array_equal(places, np.arange(first, first + len(places))):

@@ -1,4 +1,4 @@
-"""The modes of all joints of a board. Coupled joints change together, or not at all."""
+"""The modes of all joints of a board. Coupled joints change together or not at all."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class ModeTable:
 
     @property
     def interactions(self) -> tuple[Interaction, ...]:
-        """Interaction modes; a joint with a fault reads stiff and gets its own back afterwards.
+        """Interaction modes; a joint with a fault reports stiff until the fault is cleared.
 
-        So does one that yields, which reads compliant.
+        A joint made compliant by `make_compliant` reports compliant.
         """
         if Mode.HW_FAULT not in self.modes and not self._yielding:
             return tuple(self._interactions)
@@ -40,15 +40,15 @@ class ModeTable:
 
     @property
     def effective(self) -> list[Mode]:
-        """The modes by which the motors are driven: what calibration does under its own name."""
+        """The modes that drive the motors; during calibration they differ from `modes`."""
         return [self.acting.get(i, mode) for i, mode in enumerate(self.modes)]
 
     def coupled(self, joints: Ints) -> Ints:
-        """`joints` and all that are coupled with them, ascending."""
+        """`joints` and all joints coupled with them, ascending."""
         return np.unique(np.concatenate([self._sets[i] for i in joints.tolist()] or [joints]))
 
     def request(self, joints: Ints, requested: Sequence[Mode]) -> Ints:
-        """Change the control modes; the joints that really changed. `ModeRefused` changes none."""
+        """Change control modes; returns the changed joints. `ModeRefused` changes none."""
         asked: dict[int, Mode] = {}
         for joint, mode in zip(joints.tolist(), requested, strict=True):
             for coupled in self._sets[joint].tolist():
@@ -84,7 +84,7 @@ class ModeTable:
             self._yielding.add(joint)
 
     def request_interaction(self, joints: Ints, requested: Sequence[Interaction]) -> None:
-        """Change the interaction modes. Raises `NotEquipped`, `ModeRefused`; then none changes."""
+        """Change interaction modes; all or none. Raises `NotEquipped`, `ModeRefused`."""
         for joint, interaction in zip(joints.tolist(), requested, strict=True):
             spec = self._spec.joints[joint]
             if interaction is Interaction.COMPLIANT and not spec.torque_control:

@@ -1,6 +1,6 @@
-"""Control and interaction modes, and which may follow which (YARP IControlMode, icub-tests).
+"""Control and interaction modes, and their transitions (YARP IControlMode, icub-tests).
 
-In: the present mode of a joint and a wish. Out: the mode that it gets, or `ModeRefused`.
+In: the current mode of a joint and the requested mode. Out: the new mode, or `ModeRefused`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Mode(StrEnum):
 
 
 class Interaction(StrEnum):
-    """Stiff: follow the reference with all torque. Compliant: as a spring and a damper."""
+    """Stiff: follow the reference with full torque. Compliant: act as a spring and damper."""
 
     STIFF = "stif"
     COMPLIANT = "comp"
@@ -50,7 +50,7 @@ SELECTABLE = (
     Mode.PWM,
     Mode.CURRENT,
 )
-"""Modes that a command may request; the other ones are states of the joint."""
+"""Modes that a command may request; the others are states of the joint."""
 
 POSITIONED = (
     Mode.POSITION,
@@ -63,10 +63,10 @@ POSITIONED = (
 
 
 def next_mode(name: str, present: Mode, requested: Mode, *, calibrated: bool) -> Mode:
-    """The mode that joint `name` gets when `wanted` is asked for; raises `ModeRefused`.
+    """The new mode of joint `name` after the request `requested`; raises `ModeRefused`.
 
-    Force-idle always leads to idle and is the only way out of a hardware fault. A joint that is
-    not calibrated may only rest.
+    Force-idle always leads to idle and is the only exit from a hardware fault. An uncalibrated
+    joint may only be idle.
     """
     if requested not in SELECTABLE:
         raise ModeRefused(f"`{name}`: `{requested}` is a state, it cannot be asked for")

@@ -17,7 +17,7 @@ ROOM_TEMPERATURE = 25.0
 class Motors:
     """All arrays (n,), by motor.
 
-    `overloadable` is True if any can reach its largest current, `hot` if any is too hot.
+    `overloadable`: a motor can reach its maximum current; `hot`: a motor is too hot.
     """
 
     def __init__(self, spec: BoardSpec) -> None:
@@ -30,10 +30,10 @@ class Motors:
         self.temperature_limit = spec.motor_column("temperature_limit")
         self.temperature = np.full(len(self.gear), ROOM_TEMPERATURE)
         self.hot = False
-        self.zero = np.zeros(len(self.gear))  # counts at motor angle 0, as set by the user
+        self.zero = np.zeros(len(self.gear))  # counts at motor angle 0, set by the user
         self.to_motor = self.gear[:, None] * spec.coupling
         self._torque_to_motor = np.linalg.inv(self.to_motor).T
-        # joint torque per motor current, and the joint damping that the back EMF makes
+        # joint torque per motor current, and the joint damping by the back EMF
         self._per_amp = self.to_motor.T * self.torque_constant
         bemf = self.torque_constant**2 / self.resistance
         self.back_emf = self.to_motor.T @ (bemf[:, None] * self.to_motor)
@@ -47,7 +47,7 @@ class Motors:
         self.overloadable = self._may_overload()
 
     def current(self, torque: Floats) -> Floats:
-        """Motor currents [A] that make the joint torques (n,) [N m]."""
+        """Motor currents [A] for joint torques (n,) [N m]."""
         current: Floats = self._to_current.dot(torque)
         return current
 
@@ -57,7 +57,7 @@ class Motors:
         return torque
 
     def stall_current(self, duty: Floats) -> Floats:
-        """Currents [A] of duty cycles [%] at standstill; motion takes `back_emf` off the torque."""
+        """Currents [A] of duty cycles [%] at standstill; `back_emf` is the effect of motion."""
         current: Floats = self.supply * duty / (100.0 * self.resistance)
         return current
 
@@ -73,7 +73,7 @@ class Motors:
         return np.minimum(np.maximum(duty, -100.0), 100.0)
 
     def duty_of_speed(self, joint_velocity: Floats) -> Floats:
-        """Duty cycles [%] that the back EMF of motors makes up for, beyond +-100 for fast ones."""
+        """Duty cycles [%] equivalent to the back EMF, beyond +-100 for fast motors."""
         duty: Floats = self._duty_of_speed @ joint_velocity
         return duty
 
@@ -82,7 +82,7 @@ class Motors:
         return np.asarray(np.floor(self._to_counts.dot(joint_angles)) + self.zero)
 
     def set_encoder(self, motors: Ints, counts: Floats, joint_angles: Floats) -> None:
-        """Let the counters of `motors` stand at `counts` now."""
+        """Set the encoder counts of `motors`."""
         self.zero[motors] += counts - self.encoder(joint_angles)[motors]
 
     def speed(self, joint_velocities: Floats) -> Floats:
@@ -90,7 +90,7 @@ class Motors:
         return np.asarray(self._to_counts.dot(joint_velocities))
 
     def set_temperature(self, temperature: Floats) -> None:
-        """What thermometers (n,) tell now [degC]."""
+        """Set the measured temperatures (n,) [degC]."""
         self.temperature = temperature
         self.hot = bool((temperature > self.temperature_limit).any())
 
@@ -102,5 +102,5 @@ class Motors:
         self.overloadable = self._may_overload()
 
     def _may_overload(self) -> bool:
-        """Whether torques within the joints' limits can bring a motor to its largest current."""
+        """Whether torques within the joints' limits can exceed a motor's maximum current."""
         return bool((self._most_current >= self.max_current).any())

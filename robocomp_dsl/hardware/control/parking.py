@@ -1,6 +1,6 @@
-"""Parking: bring joints to a pose in which they may be switched off, and switch them off.
+"""Parking: move joints to a pose in which they may be switched off, and switch them off.
 
-In: a pose and a speed. Out: orders to the board: position mode, one trajectory, then idle.
+In: a pose and a speed. Out: commands to the board: position mode, one trajectory, then idle.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from robocomp_dsl.hardware.control.joints import Floats, Ints, numbers
 from robocomp_dsl.hardware.control.modes import Mode
 
 ARRIVED = 0.05
-"""A joint this near to its place counts as parked [rad]."""
+"""A joint within this distance counts as parked [rad]."""
 
 
 class ParkState(Enum):
-    """Where one joint is with parking."""
+    """Parking state of one joint."""
 
     AWAY = "away"
     PARKING = "parking"
@@ -44,7 +44,7 @@ class Parking:
         board.motion_overrides.append(self.step)
 
     def park(self, joints: Ints | None = None) -> None:
-        """Begin with `joints`, or all. Raises `ModeRefused` for faults and missing calibration."""
+        """Start with `joints`, or all. Raises `ModeRefused` for faults and missing calibration."""
         chosen = self._board.select.indices(joints)
         self._board.set_modes(chosen, [Mode.POSITION] * len(chosen))
         speed = np.full(len(chosen), self._speed)
@@ -56,7 +56,7 @@ class Parking:
         self._leading = True
 
     def quit(self, joints: Ints | None = None) -> None:
-        """Stop parking; joints on their way stay where they are, in position mode."""
+        """Abort; moving joints stop at their position, in position mode."""
         chosen = self._board.select.indices(joints).tolist()
         away = [i for i in chosen if self.states[i] is ParkState.PARKING]
         self._board.references.stop(np.array(away, dtype=np.int64))
@@ -64,12 +64,12 @@ class Parking:
             self.states[joint] = ParkState.AWAY
 
     def leads_any(self, joints: Ints) -> bool:
-        """Whether any of `joints` is still on its way."""
+        """Whether any of `joints` is still being parked."""
         return any(self.states[i] is ParkState.PARKING for i in joints.tolist())
 
     @property
     def busy(self) -> bool:
-        """Whether any joint is still on its way."""
+        """Whether any joint is still being parked."""
         return ParkState.PARKING in self.states
 
     def step(self, dt: float) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from robocomp_dsl.hardware.control.faults import Codes
 from robocomp_dsl.hardware.control.joints import Floats
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import Codes
 
 
 @dataclass(frozen=True, eq=False, slots=True)

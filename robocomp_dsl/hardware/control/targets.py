@@ -1,6 +1,6 @@
-"""The last references of a board, as they were accepted.
+"""The last accepted references of a board.
 
-In: joints. Out: numbers (n,), after clipping to the limits; a change of mode begins them anew.
+In: joints. Out: numbers (n,), after clipping to the limits; a mode change resets them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from robocomp_dsl.hardware.control.joints import Floats
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Targets:
-    """All arrays in the order asked for: rad, rad/s, N m, percent, A.
+    """All arrays in the order of the request: rad, rad/s, N m, percent, A.
 
     `position` is the goal of a motion, or the last direct position; `velocity` the goal of the
     ramp; the other fields belong to the modes of their names.

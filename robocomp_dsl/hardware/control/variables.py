@@ -1,6 +1,6 @@
-"""Remote variables: settings of a board that clients read and write by name, as lists of numbers.
+"""Remote variables: named settings of a board, each a list of numbers.
 
-In: a key and values. Out: values. A key knows how long its list is and what it may hold.
+In: a key and values. Out: values. A key defines the length of its list and the valid values.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from robocomp_dsl.hardware.control.settings import ControlSettings
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """`write` is None for what can only be read."""
+    """`write` is None for read-only variables."""
 
     read: Callable[[], Floats]
     write: Callable[[Floats], None] | None
@@ -64,11 +64,11 @@ class RemoteVariables:
         return sorted(self.variables)
 
     def get(self, key: str) -> Floats:
-        """The values of `key`; raises `BadValue` for a key that is not there."""
+        """The values of `key`; raises `BadValue` for an unknown key."""
         return np.array(self._find(key).read())
 
     def set(self, key: str, values: object) -> None:
-        """Write `values`; raises `BadValue` for a key, a number or a length that does not fit."""
+        """Write `values`; raises `BadValue` for an unknown key or invalid values."""
         variable = self._find(key)
         if variable.write is None:
             raise ControlRefused(f"`{key}` can only be read")

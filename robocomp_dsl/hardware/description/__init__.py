@@ -1,1 +1,1 @@
-"""What a device or a world is, as data: scenes, skin, and the kind of a model file."""
+"""Devices and worlds as data: scenes, skin, and the kind of a model file."""

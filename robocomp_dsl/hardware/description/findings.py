@@ -1,40 +1,35 @@
-"""What is not as described in a model, and the error for one that cannot be loaded."""
+"""Findings in a model file, and the error for a file that cannot be loaded."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.hardware.devices.errors import SceneError
 
 Kind: TypeAlias = Literal[
-    "file",  # the file says something that cannot be understood
-    "tree",  # parts that do not make one tree
+    "file",  # the file contains something invalid
+    "tree",  # parts that do not form one tree
     "joint",
-    "mass",  # something moves and weighs nothing
-    "mesh",  # a mesh that is shown as a box
+    "mass",  # a moving part without mass
+    "mesh",  # a mesh replaced by its bounding box
     "texture",
     "size",
-    "overlap",  # bodies that collide before anything has moved
+    "overlap",  # bodies that collide in the initial pose
 ]
 
+MODEL_TEXT = SourceText("")
+"""The text of a model file: whoever reads one knows its path, findings hold only the line."""
 
-@dataclass(frozen=True, slots=True)
-class ModelFinding:
-    """`said` is for the user; `subject` is the node or link, `line` counts from 1, 0: unknown."""
 
-    kind: Kind
-    subject: str
-    message: str
-    line: int = 0
-
-    def __str__(self) -> str:
-        return f"line {self.line}: {self.message}" if self.line else self.message
+def model_finding(kind: Kind, subject: str, message: str, line: int = 0) -> Finding:
+    """A finding about the node or link `subject`; `line` counts from 1, 0: unknown."""
+    return Finding(Location(MODEL_TEXT, line), message, kind=kind, subject=subject)
 
 
 class ModelFileError(SceneError):
-    """A model file that cannot be used: the first reason, its line (0: unknown), all reasons."""
+    """A model file that cannot be used; `findings` are all reasons, `line` 0: unknown."""
 
-    def __init__(self, message: str, line: int = 0, faults: tuple[ModelFinding, ...] = ()) -> None:
+    def __init__(self, message: str, line: int = 0, findings: tuple[Finding, ...] = ()) -> None:
         super().__init__(f"line {line}: {message}" if line else message)
-        self.faults = faults or (ModelFinding("file", "", message, line),)
+        self.findings = findings or (model_finding("file", "", message, line),)

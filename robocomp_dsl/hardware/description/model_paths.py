@@ -1,7 +1,7 @@
-"""Where the meshes and textures of a model file are.
+"""Finds the meshes and textures of a model file.
 
-In: a name as it is written, the file it stands in, and folders of packages. Out: a path, also where
-nothing is there, so that the message can name it.
+In: a name, the file that contains it, and folders of packages. Out: a path, even if no such file
+exists, so that messages can show it.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from pathlib import Path
 from urllib.parse import unquote
 
 VARIABLES = ("ROBOCOMP_PACKAGE_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH", "GAZEBO_MODEL_PATH")
-"""Folders with packages inside them, or packages themselves, with `:` between."""
+"""Variables with folders of packages, or packages, separated by `:`."""
 
 
 def resolve(written: str, model: Path, packages: Sequence[Path] = ()) -> Path:
     """`package://NAME/PATH`, `model://NAME/PATH`, `file:///PATH`, or a path beside the model.
 
     A package is searched in `packages`, in the folders of `VARIABLES`, then in every folder
-    above the model: itself, or beside it.
+    above the model: the folder itself, or a sibling.
     """
     scheme, _, rest = written.partition("://")
     if not rest:
@@ -33,7 +33,7 @@ def resolve(written: str, model: Path, packages: Sequence[Path] = ()) -> Path:
 
 
 def _homes(name: str, model: Path, packages: Sequence[Path]) -> Iterator[Path]:
-    """Where the package `name` may be."""
+    """Possible folders of the package `name`."""
     folders = [
         Path(entry) for var in VARIABLES for entry in os.environ.get(var, "").split(":") if entry
     ]
@@ -41,7 +41,7 @@ def _homes(name: str, model: Path, packages: Sequence[Path]) -> Iterator[Path]:
         if folder.name == name:
             yield folder
         yield folder / name
-        yield folder / "share" / name  # as an installed workspace has them
+        yield folder / "share" / name  # the layout of an installed workspace
     for above in model.absolute().parents:
         if above.name == name:
             yield above

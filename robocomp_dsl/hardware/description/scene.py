@@ -1,6 +1,6 @@
-"""A body and its world as devices and simulators take it: frames, shapes and devices, no text.
+"""A body and its world as data for devices and simulators: frames, shapes and devices.
 
-In: plain data, as it is written beside a generated component. Out: frozen values. Lengths are mm,
+In: plain data, as stored beside a generated component. Out: immutable values. Lengths are mm,
 angles rad, in the frame of `axes` (x right, y up, z ahead).
 """
 
@@ -26,9 +26,9 @@ JOINTS = ("joint", "prismaticjoint")
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """How a frame moves: a hinge (rad) or a slide (mm) along an axis.
+    """Motion of a frame: a hinge (rad) or a slide (mm) along an axis.
 
-    The value of a hinge is its angle about the axis, that of a slide its way from `offset`.
+    The value of a hinge is its angle about the axis, that of a slide its distance from `offset`.
     `force` (N·m or N), `gear` and `velocity` are those of its motor.
     """
 
@@ -45,12 +45,11 @@ class Motion:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A frame in its `parent`: T(place) · Rx · Ry · Rz of `turn`, at the start.
+    """A frame in its `parent`; initially T(place) · Rx · Ry · Rz of `turn`.
 
-    `drives` marks a mobile base, which leaves its place along x and z and turns about y. With
-    `physics` it falls and is pushed; `mass` is in kg. A frame that belongs to the model file of
-    the scene has its kind in `model_part` (body, joint or mark) and no pose here; only a body
-    can hold other frames.
+    `drives` marks a mobile base, which moves along x and z and turns about y. With `physics` it is
+    subject to forces; `mass` is in kg. A frame from the scene's model file has its kind in
+    `model_part` (body, joint or mark) and no pose here; only a body can contain other frames.
     """
 
     id: str
@@ -68,8 +67,8 @@ class Frame:
 class Box:
     """A box in a frame; `size` is its extent, the last along `normal`. `colour` is `#rrggbb`.
 
-    `texture` is the file of a picture instead, repeated every `tile` mm. A `screen` shows images
-    over its whole face, the texture or the colour at first.
+    `texture` is a picture file used instead, repeated every `tile` mm. A `screen` shows images on
+    its whole face, initially the texture or the colour.
     """
 
     id: str
@@ -99,7 +98,7 @@ class Mesh:
 
 @dataclass(frozen=True, slots=True)
 class Device:
-    """Something to be served: its kind (the tag), the frame it sits on, and its settings."""
+    """A device: its kind (the tag), its frame, and its settings."""
 
     id: str
     kind: str
@@ -109,15 +108,15 @@ class Device:
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """A file in MJCF or URDF that a scene begins with, in the units of MuJoCo.
+    """An MJCF or URDF file on which a scene is based, in the units of MuJoCo.
 
-    `start` are positions of joints (one number, four of a ball, seven of a free body) and `held`
-    the commands of motors that no device drives, by name, where these are not 0. What moves without
-    mass has at least `boundmass` kg. `couplings` of boards whose n joints share motors have n · n
-    numbers: motor angles are `gear` times this matrix, row by row, times joint angles. `pulled` are
-    the joints that motors of tendons move, by the names of these.
-    `transmissions`: where a board commands other joints than the model has, angles of the model's
-    are this matrix times those of the board.
+    `start` has positions of joints (one number, four of a ball, seven of a free body) and `held`
+    the commands of motors without a device, by name, where these are not 0. Moving parts have at
+    least `boundmass` kg. `couplings` of boards whose n joints share motors have n · n numbers:
+    motor angles are `gear` times this matrix, row by row, times joint angles. `pulled` names the
+    joints that are moved by motors of tendons. `transmissions`: if a board commands other
+    joints than the model has, angles of the model's joints are this matrix times those of the
+    board.
     """
 
     file: Path
@@ -131,7 +130,7 @@ class Model:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """All of it. Frames come after their parents; the first is the root."""
+    """The complete scene. Frames follow their parents; the first is the root."""
 
     frames: tuple[Frame, ...] = (Frame(ROOT, ""),)
     boxes: tuple[Box, ...] = ()

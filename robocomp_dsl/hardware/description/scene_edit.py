@@ -1,7 +1,7 @@
-"""Changes of a scene while it is simulated: pure functions from a scene to another one.
+"""Changes of a scene during simulation: pure functions from a scene to a new scene.
 
-In: a scene and what is to be added, moved or taken away. Out: a scene whose frames come after their
-parents again, or `NodeError` with the kind of mistake.
+In: a scene, and parts to add, move or remove. Out: a scene whose frames follow their parents, or
+`NodeError` with the kind of error.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from robocomp_dsl.hardware.description.scene import ROOT, Box, Frame, Mesh, Scen
 from robocomp_dsl.hardware.devices.errors import HardwareError
 
 FIXED = (ROOT, "world")
-"""Nodes that stay: what a world begins with."""
+"""Nodes that cannot be removed: the initial nodes of a world."""
 
 
 class NodeErrorCode(Enum):
-    """What can be wrong with a change; the names are those of `InnerModelManager`."""
+    """Kinds of errors of a change; the names are those of `InnerModelManager`."""
 
     MISSING = "NonExistingNode"
     NO_ATTRIBUTE = "NonExistingAttribute"
@@ -30,7 +30,7 @@ class NodeErrorCode(Enum):
 
 
 class NodeError(HardwareError):
-    """The change cannot be made; the scene is as it was."""
+    """The change is not possible; the scene is unchanged."""
 
     def __init__(self, code: NodeErrorCode, message: str) -> None:
         super().__init__(message)
@@ -66,7 +66,7 @@ def _shapes(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def frame_of(scene: Scene, id: str) -> Frame:
-    """The frame `id`. Raises `NodeError` for another node and for none."""
+    """The frame `id`. Raises `NodeError` if it does not exist or is not a frame."""
     found = next((frame for frame in scene.frames if frame.id == id), None)
     if found is not None:
         return found
@@ -92,28 +92,28 @@ def _require_new(scene: Scene, id: str) -> None:
 
 
 def add_frame(scene: Scene, frame: Frame) -> Scene:
-    """One more frame."""
+    """Add a frame."""
     _require_parent(scene, frame.parent)
     _require_new(scene, frame.id)
     return replace(scene, frames=(*scene.frames, frame))
 
 
 def add_box(scene: Scene, box: Box) -> Scene:
-    """One more box."""
+    """Add a box."""
     _require_parent(scene, box.frame)
     _require_new(scene, box.id)
     return replace(scene, boxes=(*scene.boxes, box))
 
 
 def add_mesh(scene: Scene, mesh: Mesh) -> Scene:
-    """One more mesh."""
+    """Add a mesh."""
     _require_parent(scene, mesh.frame)
     _require_new(scene, mesh.id)
     return replace(scene, meshes=(*scene.meshes, mesh))
 
 
 def replace_frame(scene: Scene, frame: Frame) -> Scene:
-    """`frame` in the place of the one with its id."""
+    """Replace the frame with the id of `frame`."""
     frame_of(scene, frame.id)
     return replace(
         scene, frames=tuple(frame if old.id == frame.id else old for old in scene.frames)
@@ -121,7 +121,7 @@ def replace_frame(scene: Scene, frame: Frame) -> Scene:
 
 
 def replace_box(scene: Scene, box: Box) -> Scene:
-    """`box` in the place of the one with its id, which must be a box."""
+    """Replace the box with the id of `box`."""
     _require_kind(scene, box.id, scene.boxes, "plane")
     return replace(scene, boxes=tuple(box if old.id == box.id else old for old in scene.boxes))
 
@@ -153,7 +153,7 @@ def subtree(scene: Scene, id: str) -> set[str]:
     if id not in above:
         raise NodeError(NodeErrorCode.MISSING, f"there is no node `{id}`")
     found = {id}
-    for node, parent in above.items():  # parents come first
+    for node, parent in above.items():  # parents precede their children
         if parent in found:
             found.add(node)
     return found
@@ -175,7 +175,7 @@ def _require_changeable(scene: Scene, id: str, done: str) -> None:
 
 
 def remove_node(scene: Scene, id: str) -> Scene:
-    """The scene without a node and all below it."""
+    """The scene without a node and its subtree."""
     _require_changeable(scene, id, "removed")
     gone = subtree(scene, id)
     return replace(
@@ -189,7 +189,7 @@ def remove_node(scene: Scene, id: str) -> Scene:
 
 
 def move_node(scene: Scene, id: str, into: str) -> Scene:
-    """Move a node, with all below it, into another frame; its pose there has the same numbers."""
+    """Move a node with its subtree to another frame; its local pose is unchanged."""
     _require_changeable(scene, id, "moved into another")
     below = subtree(scene, id)
     if any(id == patch.name for skin in scene.skins for patch in skin.patches):

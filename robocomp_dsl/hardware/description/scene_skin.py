@@ -1,8 +1,8 @@
-"""The skin of a scene: which taxels lie where on which limb.
+"""The skin of a scene: positions of taxels on limbs.
 
-In: plain data, as it is written beside a generated component. Out: frozen values, and the geometry
-that frames are told in. Lengths are m; a limb's frame stands in that of its body, whose axes are
-those of the world's own language.
+In: plain data, as stored beside a generated component. Out: immutable values, and the geometry of
+the frames. Lengths are m; a limb's frame is relative to its body, whose axes are those of the
+world's language.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True, slots=True)
 class SkinLimb:
-    """A limb on `body`: its frame is at `origin`, turned by the rows `axes`; it `covers` bodies."""
+    """A limb on `body`: its frame is at `origin`, with the rows `axes`; it `covers` bodies."""
 
     name: str
     body: str
@@ -34,7 +34,7 @@ class SkinLimb:
 
 @dataclass(frozen=True, slots=True)
 class SkinPatch:
-    """Taxels of one kind on one limb, each a row: id, point, normal.
+    """Taxels of one kind on one limb, one row each: id, point, normal.
 
     `gain` is in newtons per count, `floor` and `saturation` are in counts.
     """
@@ -49,7 +49,7 @@ class SkinPatch:
 
 @dataclass(frozen=True, slots=True)
 class Skin:
-    """What is taken away, moved and kept as one."""
+    """Patches to remove, move or merge."""
 
     id: str
     limbs: tuple[SkinLimb, ...] = ()
@@ -71,7 +71,7 @@ class Skin:
         )
 
     def moved_to(self, body: str) -> Skin:
-        """The skin of one limb on another body."""
+        """The skin of a limb moved to another body."""
         return replace(self, limbs=tuple(replace(limb, body=body) for limb in self.limbs))
 
 
@@ -85,7 +85,7 @@ def _tuple(value: Any) -> Any:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Mount:
-    """Where a limb is, as a simulator counts: `origin` (3,) m, `axes` (3, 3) as columns."""
+    """Pose of a limb in simulator conventions: `origin` (3,) m, `axes` (3, 3) as columns."""
 
     name: str
     body: str

@@ -1,6 +1,6 @@
-"""Devices of one process, put together as robotinterface of YARP does it, without a network.
+"""Manages the devices of one process like YARP's robotinterface, without a network.
 
-In: a description (`description.py`) and the kinds of devices that there are (`kinds.py`). Out:
-devices that are opened, attached to one another, calibrated, parked and closed in the right order
-(`conductor.py`). `check.py` judges a description before anything is opened.
+In: a plan (`description.py`) and the available kinds of devices (`kinds.py`). Out: devices that are
+opened, attached, calibrated, parked and closed in order (`manager.py`). `check.py` validates a
+plan before any device is opened.
 """

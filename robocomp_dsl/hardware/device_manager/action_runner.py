@@ -17,7 +17,7 @@ from robocomp_dsl.hardware.device_manager.description import Phase
 
 @dataclass(slots=True, eq=False)
 class _RunningAction:
-    """An action on a device, and the phase in which it began."""
+    """An action on a device, and the phase in which it started."""
 
     device: str
     phase: Phase
@@ -57,12 +57,12 @@ class ActionRunner:
             self._changed.notify_all()
 
     def enter_phase(self) -> None:
-        """A thread starts a phase; it calls `leave_phase` at its end."""
+        """Called when a thread starts a phase; it calls `leave_phase` at the end."""
         with self._changed:
             self._phases += 1
 
     def leave_phase(self) -> None:
-        """The thread has ended its phase."""
+        """Called when the thread has finished its phase."""
         with self._changed:
             self._phases -= 1
             self._changed.notify_all()
@@ -87,7 +87,7 @@ class ActionRunner:
             return True
 
     def _all_waiting(self) -> bool:
-        """Whether all wait: actions for the next step, phases for running actions."""
+        """Whether all threads wait: actions for the next step, phases for running actions."""
         if self._waiting != len(self._tasks) or len(self._awaited) < self._phases:
             return False
         return not any(over() for over in self._awaited)
@@ -132,9 +132,9 @@ class ActionRunner:
         phase: Phase | None = None,
         seconds: float | None = None,
     ) -> bool:
-        """Wait until no action that began in `phase` (None: any phase) runs; return whether so.
+        """Wait for all actions of `phase` (None: any phase); returns whether all have ended.
 
-        `cancelled()` and the end of `seconds` end the wait earlier.
+        `cancelled()` and the time-out of `seconds` end the wait earlier.
         """
 
         def over() -> bool:
@@ -153,6 +153,6 @@ class ActionRunner:
             return over()
 
     def take_failures(self, phase: Phase) -> int:
-        """The number of failed actions that began in `phase`, since the last call."""
+        """The number of failed actions of `phase` since the last call."""
         with self._changed:
             return self._failures.pop(phase, 0)

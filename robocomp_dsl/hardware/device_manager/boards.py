@@ -1,7 +1,7 @@
 """Kinds of devices around control boards: the boards, their calibrators, Cartesian controllers.
 
 In: boards or parts of them, simulated or real, by name, and the lock of the thread that steps them.
-Out: kinds for a conductor. Parameters of single joints are written with a dot: `home.elbow = 0.5`.
+Out: kinds for a device manager. Parameters of single joints have a dot: `home.elbow = 0.5`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from robocomp_dsl.hardware.kinematics.cartesian_controller import CartesianContr
 BoardLock = AbstractContextManager[Any]
 
 POLL = 0.005
-"""How often it is looked whether a board has come to the end of something [s]."""
+"""Polling period for the end of an action [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ class BoardDevice:
 
     @property
     def indices(self) -> Ints:
-        """Where its joints are on the board."""
+        """Indices of its joints on the board."""
         return self.board.select.indices(self.joints)
 
     def close(self) -> None:
@@ -85,7 +85,7 @@ class CalibratorDevice:
         self._led: dict[str, _LedBoard] = {}
 
     def attach(self, devices: Mapping[str, Any]) -> None:
-        """Take over boards. Raises `CommandRefused` for other devices and parameters."""
+        """Attach boards. Raises `CommandRefused` for other devices and invalid parameters."""
         boards = {name: _board_of(name, device) for name, device in devices.items()}
         _known_joints(self._spec, boards, ("home", "park", "zero"), ("speed", "timeout"))
         for name, device in boards.items():
@@ -93,7 +93,7 @@ class CalibratorDevice:
                 self._led[name] = self._lead(device)
 
     def detach(self) -> None:
-        """Let go of the boards."""
+        """Detach the boards."""
         for led in self._led.values():
             with led.device.lock:
                 led.device.board.motion_overrides.remove(led.calibrator.step)
@@ -101,10 +101,10 @@ class CalibratorDevice:
         self._led.clear()
 
     def close(self) -> None:
-        """Nothing is held but boards."""
+        """Nothing to release except boards."""
 
     def calibrate(self, target: str, stop: threading.Event) -> None:
-        """Let all joints of a board find their zero; `ActionFailed` names those that do not."""
+        """Find the zero of all joints of a board; `ActionFailed` names the failed joints."""
         led = self._led[target]
         joints = led.device.indices
         _run_until_done(
@@ -115,7 +115,7 @@ class CalibratorDevice:
         _raise_unfinished(f"{target}: not calibrated", bad, stop)
 
     def park(self, target: str, stop: threading.Event) -> None:
-        """Bring all joints of a board to their places; raises `ActionFailed` as `calibrate`."""
+        """Move all joints of a board to their positions; raises `ActionFailed` like `calibrate`."""
         led = self._led[target]
         joints = led.device.indices
         _run_until_done(led.device.lock, partial(led.parking.park, joints), led.parking, stop)
@@ -227,7 +227,7 @@ def _number(spec: DeviceSpec, key: str, usual: float) -> float:
 def _run_until_done(
     turn: BoardLock, begin: Callable[[], None], led: Calibrator | Parking, stop: threading.Event
 ) -> None:
-    """Call `begin`, and poll until done; abort when `stop` is set."""
+    """Call `begin`, and poll until it is complete; abort when `stop` is set."""
     with turn:
         begin()
     while True:
@@ -241,7 +241,7 @@ def _run_until_done(
 
 
 def _raise_unfinished(what: str, joints: list[str], stop: threading.Event) -> None:
-    """Raise `ActionFailed` if joints are left over."""
+    """Raise `ActionFailed` if joints are not finished."""
     if joints:
         early = "stopped before the end, " if stop.is_set() else ""
         raise ActionFailed(f"{what}: {early}{', '.join(joints)}")

@@ -1,49 +1,43 @@
 """Checks a device plan before any device is opened.
 
-In: a description and the kinds that there are. Out: findings, each with its item;
+In: a description and the kinds that there are. Out: findings, each with the name of its device;
 none if the plan is valid. `PlanError` carries them all.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from difflib import get_close_matches
 
+from robocomp_dsl.finding import NOWHERE, Finding
 from robocomp_dsl.hardware.device_manager.description import (
     LONG_RUNNING,
     PHASES_WITH_ACTIONS,
-    Attachment,
     DeviceAction,
     DevicePlan,
-    DeviceSpec,
     Verb,
 )
 from robocomp_dsl.hardware.device_manager.kinds import DeviceKind
 from robocomp_dsl.hardware.devices.errors import HardwareError
 
 
-@dataclass(frozen=True, slots=True)
-class PlanFinding:
-    """A problem with an item of the plan."""
-
-    item: DeviceSpec | Attachment | DeviceAction
-    message: str
-
-
 class PlanError(HardwareError):
     """The plan is invalid; the message has one line per finding."""
 
-    def __init__(self, findings: list[PlanFinding]) -> None:
+    def __init__(self, findings: list[Finding]) -> None:
         super().__init__("\n".join(finding.message for finding in findings))
         self.findings = findings
 
 
-def findings(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> list[PlanFinding]:
+def _finding(device: str, message: str) -> Finding:
+    return Finding(NOWHERE, message, subject=device)
+
+
+def findings(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> list[Finding]:
     """All findings, in the order of the plan."""
     found = [*_devices(plan, kinds), *_attachments(plan, kinds)]
     found += [
-        PlanFinding(action, message)
+        _finding(action.device, message)
         for action in plan.actions
         for message in _action(action, plan, kinds)
     ]
@@ -67,7 +61,7 @@ def attach_order(plan: DevicePlan) -> tuple[str, ...]:
 def calibrator_of(
     action: DeviceAction, plan: DevicePlan, kinds: Mapping[str, DeviceKind]
 ) -> list[str]:
-    """Devices that could calibrate or park for `action`; valid is exactly one."""
+    """Devices that could calibrate or park for `action`; a valid plan has exactly one."""
     if action.by:
         return [action.by]
     known = _kinds(plan, kinds)
@@ -82,42 +76,46 @@ def _kinds(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> dict[str, Devic
     return {device.name: kinds[device.kind] for device in plan.devices if device.kind in kinds}
 
 
-def _devices(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> Iterator[PlanFinding]:
+def _devices(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> Iterator[Finding]:
     seen: set[str] = set()
     for device in plan.devices:
         if device.name in seen:
-            yield PlanFinding(device, f"there are two devices `{device.name}`")
+            yield _finding(device.name, f"there are two devices `{device.name}`")
         seen.add(device.name)
         if device.kind not in kinds:
             message = f"device `{device.name}`: there is no kind `{device.kind}`"
-            yield PlanFinding(device, message + _like(device.kind, kinds))
+            yield _finding(device.name, message + _like(device.kind, kinds))
 
 
-def _attachments(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> Iterator[PlanFinding]:
+def _attachments(plan: DevicePlan, kinds: Mapping[str, DeviceKind]) -> Iterator[Finding]:
     names = {attachment.name for attachment in plan.devices}
     known, order, seen = _kinds(plan, kinds), attach_order(plan), set()
     for attachment in plan.attachments:
         for name in (attachment.device, *attachment.to):
             if name not in names:
-                yield PlanFinding(
-                    attachment, f"attach: there is no device `{name}`" + _like(name, names)
+                yield _finding(
+                    attachment.device, f"attach: there is no device `{name}`" + _like(name, names)
                 )
         if attachment.device in seen:
-            yield PlanFinding(
-                attachment, f"`{attachment.device}` is attached twice; name all devices in one"
+            yield _finding(
+                attachment.device,
+                f"`{attachment.device}` is attached twice; name all devices in one",
             )
         seen.add(attachment.device)
         if len(set(attachment.to)) < len(attachment.to):
-            yield PlanFinding(attachment, f"`{attachment.device}` is attached to a device twice")
+            yield _finding(
+                attachment.device, f"`{attachment.device}` is attached to a device twice"
+            )
         if attachment.device not in order:
-            yield PlanFinding(
-                attachment, f"`{attachment.device}` is attached to itself, or is part of a cycle"
+            yield _finding(
+                attachment.device,
+                f"`{attachment.device}` is attached to itself, or is part of a cycle",
             )
         kind = known.get(attachment.device)
         if kind and len(attachment.to) > kind.max_attached:
             message = f"at most {kind.max_attached}" if kind.max_attached else "none"
-            yield PlanFinding(
-                attachment,
+            yield _finding(
+                attachment.device,
                 f"`{attachment.device}` is attached to {len(attachment.to)} devices;"
                 f" it supports {message}",
             )

@@ -59,7 +59,7 @@ class Attachment:
 
 @dataclass(frozen=True, slots=True)
 class DeviceAction:
-    """`verb` is done to `device` when `phase` has come to `level`.
+    """Executes `verb` on `device` when `phase` reaches `level`.
 
     `by` is the calibrator that calibrates or parks; empty: the only one that is attached to
     `device`.
@@ -74,10 +74,10 @@ class DeviceAction:
 
 @dataclass(frozen=True, slots=True)
 class DevicePlan:
-    """The whole plan. Devices are opened in this order and closed in the opposite one.
+    """The complete plan. Devices are opened in this order and closed in reverse order.
 
     Attachments without an action are made before the first level of startup; all are
-    undone after shutdown. `backwards`: levels of interrupts and shutdown go down.
+    undone after shutdown. `backwards`: levels of interrupts and shutdown descend.
     """
 
     devices: tuple[DeviceSpec, ...]

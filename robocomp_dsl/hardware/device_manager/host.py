@@ -1,10 +1,9 @@
-"""Hosts the devices that a deployment describes for one component.
+"""Hosts the devices that a deployment defines for one component.
 
 In: the environment that the supervisor passes to the process, and the boards of the component,
-simulated or real. Out: devices that run through their phases: startup in a thread of its own, since
-it takes simulated time, shutdown when the component ends. If the time of
-the world is that of a deployment, startup takes its steps in `raise_if_failed`, and in nothing
-else.
+simulated or real. Out: devices that run through their phases. Startup has its own thread, since
+it takes simulated time; shutdown runs when the component stops. If the world follows the clock of
+a deployment, startup advances only in `raise_if_failed`.
 """
 
 from __future__ import annotations
@@ -82,7 +81,7 @@ class DeviceHost:
         return self._manager.ready
 
     def __getitem__(self, name: str) -> Any:
-        """The device of that name, open. Raises `HardwareError` where there is none."""
+        """The open device of that name. Raises `HardwareError` if there is none."""
         try:
             return self._manager.devices[name]
         except KeyError:
@@ -128,7 +127,7 @@ class DeviceHost:
             self._manager.runner.leave_phase()
 
     def stop(self, advance: Callable[[], object] | None = None) -> None:
-        """Interrupt, park and close all; `advance` lets time go on where nothing else does."""
+        """Interrupt, park and close all devices; `advance` drives the clock if no thread does."""
         if self._thread is None:
             return
         ending = threading.Thread(target=self._shut_down, name="devices end", daemon=True)

@@ -29,13 +29,13 @@ class Attachable(ManagedDevice, Protocol):
         """Attach to `devices`, by name, in order. Raises `HardwareError`."""
 
     def detach(self) -> None:
-        """Detach from them."""
+        """Detach from all devices."""
 
 
 class CalibrationDevice(Attachable, Protocol):
     """An attachable device that calibrates and parks another.
 
-    Both block, end soon when `stop` is set, and raise `HardwareError` when they fail.
+    Both methods block, return soon after `stop` is set, and raise `HardwareError` on failure.
     """
 
     def calibrate(self, target: str, stop: threading.Event) -> None:

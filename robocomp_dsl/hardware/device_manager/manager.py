@@ -1,4 +1,4 @@
-"""Leads devices through their phases, level by level, as robotinterface of YARP does.
+"""Runs devices through their phases, level by level, like YARP's robotinterface.
 
 In: a plan and the kinds of devices. Out: open devices by name, and whether each phase succeeded.
 Levels ascend; the actions of one level start in order; calibrations and parkings run in threads,
@@ -33,7 +33,7 @@ from robocomp_dsl.hardware.device_manager.kinds import DeviceKind
 from robocomp_dsl.hardware.devices.errors import HardwareError
 
 SHUTDOWN_TIMEOUT_S = 10.0
-"""Time that shutdown waits for running actions [s]; then it continues without them."""
+"""Time limit of running actions at shutdown [s]; then shutdown continues."""
 
 LOG = logging.getLogger("robocomp.devices")
 

@@ -32,11 +32,11 @@ _VERBS = {verb.value: verb for verb in Verb}
 
 
 class InvalidPlan(HardwareError):
-    """The data has not the format of a plan; the message has one line per problem."""
+    """The data do not have the format of a plan; the message has one line per problem."""
 
 
 def read_plan(data: object) -> DevicePlan:
-    """The description that `data` holds. Raises `BadDescription`."""
+    """The plan in `data`. Raises `InvalidPlan`."""
     wrong: list[str] = []
     whole = data if isinstance(data, Mapping) else {}
     if whole is not data:

@@ -8,7 +8,7 @@ from typing import Protocol
 
 @dataclass(frozen=True, slots=True)
 class Charge:
-    """`left` of 1; `voltage` in V; `power` in W that is drawn; `remaining` in s at that power."""
+    """`left`: charge from 0 to 1; `voltage` in V; consumed `power` in W; `remaining` in s."""
 
     left: float
     voltage: float
@@ -18,7 +18,7 @@ class Charge:
 
 
 class BatteryDevice(Protocol):
-    """A driver."""
+    """A driver of a battery."""
 
     def charge(self) -> Charge:
-        """The state now."""
+        """The current state."""

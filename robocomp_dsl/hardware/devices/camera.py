@@ -23,7 +23,7 @@ class CameraSettings:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Picture:
-    """What a camera saw at `time` (s of the world), rows from the top, not written to again.
+    """A picture taken at `time` (s of the world), rows from the top; its arrays never change.
 
     `colour` has the shape (height, width, 3); `depth`, in mm along the axis of the camera, the
     shape (height, width), infinite where there is nothing, or (0, 0) for a camera without it.
@@ -35,14 +35,14 @@ class Picture:
 
 
 class CameraDevice(Protocol):
-    """A driver."""
+    """A driver of a camera."""
 
     @property
     def settings(self) -> CameraSettings:
         """Size and optics."""
 
     def picture(self) -> Picture:
-        """The latest picture. Raises `HardwareError` where none can be taken."""
+        """The latest picture. Raises `HardwareError` if none is available."""
 
 
 def points(settings: CameraSettings, depth: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -11,10 +11,10 @@ from robocomp_dsl.hardware.kinematics.planar import Pose
 
 @dataclass(frozen=True, slots=True)
 class Mechanics:
-    """How the base is built (mm) and how fast it may go (mm/s, rad/s, mm/s²).
+    """Dimensions (mm) and limits of the base (mm/s, rad/s, mm/s²).
 
-    `axis` is the distance of the wheels; `encoder_steps` are counted per turn of the motor, which
-    turns `gear_ratio` times as fast as the wheel; 0 steps: the encoder is ideal.
+    `axis` is the distance of the wheels; `encoder_steps` per motor revolution, and `gear_ratio`
+    motor revolutions per wheel revolution; 0 steps: an ideal encoder.
     """
 
     wheel_radius: float = 80.0
@@ -31,9 +31,9 @@ class Mechanics:
 
 @dataclass(frozen=True, slots=True)
 class BaseState:
-    """What the base knows of itself at `time` (s since its start).
+    """State of the base at `time` (s since its start).
 
-    `odometry` comes from the wheels alone and drifts; `corrected` has the drift removed. `adv` and
+    `odometry` is from the wheels only and drifts; `corrected` is drift-free. `adv` and
     `rot` are measured, not commanded.
     """
 
@@ -46,11 +46,11 @@ class BaseState:
 
 
 class DifferentialRobotDevice(Protocol):
-    """A driver. Every method raises `CommandRefused` for numbers that it cannot take."""
+    """A driver of a base. Every method raises `CommandRefused` for invalid numbers."""
 
     @property
     def mechanics(self) -> Mechanics:
-        """How the base is built."""
+        """The dimensions and limits of the base."""
 
     def state(self) -> BaseState:
         """The latest state."""
@@ -59,17 +59,17 @@ class DifferentialRobotDevice(Protocol):
         """Drive at `adv` mm/s while turning at `rot` rad/s, until the next command."""
 
     def stop(self) -> None:
-        """Stop as fast as the base can."""
+        """Stop as fast as possible."""
 
     def set_odometry(self, pose: Pose) -> None:
-        """The odometry goes on from `pose`."""
+        """Set the odometry to `pose`."""
 
     def correct(self, pose: Pose) -> None:
-        """The corrected pose goes on from `pose`; the odometry is left alone."""
+        """Set the corrected pose to `pose`; the odometry is unchanged."""
 
 
 def check_speed(mechanics: Mechanics, adv: float, rot: float) -> None:
-    """Pass when the base may drive so; else raise `CommandRefused`."""
+    """Raise `CommandRefused` unless the base permits these speeds."""
     require_within("adv", adv, mechanics.max_adv, "mm/s")
     require_within("rot", rot, mechanics.max_rot, "rad/s")
 

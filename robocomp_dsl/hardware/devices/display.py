@@ -11,7 +11,7 @@ Image = NDArray[np.uint8]
 
 
 class DisplayDevice(Protocol):
-    """A driver."""
+    """A driver of a screen."""
 
     def show(self, image: Image) -> None:
         """Show an image, shape (height, width, 3), rows from the top, over the whole screen."""

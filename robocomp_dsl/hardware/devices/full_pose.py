@@ -1,4 +1,4 @@
-"""Where a robot is in space and how it moves: its data and the Protocol of what estimates it."""
+"""Pose and motion of a robot in space: data, and the Protocol of estimators."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _REST = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FullPose:
-    """A pose at `time` (s): `matrix`, shape (4, 4), takes points of the robot to the world, in mm.
+    """A pose at `time` (s): `matrix`, shape (4, 4), maps points of the robot to the world, in mm.
 
     `velocity` (mm/s), `turning` (rad/s) and the accelerations of both are those of the origin of
     the robot, in the axes of the world.
@@ -38,7 +38,7 @@ class FullPoseDevice(Protocol):
         """The latest estimate."""
 
     def set_full_pose(self, matrix: Matrix) -> None:
-        """The robot is at `matrix`, shape (4, 4), in mm: estimates go on from there."""
+        """Reset the estimate to `matrix`, shape (4, 4), in mm."""
 
 
 class FloorPose:

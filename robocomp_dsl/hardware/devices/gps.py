@@ -9,13 +9,13 @@ from robocomp_dsl.hardware.kinematics.geodesy import GeoPoint
 
 
 class GpsDevice(Protocol):
-    """A driver."""
+    """A driver of a receiver."""
 
     def place(self) -> GeoPoint:
-        """Where it is on the globe."""
+        """The position on the globe."""
 
     def position(self) -> Triple:
-        """Where it is against the last reset: x to the east, y up, z to the north, in mm."""
+        """The position relative to the last reset: x east, y up, z north, in mm."""
 
     def reset(self) -> None:
-        """The present position becomes the origin."""
+        """Make the current position the origin."""

@@ -12,9 +12,9 @@ from robocomp_dsl.hardware.description.scene import Triple
 class Inertial:
     """One measurement at `time` (s), in the frame of the unit: x right, y up, z ahead.
 
-    `acceleration` (m/s²) is what an accelerometer measures: 9.81 upwards at rest.
-    `turning` is in rad/s, `field` a direction of length 1. `orientation` is rx, ry, rz against
-    the reference that `reset` sets.
+    `acceleration` (m/s²) is that of an accelerometer: 9.81 upwards at rest.
+    `turning` is in rad/s, `field` a direction of unit length. `orientation` is rx, ry, rz
+    relative to the reference that `reset` sets.
     """
 
     time: float
@@ -26,10 +26,10 @@ class Inertial:
 
 
 class ImuDevice(Protocol):
-    """A driver."""
+    """A driver of an inertial unit."""
 
     def measure(self) -> Inertial:
         """The latest measurement."""
 
     def reset(self) -> None:
-        """The present orientation becomes the reference."""
+        """Make the current orientation the reference."""

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, slots=True)
 class LaserSettings:
-    """How the laser scans.
+    """Configuration of the laser.
 
-    `measures` rays are spread evenly over `degrees`, half of them on either side of straight
-    ahead. What is nearer than `min_range` (mm) reads `min_range`, what is farther than `max_range`
-    or absent reads `max_range`. `noise` is the standard deviation of a distance in mm, `period`
-    the time from scan to scan in s.
+    `measures` rays are spread evenly over `degrees`, centred straight ahead. Distances are limited
+    to `min_range` and `max_range` (mm); a ray without a hit reads `max_range`. `noise` is the
+    standard deviation of a distance in mm, `period` the time between scans in s.
     """
 
     measures: int = 361
@@ -42,11 +41,11 @@ class Scan:
 
 
 class LaserDevice(Protocol):
-    """A driver."""
+    """A driver of a laser."""
 
     @property
     def settings(self) -> LaserSettings:
-        """How the laser scans."""
+        """Configuration of the laser."""
 
     def scan(self) -> Scan:
-        """The latest scan; its arrays are not written to again."""
+        """The latest scan; its arrays never change."""

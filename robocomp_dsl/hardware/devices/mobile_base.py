@@ -1,4 +1,4 @@
-"""A base that drives on the floor, whatever moves it: its data and the Protocol of its drivers."""
+"""A base that drives on the floor, with any drive: its data and the Protocol of its drivers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from robocomp_dsl.hardware.kinematics.planar import Pose
 
 @dataclass(frozen=True, slots=True)
 class BaseLimits:
-    """How fast a base may go (mm/s, rad/s), and whether it can go `sideways`."""
+    """Speed limits of a base (mm/s, rad/s), and whether it can move `sideways`."""
 
     max_adv: float = 1000.0
     max_rot: float = 2.0
@@ -20,9 +20,9 @@ class BaseLimits:
 
 @dataclass(frozen=True, slots=True)
 class MobileBaseState:
-    """What the base knows of itself at `time` in s.
+    """State of a base at `time` in s.
 
-    `odometry` begins at 0 and drifts, `corrected` has the drift removed; `side`, `adv` (mm/s) and
+    `odometry` starts at 0 and drifts, `corrected` is drift-free; `side`, `adv` (mm/s) and
     `rot` (rad/s) are measured, in the frame of the base.
     """
 
@@ -36,11 +36,11 @@ class MobileBaseState:
 
 
 class MobileBaseDevice(Protocol):
-    """A driver. Every method raises `CommandRefused` for numbers that it cannot take."""
+    """A driver of a base. Every method raises `CommandRefused` for invalid numbers."""
 
     @property
     def limits(self) -> BaseLimits:
-        """How fast it may go."""
+        """The speed limits."""
 
     def state(self) -> MobileBaseState:
         """The latest state."""
@@ -49,17 +49,17 @@ class MobileBaseDevice(Protocol):
         """Drive sideways and ahead (mm/s) while turning (rad/s), until the next command."""
 
     def stop(self) -> None:
-        """Stop as fast as the base can."""
+        """Stop as fast as possible."""
 
     def set_odometry(self, pose: Pose) -> None:
-        """The odometry goes on from `pose`."""
+        """Set the odometry to `pose`."""
 
     def correct(self, pose: Pose) -> None:
-        """The corrected pose goes on from `pose`; the odometry is left alone."""
+        """Set the corrected pose to `pose`; the odometry is unchanged."""
 
 
 def check_speed(limits: BaseLimits, side: float, adv: float, rot: float) -> None:
-    """Pass when the base may drive so; else raise `CommandRefused`."""
+    """Raise `CommandRefused` unless the base permits these speeds."""
     require_within("adv", adv, limits.max_adv, "mm/s")
     require_within("rot", rot, limits.max_rot, "rad/s")
     require_within("advx", side, limits.max_adv, "mm/s")

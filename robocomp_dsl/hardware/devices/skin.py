@@ -1,4 +1,4 @@
-"""Artificial skin: what its frames hold, how it is set up, and the Protocol of its drivers."""
+"""Artificial skin: its frames, its settings, and the Protocol of its drivers."""
 
 from __future__ import annotations
 
@@ -21,11 +21,10 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class SkinSettings:
-    """How the skin is simulated: `rate` [Hz] of its frames, `sigma` [m] of its kernel.
+    """Settings of a simulated skin: `rate` [Hz] of its frames, `sigma` [m] of its kernel.
 
-    With `raw`, frames also hold what the electronics would send; with `compensation`, forces are
-    worked out from that, as on the robot, from the end of a calibration on; `shear` adds the
-    forces along the skin.
+    With `raw`, frames include the raw values of the electronics; with `compensation`, forces are
+    computed from these, as on the robot, after a calibration; `shear` adds shear forces.
     """
 
     rate: float = 50.0
@@ -40,8 +39,8 @@ class SkinSettings:
 class SkinFrame:
     """One frame; arrays (n,) in the order of the geometry, `shear` (n, 3) in the limbs' frames.
 
-    `time` [s] is that of the last physics step in it; `off_skin` [N] is the contact force on the
-    covered bodies that no taxel was near to. `raw` and `shear` are None unless asked for.
+    `time` [s] is that of its last physics step; `off_skin` [N] is the contact force on covered
+    bodies away from all taxels. `raw` and `shear` are None unless enabled.
     """
 
     sequence: int
@@ -54,11 +53,11 @@ class SkinFrame:
 
 
 class SkinDevice(Protocol):
-    """A driver."""
+    """A driver of a skin."""
 
     @property
     def geometry(self) -> SkinGeometry:
-        """Where the taxels are now."""
+        """The current positions of the taxels."""
 
     @property
     def frame(self) -> SkinFrame:
@@ -68,7 +67,7 @@ class SkinDevice(Protocol):
         """The touches of a frame."""
 
     def calibrate(self, seconds: float) -> None:
-        """Take the baseline from the next `seconds`. Raises `CommandRefused`."""
+        """Measure the baseline during the next `seconds`. Raises `CommandRefused`."""
 
     def subscribe(self, on_frame: Callable[[SkinFrame], None]) -> None:
-        """Call `hear` with every new frame, from now on."""
+        """Call `hear` with every new frame from now on."""

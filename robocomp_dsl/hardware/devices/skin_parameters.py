@@ -1,6 +1,6 @@
-"""How a skin is set up, from the parameters of the component that simulates it.
+"""Settings of a skin from the parameters of the component that simulates it.
 
-In: the values of the group `skin`, in the units of people: mm, and ids of dead taxels in words, as
+In: the values of the group `skin`, lengths in mm, and ids of dead taxels as text,
 in `3, 10-20`. Out: `SkinSettings`.
 """
 
@@ -20,7 +20,7 @@ _LONGEST = 100_000
 
 
 def skin_settings(parameters: Any) -> SkinSettings:
-    """The settings that parameters tell. Raises `ParameterRejected` for what is no list of ids."""
+    """The settings of the parameters. Raises `ParameterRejected` for an invalid list of ids."""
     return SkinSettings(
         rate=parameters.rate,
         sigma=parameters.sigma / 1000,
@@ -38,7 +38,7 @@ def skin_settings(parameters: Any) -> SkinSettings:
 
 
 def taxel_ids(words: str) -> tuple[int, ...]:
-    """The ids in a list with ranges, ascending, each once. Raises `ParameterRejected`."""
+    """The ids in a list with ranges, ascending, without duplicates. Raises `ParameterRejected`."""
     found: set[int] = set()
     for word in words.split(",") if words.strip() else ():
         match = _IDS.fullmatch(word)
@@ -54,7 +54,7 @@ def taxel_ids(words: str) -> tuple[int, ...]:
 
 
 def require_known_taxels(words: str, geometry: SkinGeometry) -> None:
-    """Raise `ParameterRejected`, which names the missing taxels, unless all of a list exist."""
+    """Raise `ParameterRejected`, naming the missing taxels, unless all exist."""
     unknown = sorted(set(taxel_ids(words)) - set(geometry.ids.tolist()))
     if unknown:
         shown = ", ".join(map(str, unknown[:5])) + (", ..." if unknown[5:] else "")

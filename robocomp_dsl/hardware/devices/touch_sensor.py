@@ -6,7 +6,7 @@ from typing import Protocol
 
 
 class TouchSensorDevice(Protocol):
-    """A driver."""
+    """A driver of a touch sensor."""
 
     def value(self) -> float:
         """The contact force [N]; 1 or 0 for a bumper."""

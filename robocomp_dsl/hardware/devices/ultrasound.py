@@ -8,10 +8,10 @@ from robocomp_dsl.hardware.kinematics.planar import Pose
 
 
 class UltrasoundDevice(Protocol):
-    """A driver."""
+    """A driver of an ultrasonic range finder."""
 
     def distance(self) -> float:
-        """The nearest thing in its cone, in mm."""
+        """The distance of the nearest object in its cone, in mm."""
 
     def mounted(self) -> Pose:
-        """Where it sits on the robot and where it looks."""
+        """Its mounting pose on the robot."""

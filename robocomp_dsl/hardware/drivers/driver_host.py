@@ -1,7 +1,7 @@
 """Hosts the driver of a real device behind the ports of a component.
 
-In: a driver that keeps to the Protocol of its device, and can be opened and closed. Out: `devices`
-to serve, guarded by `lock`. A device that is missing or has failed is opened again.
+In: a driver that implements the Protocol of its device, and can be opened and closed. Out:
+`devices` to serve, guarded by `lock`. A missing or failed device is reopened.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from robocomp_dsl.hardware.servants.serving import DevicePort, serve
 from robocomp_dsl.runtime import ServedPort
 
 FAILURES = (HardwareError, OSError)
-"""What a driver raises when its device fails."""
+"""Exceptions of a driver whose device fails."""
 
 
 class Driver(Protocol):
-    """What every driver has besides the methods of its device."""
+    """The methods of every driver besides those of its device."""
 
     def open(self) -> None:
         """Connect to the device. Raises `HardwareError` or `OSError` while it is missing."""
@@ -35,7 +35,7 @@ class Driver(Protocol):
 
 
 class DriverHost:
-    """The device of one driver, known by `ids`; `motors`: it is a bus of motors."""
+    """The device of one driver, with the ids `ids`; `motors`: it is a bus of motors."""
 
     def __init__(self, driver: Driver, ids: Sequence[str], *, motors: bool = False) -> None:
         self.driver = driver
@@ -48,11 +48,11 @@ class DriverHost:
     def serve(
         self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]
     ) -> dict[str, DevicePort]:
-        """The ports of a component, answered by the device."""
+        """The ports of a component, served by the device."""
         return serve(SERVANTS, ports, chosen, self.devices, self.lock)
 
     def open(self) -> None:
-        """Open the device unless it is. Raises `HardwareError`."""
+        """Open the device if it is closed. Raises `HardwareError`."""
         if self.device is not None:
             return
         try:
@@ -104,7 +104,7 @@ class DriverHost:
 
 
 class DriverDeviceHost(DeviceHost):
-    """The devices of a deployment on real motors, which are known by the names `parts`."""
+    """The devices of a deployment on real motors; `parts` are their names."""
 
     def __init__(
         self, hardware: DriverHost, parts: Sequence[str], environment: Mapping[str, str]
@@ -126,7 +126,7 @@ def _no_chain(spec: DeviceSpec, _: tuple[str, ...]) -> NoReturn:
 
 
 class _DriverProxy:
-    """The driver as servants see it: a failure closes the device."""
+    """The driver as used by servants: a failure closes the device."""
 
     def __init__(self, owner: DriverHost) -> None:
         self._owner = owner
@@ -149,7 +149,7 @@ class _DriverProxy:
 
 
 class _Devices(Mapping[str, Any]):
-    """The device under each of its ids. Raises `HardwareError` while it is not there."""
+    """The device by each of its ids. Raises `HardwareError` while it is missing."""
 
     def __init__(self, owner: DriverHost, ids: tuple[str, ...]) -> None:
         self._owner, self._ids = owner, ids

@@ -1,7 +1,7 @@
 """Motors with encoders on a bus: the Protocol of their drivers, and a control board on top.
 
-In: a driver that reads angles and speeds and takes torques. Out: a board with all control modes and
-limits, as simulated joints have it, stepped by its own thread.
+In: a driver that reads angles and speeds and accepts torques. Out: a board with all control modes
+and limits, like simulated joints, stepped by its own thread.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ import numpy as np
 from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.calibration import Calibrator, Procedure
 from robocomp_dsl.hardware.control.commands import Commands
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.joints import BoardSpec, Floats
 from robocomp_dsl.hardware.control.parking import Parking
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from robocomp_dsl.hardware.control.settings import ControlSettings
 from robocomp_dsl.hardware.devices.errors import HardwareError
 
@@ -29,7 +29,7 @@ PERIOD = 0.002
 """Period of the board [s]."""
 
 _LONGEST = 10 * PERIOD
-"""Largest time step of a board: the machine may have been suspended."""
+"""Maximum time step of a board: the machine may have been suspended."""
 
 log = logging.getLogger("robocomp.motors")
 
@@ -42,10 +42,10 @@ class MotorBus(Protocol):
         """The joints, their limits and motors."""
 
     def read(self) -> tuple[Floats, Floats]:
-        """Positions [rad, m] and velocities [rad/s, m/s] now; NaN for a broken encoder."""
+        """Current positions [rad, m] and velocities [rad/s, m/s]; NaN for a broken encoder."""
 
     def write(self, torque: Floats) -> None:
-        """Let the motors give these torques [N·m, N] at the joints until the next call."""
+        """Set the torques [N·m, N] at the joints until the next call."""
 
 
 @runtime_checkable
@@ -57,7 +57,7 @@ class HasTorqueSensors(Protocol):
 
 
 class HardwareBoard:
-    """A control board on real motors. `homes` (n,) is where each joint rests [rad, m].
+    """A control board on real motors. `homes` (n,) are the rest positions [rad, m].
 
     All joints are in one group, so `groups` is empty.
     """

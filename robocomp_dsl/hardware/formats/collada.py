@@ -1,7 +1,7 @@
-"""COLLADA files: where their points are, which is enough for a bounding box.
+"""Points of COLLADA files, as needed for a bounding box.
 
 In: the bytes of a `.dae` file (COLLADA 1.4.1). Out: the corners of every geometry's box, in m with
-z up, moved as the nodes of its scene say. Faces and materials are not read.
+z up, transformed by the nodes of its scene. Faces and materials are not read.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _DEEPEST = 100
 
 def collada_points(data: bytes) -> Points:
     """Points of shape (n, 3). Raises `ParseError` and `ValueError` for a damaged file."""
-    # expat reads no other files and refuses entities that multiply (2.4.1 and later)
+    # expat reads no other files and rejects entity expansion attacks (2.4.1 and later)
     root = fromstring(data)  # noqa: S314
     for element in root.iter():
         element.tag = element.tag.rpartition("}")[2]
@@ -70,7 +70,7 @@ def _collect(
 
 
 def _placed(node: Element) -> Points:
-    """The product of what moves a node, in order of writing."""
+    """The product of the node's transforms, in document order."""
     pose = np.eye(4)
     for element in node:
         step = np.eye(4)

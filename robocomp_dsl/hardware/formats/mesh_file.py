@@ -1,7 +1,7 @@
-"""Mesh files: OBJ and STL with faces; of `.osg`, `.3ds` and `.dae` the points, for a bounding box.
+"""Mesh files: OBJ and STL with faces; only points of `.osg`, `.3ds` and `.dae`.
 
-In: a path. Out: points as the file has them, or in the frame in which RoboComp's viewer sees the
-file, mirrored into RoboComp's axes; or `MeshError` in words for the user.
+In: a path. Out: points in the axes of the file, or in the frame of RoboComp's viewer, mirrored into
+RoboComp's axes; or `MeshError` with a message for the user.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from robocomp_dsl.hardware.devices.errors import HardwareError
 from robocomp_dsl.hardware.formats.collada import collada_points
+from robocomp_dsl.regular_file import read_bytes
 
 MAX_BYTES = 200 * 1024 * 1024
 
@@ -28,7 +29,7 @@ _3DS_OBJECT, _3DS_POINTS = 0x4000, 0x4110
 
 
 class MeshError(HardwareError):
-    """The file holds no mesh that can be used."""
+    """The file contains no usable mesh."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +41,7 @@ class Surface:
 
 
 def read_mesh(path: Path) -> Surface:
-    """The mesh at `path` as RoboComp sees it. Raises `MeshError`."""
+    """The mesh at `path` in RoboComp's axes. Raises `MeshError`."""
     surface = read_surface(path)
     if path.suffix.lower() == ".obj":
         surface = _turned_up(surface)
@@ -49,7 +50,7 @@ def read_mesh(path: Path) -> Surface:
 
 
 def read_surface(path: Path) -> Surface:
-    """The mesh at `path` in the axes of the file, outside by the right hand. Raises `MeshError`."""
+    """The mesh at `path` in the axes of the file, right-handed. Raises `MeshError`."""
     read = _READERS.get(path.suffix.lower())
     if read is None:
         raise MeshError(
@@ -60,7 +61,7 @@ def read_surface(path: Path) -> Surface:
     try:
         if path.stat().st_size > MAX_BYTES:
             raise MeshError(f"the file is larger than {MAX_BYTES // 1024 // 1024} MB")
-        surface = read(path.read_bytes())
+        surface = read(read_bytes(path))
     except OSError as error:
         raise MeshError(error.strerror or "the file cannot be read") from None
     except (ValueError, IndexError, struct.error, ParseError) as error:
@@ -85,7 +86,7 @@ def _obj(data: bytes) -> Surface:
 
 
 def _turned_up(surface: Surface) -> Surface:
-    """OpenSceneGraph takes y of an OBJ file as up and turns it to z."""
+    """OpenSceneGraph treats y of an OBJ file as up and turns it to z."""
     x, y, z = surface.points.T
     return Surface(np.stack([x, -z, y], axis=1), surface.faces)
 

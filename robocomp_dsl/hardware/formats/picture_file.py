@@ -1,6 +1,6 @@
 """Pictures in any format that Pillow reads.
 
-In: a path. Out: pixels, or a reason why there are none.
+In: a path. Out: pixels, or the reason of the failure.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from robocomp_dsl.extras import MissingExtra
 from robocomp_dsl.hardware.devices.display import Image
 
 LARGEST = 1024
-"""Pixels along one side; larger pictures are scaled down."""
+"""Maximum pixels per side; larger pictures are scaled down."""
 
 
 class PictureError(Exception):
-    """There is no picture; the message says why."""
+    """The picture cannot be read; the message gives the reason."""
 
 
 def read_picture(path: Path) -> Image:

@@ -1,7 +1,7 @@
-"""URDF as data: links and joints in an order in which parents come first.
+"""URDF as data: links and joints, parents first.
 
-In: the bytes of a file. Out: a `Robot`, and findings on what had to be guessed; `ModelFileError`
-with all that makes it unusable, each with its line. Lengths are m, angles rad (ROS wiki, urdf/XML).
+In: the bytes of a file. Out: a `Robot`, and findings on assumptions; `ModelFileError` with all
+fatal problems and their lines. Lengths are m, angles rad (ROS wiki, urdf/XML).
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.formats.urdf_elements import Element, ElementReader, elements
 
 Vector = tuple[float, float, float]
@@ -23,7 +24,7 @@ GREY: Colour = (0.7, 0.7, 0.7, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class UrdfPose:
-    """A place and roll, pitch, yaw about the fixed axes: Rz(yaw) · Ry(pitch) · Rx(roll)."""
+    """A position, and roll, pitch, yaw about the fixed axes: Rz(yaw) · Ry(pitch) · Rx(roll)."""
 
     xyz: Vector = ZERO
     rpy: Vector = ZERO
@@ -63,9 +64,9 @@ class UrdfLink:
 
 @dataclass(frozen=True, slots=True)
 class UrdfJoint:
-    """`parent` to `child`; `leader` and what follows it are those of a mimic joint.
+    """From `parent` to `child`; `leader` and the following fields are those of a mimic joint.
 
-    `effort` and `speed` are the largest ones, 0 where the file has none.
+    `effort` and `speed` are the maxima, 0 if the file has none.
     """
 
     name: str
@@ -88,11 +89,11 @@ class UrdfJoint:
 
 @dataclass(frozen=True, slots=True)
 class UrdfRobot:
-    """`links` has roots before what hangs on them, with the joint to the parent."""
+    """`links` are ordered from the roots, each with the joint to its parent."""
 
     name: str
     links: tuple[tuple[UrdfLink, UrdfJoint | None], ...]
-    findings: tuple[ModelFinding, ...]
+    findings: tuple[Finding, ...]
 
 
 def read_urdf(data: bytes) -> UrdfRobot:
@@ -141,7 +142,7 @@ class _RobotReader:
                 self.reader.error("joint", hung.name, message, hung.line)
         if self.reader.faults:
             first = self.reader.faults[0]
-            raise ModelFileError(first.message, first.line, tuple(self.reader.faults))
+            raise ModelFileError(first.message, first.location.line, tuple(self.reader.faults))
         return UrdfRobot(self.root.get("name") or "robot", ordered, tuple(self.reader.findings))
 
     def _hang(self, joint: UrdfJoint) -> None:

@@ -1,7 +1,7 @@
-"""XML with lines, and its attributes as numbers.
+"""XML elements with line numbers, and numeric attributes.
 
-In: bytes, or an element. Out: elements that know where they stand; faults and findings for numbers
-that are none. The standard expat reads no other files and refuses entities that multiply.
+In: bytes, or an element. Out: elements with their lines; faults and findings for invalid numbers.
+The standard expat reads no other files and rejects entity expansion attacks.
 """
 
 from __future__ import annotations
@@ -11,14 +11,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from robocomp_dsl.hardware.description.findings import Kind, ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import Kind, ModelFileError, model_finding
 
 _DEEPEST = 100
 
 
 @dataclass(slots=True)
 class Element:
-    """A tag without its namespace, its attributes, the line it begins in, and what is inside."""
+    """A tag without its namespace, its attributes, its first line, and its children."""
 
     tag: str
     attributes: dict[str, str]
@@ -26,19 +27,19 @@ class Element:
     content: list[Element] = field(default_factory=list)
 
     def get(self, name: str) -> str:
-        """An attribute, or nothing."""
+        """An attribute, or None."""
         return self.attributes.get(name, "").strip()
 
     def children(self, tag: str) -> list[Element]:
-        """Those called `tag`."""
+        """The children with this tag."""
         return [element for element in self.content if element.tag == tag]
 
     def child(self, tag: str) -> Element | None:
-        """The first called `tag`."""
+        """The first child with this tag."""
         return next((element for element in self.content if element.tag == tag), None)
 
     def all(self) -> Iterator[Element]:
-        """The element itself and everything inside."""
+        """The element itself and all its descendants."""
         todo = [self]
         while todo:
             element = todo.pop()
@@ -47,7 +48,7 @@ class Element:
 
 
 def elements(data: bytes) -> Element:
-    """The outermost element. Raises `ModelFileError` with the line."""
+    """The root element. Raises `ModelFileError` with the line."""
     parser = expat.ParserCreate()
     path = [Element("", {}, 0)]
 
@@ -75,23 +76,23 @@ def elements(data: bytes) -> Element:
 class ElementReader:
     """`faults` make the file unusable, `findings` do not. `{}` in a message is the subject."""
 
-    faults: list[ModelFinding] = field(default_factory=list)
-    findings: list[ModelFinding] = field(default_factory=list)
+    faults: list[Finding] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
 
     def error(self, kind: Kind, subject: str, message: str, line: int) -> None:
-        """Something without which there is no model."""
-        self.faults.append(ModelFinding(kind, subject, message.replace("{}", subject), line))
+        """Report a fatal problem."""
+        self.faults.append(model_finding(kind, subject, message.replace("{}", subject), line))
 
     def warn(self, kind: Kind, subject: str, message: str, line: int) -> None:
-        """Something that was guessed or left out."""
-        self.findings.append(ModelFinding(kind, subject, message.replace("{}", subject), line))
+        """Report something that was assumed or ignored."""
+        self.findings.append(model_finding(kind, subject, message.replace("{}", subject), line))
 
     def number(self, element: Element, name: str, default: float) -> float:
-        """A finite attribute; reported and `default` if it is none."""
+        """A finite attribute; otherwise reported, and `default`."""
         return self.numbers(element, name, (default,))[0]
 
     def numbers(self, element: Element, name: str, default: tuple[float, ...]) -> tuple[float, ...]:
-        """As many as `default` has."""
+        """As many numbers as `default` has."""
         text = element.get(name)
         if not text:
             return default

@@ -1,7 +1,7 @@
 """Chains of joints in a transform tree, and the goals that a Cartesian controller solves for them.
 
 In: a chain of joints in a transform tree, and a pose, shape (4, 4), or a position, shape (3,), in
-mm. Out: joint angles (n,) [rad] within the limits, and how far from the goal they leave the tip.
+mm. Out: joint angles (n,) [rad] within the limits, and the remaining error of the tip.
 The solver is that of `tactile.arm.inverse`.
 """
 
@@ -30,7 +30,7 @@ class JointChain:
     """`joints` are hinges of `tree`, from `base` to `tip`; `low`, `high`, `rest` are (n,) [rad].
 
     The chain owns its tree and moves the joints in it to evaluate poses. `held` maps the names of
-    other joints that move the tip to their frames; they stay where `fix_joint` has put them.
+    other joints that move the tip to their frames; they stay at the value set by `fix_joint`.
     """
 
     tree: TransformTree
@@ -63,7 +63,7 @@ class JointChain:
         return pose, jacobian(self.tree, self.joints, self.tip, base=self.base)
 
     def is_out_of_reach(self, point: Floats) -> bool:  # noqa: ARG002 - of the Protocol
-        """Always False: the lengths of the links are not known, so every start is tried."""
+        """Always False: the lengths of the links are unknown, so every start is tried."""
         return False
 
 
@@ -89,7 +89,7 @@ def goal_of(goal: object) -> Goal:
 def step(chain: JointChain, q: Floats, goal: Goal, pull: Floats, damping: float) -> Floats:
     """One damped least-squares step (n,) from `q` (n,) towards `goal`, within the limits.
 
-    `pull` (n,) moves the joints as far as the goal leaves them free.
+    `pull` (n,) moves the joints within the null space of the goal.
     """
     pose, matrix = chain.pose_and_jacobian(q)
     error = goal.error(pose, LEVER)
@@ -101,10 +101,10 @@ def step(chain: JointChain, q: Floats, goal: Goal, pull: Floats, damping: float)
 def solve(
     chain: JointChain, goal: Goal, start: Floats, *, distance: float = 0.1, angle: float = 0.002
 ) -> Solution:
-    """The nearest solution, from `start` and, if that does not lead there, from other postures.
+    """The best solution, from `start` and, if that fails, from other postures.
 
-    It is deterministic. The caller asks by `within` whether it reaches the goal; the search ends
-    once the goal is reached to `distance` [mm] and `angle` [rad].
+    It is deterministic. The caller checks with `within` whether it reaches the goal; the search
+    ends once the goal is reached within `distance` [mm] and `angle` [rad].
     """
     tolerance = Tolerance(distance, angle)
     solver = Solver(chain, chain.low, chain.high, tolerance, LEVER, chain.rest)

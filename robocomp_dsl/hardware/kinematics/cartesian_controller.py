@@ -1,8 +1,8 @@
 """A controller on a control board that moves an end effector to poses, on lines if possible.
 
-In: goals in mm, in the base of the chain. Out: direct positions for the joints, at `RATE`. A
-goal is solved before anything moves; on the way, damped least squares follows a line of minimum
-jerk, and joint angles of the solution draw the rest of the arm along.
+In: goals in mm, in the base of the chain. Out: direct positions for the joints, at `RATE`. A goal
+is solved before the joints move; during the motion, damped least squares follows a line with
+minimum jerk, and the joint angles of the solution guide the null space.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from robocomp_dsl.hardware.control.board import Board
 from robocomp_dsl.hardware.control.commands import Commands
 from robocomp_dsl.hardware.control.errors import WrongMode
 from robocomp_dsl.hardware.control.joints import Bools, Floats
-from robocomp_dsl.hardware.control.minimum_jerk import PEAK
 from robocomp_dsl.hardware.control.modes import Mode
+from robocomp_dsl.hardware.control.trajectories.minimum_jerk import PEAK
 from robocomp_dsl.hardware.devices.errors import CommandRefused, require_finite
 from robocomp_dsl.hardware.kinematics.cartesian import LEVER, JointChain, goal_of, solve, step
 from robocomp_dsl.hardware.kinematics.cartesian_line import LineMotion
@@ -26,20 +26,20 @@ from robocomp_dsl.hardware.kinematics.rotations import Matrix
 from robocomp_dsl.tactile.arm.inverse import Goal, Solution
 
 RATE = 100.0
-"""Positions a second."""
+"""Positions per second."""
 
 DAMPING = 1e-4
-"""On the way, where the arm is never far from its line."""
+"""Damping of the solver during a motion, when the arm is always close to its line."""
 
 SLOWEST = 0.25
-"""A line never goes slower than at this share of its speed."""
+"""Minimum share of its speed at which a line proceeds."""
 
 PULL = 0.1
 """Share of the distance to the posture of the solution that each step covers."""
 
 
 class UnreachableGoal(CommandRefused):
-    """No posture of the arm brings the hand to the goal; the `nearest` that was found."""
+    """No posture of the arm reaches the goal; `nearest` is the best solution."""
 
     def __init__(self, nearest: Solution) -> None:
         super().__init__(
@@ -50,7 +50,7 @@ class UnreachableGoal(CommandRefused):
 
 
 class CartesianState(Enum):
-    """What the controller does."""
+    """State of the controller."""
 
     IDLE = "idle"
     MOVING = "moving"
@@ -59,12 +59,12 @@ class CartesianState(Enum):
 
 
 class CartesianController:
-    """Drives the joints of `chain`, which `board` knows as `joints`, in mode position-direct.
+    """Drives the joints of `chain`, which are `joints` on `board`, in mode position-direct.
 
-    `seconds` is the usual time of a motion; a posture reaches a goal to `distance` [mm] and `angle`
-    [rad]; `tracking`: a hand that has arrived is kept there, even when joints beside the chain move
-    it. `joints` and `free` (n,) are those of the whole chain, and which of them may move. One
-    thread at a time, the one of the board.
+    `seconds` is the default duration of a motion; a posture reaches a goal within `distance` [mm]
+    and `angle` [rad]; `tracking`: after arrival the end effector is held at its goal, even when
+    joints outside the chain move it. `joints` and `free` (n,) are those of the whole chain, and
+    which of them may move. Not thread-safe: call it from the board's thread.
     """
 
     def __init__(
@@ -83,17 +83,17 @@ class CartesianController:
         board.motion_overrides.append(self.step)
 
     def pose(self) -> Matrix:
-        """Where the hand is, from the measured joint angles, shape (4, 4) [mm]."""
+        """Pose of the end effector from the measured joint angles, shape (4, 4) [mm]."""
         self._fix_other_joints()
         return self.chain.pose(self._board.position[self._joints])
 
     @property
     def posture(self) -> Floats:
-        """Where the references of all joints of the chain are, (n,) [rad]."""
+        """References of all joints of the chain, (n,) [rad]."""
         return self._board.references.position[self._board.select.indices(self.joints)]
 
     def set_chain(self, chain: JointChain) -> None:
-        """The same joints, in another model of the same robot."""
+        """The same joints in another model of the same robot."""
         self._whole = chain
         self._select_joints()
 
@@ -107,7 +107,7 @@ class CartesianController:
         self._select_joints()
 
     def _select_joints(self) -> None:
-        """The chain of the joints that may move; the others are held."""
+        """The chain of the joints that may move; the others are fixed."""
         whole, at = self._whole, np.flatnonzero(self.free)
         fixed = {self.joints[i]: whole.joints[i] for i in np.flatnonzero(~self.free).tolist()}
         self.chain = replace(
@@ -121,20 +121,20 @@ class CartesianController:
         self._joints = self._board.select.indices(self.joints)[at]
 
     def nearest(self, goal: object) -> Solution:
-        """The joint angles of a goal, and what they leave to be desired; nothing moves."""
+        """The joint angles of a goal, and the remaining error; nothing moves."""
         return solve(self.chain, goal_of(goal), self._here())
 
     def solve(self, goal: object) -> Solution:
-        """The same, near enough to the goal. Raises `Unreachable`, `CommandRefused`."""
+        """A solution within the tolerance. Raises `Unreachable`, `CommandRefused`."""
         found = self.nearest(goal)
         if not found.within(self.distance, self.angle):
             raise UnreachableGoal(found)
         return found
 
     def go_to(self, goal: object, seconds: float | None = None) -> Solution:
-        """Take the hand to a pose, (4, 4), or a place, (3,) [mm], in about `seconds`.
+        """Move the end effector to a pose, (4, 4), or a position, (3,) [mm], in about `seconds`.
 
-        Raises `Unreachable` with what is nearest, `CommandRefused`, or what the mode change raises.
+        Raises `Unreachable` with the best solution, `CommandRefused`, or the mode change's errors.
         """
         seconds = self.seconds if seconds is None else seconds
         require_finite(seconds=seconds)
@@ -148,7 +148,7 @@ class CartesianController:
         return found
 
     def stop(self) -> None:
-        """Stay where the hand is."""
+        """Stop at the current pose."""
         if self.state is CartesianState.MOVING:
             self._commands.stop(self._joints)
         if self.state is not CartesianState.INTERRUPTED:
@@ -173,7 +173,7 @@ class CartesianController:
             self.state = CartesianState.REACHED
 
     def _next(self, line: LineMotion, dt: float) -> tuple[Floats, bool]:
-        """Where the joints shall be after `dt` seconds, and whether that is the end."""
+        """The joint positions after `dt` seconds, and whether the motion is complete."""
         speed = self._board.limits.speed[self._joints] / PEAK
         if line.time >= line.seconds:  # the remaining error is corrected joint by joint
             way = line.end - self._q
@@ -185,25 +185,25 @@ class CartesianController:
         damping = DAMPING + 0.5 * float(error @ error)
         way = step(self.chain, self._q, goal, PULL * (posture - self._q), damping)
         share = min(1.0, dt / max(float((np.abs(way) / speed).max()), 1e-9))
-        # joints at their speed limit: the line waits, but not for ever, since there are lines
-        # that the arm cannot follow
+        # joints at their speed limit: the line waits, but only for a limited time, because some
+        # lines cannot be followed
         line.time += max(share, SLOWEST) * (ahead - line.time)
         return self._q + share * way, False
 
     def _track(self, dt: float) -> tuple[Floats, bool]:
-        """Where the joints shall be so that the hand stays at its goal."""
+        """The joint positions that hold the end effector at its goal."""
         way = step(self.chain, self._q, self._goal, 0.0 * self._q, DAMPING)
         most = self._board.limits.speed[self._joints] / PEAK * dt
         return self._q + np.clip(way, -most, most), True
 
     def _here(self) -> Floats:
-        """Where the references of the joints are, within the limits of the chain."""
+        """The references of the joints, clipped to the limits of the chain."""
         self._fix_other_joints()
         here = self._board.references.position[self._joints]
         return np.clip(here, self.chain.low, self.chain.high)
 
     def _fix_other_joints(self) -> None:
-        """Other joints of the board that move the hand are taken as they stand."""
+        """Update the fixed joints that move the end effector from their measured positions."""
         for name in self.chain.held:
             if name in self._board.spec.names:
                 self.chain.fix_joint(

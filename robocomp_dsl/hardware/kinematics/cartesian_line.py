@@ -1,6 +1,6 @@
-"""The way of a hand from one pose to another: a straight line, at rest on both ends.
+"""The path of an end effector between two poses: a straight line, at rest at both ends.
 
-In: both ends, as poses and as postures. Out: the goal and the posture of each moment, by minimum
+In: both ends, as poses and as postures. Out: the goal and the posture at each time, by minimum
 jerk.
 """
 
@@ -16,7 +16,7 @@ from robocomp_dsl.tactile.arm.inverse import Goal, rotation_vector
 
 
 class LineMotion:
-    """From one pose and posture to another, at rest on both ends; `time` is how far it has come."""
+    """From one pose and posture to another, at rest at both ends; `time` is the elapsed time."""
 
     def __init__(
         self, pose: Matrix, start: Floats, goal: Goal, end: Floats, seconds: float

@@ -1,4 +1,4 @@
-"""The matrices of a tree of frames, laid out so that one refresh of all takes few calls of numpy.
+"""The matrices of a tree of frames, arranged so that an update needs few calls of numpy.
 
 In: the frames, level by level. Out: arrays of matrices in the parents (`local`) and in the root
 (`world`). Frames of one depth are neighbours, so that a level is one product of two slices.
@@ -38,7 +38,7 @@ class FrameLayout:
             start = end
 
     def set_pose(self, frame: str, pose: Sequence[float]) -> None:
-        """Give a frame another pose in its parent; `refresh` makes it felt."""
+        """Set the pose of a frame in its parent; takes effect with `refresh`."""
         self.local[self.rows[frame], :3] = pose_rows(pose)
 
     def refresh(self) -> None:

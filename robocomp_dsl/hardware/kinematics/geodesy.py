@@ -1,4 +1,4 @@
-"""Places on the globe: from metres around an origin to degrees, and on to the UTM projection.
+"""Positions on the globe: from metres around an origin to degrees, and to the UTM projection.
 
 WGS 84. The tangent plane is good to a few cm over some km; UTM is Krüger's series to the third
 order (Karney, Transverse Mercator with an accuracy of a few nanometers, 2011).
@@ -33,7 +33,7 @@ class GeoPoint:
 
 
 def offset(origin: GeoPoint, east: float, north: float, up: float) -> GeoPoint:
-    """The place so many metres from `origin`."""
+    """The position at an offset in m from `origin`."""
     phi = math.radians(origin.latitude)
     squared = _FLATTENING * (2 - _FLATTENING)
     bent = 1 - squared * math.sin(phi) ** 2

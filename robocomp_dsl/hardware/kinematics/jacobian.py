@@ -1,4 +1,4 @@
-"""How a point moves with the joints that carry it.
+"""Motion of a point with the joints that carry it.
 
 In: a tree of frames, joints and a point. Out: the geometric Jacobian (Siciliano et al., Robotics:
 Modelling, Planning and Control, section 3.1).
@@ -25,11 +25,11 @@ def jacobian(
     base: str = ROOT,
     point: Triple = _ORIGIN,
 ) -> Matrix:
-    """How `point` of the frame `tip` moves and turns in `base`; shape (6, number of joints).
+    """Translation and rotation of `point` of the frame `tip` in `base`; shape (6, joints).
 
-    Rows are x, y, z in mm and the turn about x, y, z in rad; columns are per rad of a hinge and
-    per mm of a slide. A joint that does not carry `tip` has a column of zeros. `base` counts as
-    standing still. Raises `FrameError`.
+    Rows are x, y, z in mm and the rotation about x, y, z in rad; columns are per rad of a hinge and
+    per mm of a slide. A joint that does not carry `tip` has a column of zeros. `base` is considered
+    fixed. Raises `FrameError`.
     """
     matrix = np.zeros((6, len(joints)))
     end = np.array(tree.transform(point, tip, base))

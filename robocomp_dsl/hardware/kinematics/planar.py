@@ -1,6 +1,6 @@
-"""Poses on the floor and how wheels change them: pure functions, no device.
+"""Poses on the floor and their change by wheels: pure functions, no device.
 
-In: poses and distances that wheels have travelled. Out: poses. The heading `alpha` grows from z
+In: poses, and distances travelled by wheels. Out: poses. The heading `alpha` grows from z
 towards x, so ahead is (sin alpha, cos alpha) and a right turn is positive.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """A place on the floor: `x` and `z` in mm, `alpha` in rad."""
+    """A position on the floor: `x` and `z` in mm, and the heading `alpha` in rad."""
 
     x: float = 0.0
     z: float = 0.0
@@ -34,16 +34,16 @@ class Pose:
 
 
 ORIGIN = Pose()
-"""Where odometry begins."""
+"""The initial pose of odometry."""
 
 
 def wrap_angle(angle: float) -> float:
-    """`angle` in rad, brought to [-pi, pi)."""
+    """`angle` in rad, normalised to [-pi, pi)."""
     return (angle + math.pi) % math.tau - math.pi
 
 
 def arc(left: float, right: float, axis: float) -> Pose:
-    """How a base moves when its wheels, `axis` mm apart, roll `left` and `right` mm.
+    """The motion of a base whose wheels, `axis` mm apart, roll `left` and `right` mm.
 
     Exact for a constant ratio of the two (Siegwart, Introduction to Autonomous Mobile Robots,
     ch. 5.2.4, closed form instead of its mid-point rule).

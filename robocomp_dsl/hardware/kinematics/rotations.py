@@ -34,10 +34,10 @@ def rotation(rx: float, ry: float, rz: float) -> Matrix:
 
 
 def angles(turned: Matrix) -> tuple[float, float, float]:
-    """rx, ry, rz of a rotation matrix; where ry is ±90°, rz is chosen as 0.
+    """rx, ry, rz of a rotation matrix; if ry is ±90°, rz is set to 0.
 
-    ry and rz are read from what is left when rx is undone, so that the three give `turned` again to
-    the last digits also where ry is nearly ±90° and rx alone is badly determined.
+    ry and rz are computed after rx is undone, so that the three reproduce `turned` to the last
+    digits even if ry is nearly ±90° and rx alone is ill-conditioned.
     """
     row = turned.tolist()
     upright = math.hypot(row[1][2], row[2][2]) < 1e-12
@@ -49,7 +49,7 @@ def angles(turned: Matrix) -> tuple[float, float, float]:
 
 
 def inverse(pose: Matrix) -> Matrix:
-    """The inverse of a matrix that only turns and moves, shape (4, 4)."""
+    """The inverse of a rigid transform, shape (4, 4)."""
     inverted = np.eye(4)
     inverted[:3, :3] = pose[:3, :3].T
     inverted[:3, 3] = -pose[:3, :3].T @ pose[:3, 3]

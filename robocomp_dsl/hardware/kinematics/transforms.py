@@ -1,7 +1,7 @@
-"""A tree of frames: where everything is, seen from anything, while it moves.
+"""A tree of moving frames, and the transforms between any two of them.
 
-In: frames, changed one at a time. Out: points, poses and matrices between any two. Only
-what is asked for is computed, and only once until something moves. Pure numpy; not thread-safe.
+In: frames, changed one at a time. Out: points, poses and matrices between any two. Only requested
+transforms are computed, and cached until a frame moves. Pure numpy; not thread-safe.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class TransformTree:
     # -- changing -----------------------------------------------------------------------------
 
     def add(self, frame: Frame) -> None:
-        """Put a new frame into its parent. Raises `FrameError`, `CommandRefused`."""
+        """Add a frame to its parent. Raises `FrameError`, `CommandRefused`."""
         if frame.id in self._nodes:
             raise FrameError(f"there is a frame `{frame.id}` already")
         parent = self._node(frame.parent)
@@ -54,7 +54,7 @@ class TransformTree:
         self._rebuild()
 
     def remove(self, frame: str) -> None:
-        """Take a frame away, with all that is in it. Raises `FrameError`."""
+        """Remove a frame with its subtree. Raises `FrameError`."""
         node = self._movable(frame)
         del _parent(node).children[frame]
         todo = [node]
@@ -65,7 +65,7 @@ class TransformTree:
         self._rebuild()
 
     def move(self, frame: str, parent: str) -> None:
-        """Move a frame into another one, with the same local pose. Raises `FrameError`."""
+        """Move a frame to another parent, with the same local pose. Raises `FrameError`."""
         node, into = self._movable(frame), self._node(parent)
         above: _Node | None = into
         while above is not None:
@@ -78,7 +78,7 @@ class TransformTree:
         self._rebuild()
 
     def set_pose(self, frame: str, pose: Sequence[float]) -> None:
-        """Place and turn in the parent: x, y, z in mm, rx, ry, rz in rad."""
+        """Set the pose in the parent: x, y, z in mm, rx, ry, rz in rad."""
         node = self._movable(frame)
         if len(pose) != 6:
             raise CommandRefused(f"a pose has six numbers, not {len(pose)}")
@@ -87,7 +87,7 @@ class TransformTree:
         self._changed(node)
 
     def set_joint(self, frame: str, value: float) -> None:
-        """The angle of a hinge in rad, or the way of a slide in mm; limits are not judged here."""
+        """Set the angle of a hinge [rad] or the distance of a slide [mm]; no limit check."""
         node = self._node(frame)
         require_finite(value=value)
         node.pose[_index(node)] = value + _motion(node).offset
@@ -99,14 +99,14 @@ class TransformTree:
         return frame in self._nodes
 
     def __iter__(self) -> Iterator[str]:
-        """All frames, in the order in which they came."""
+        """All frames, in insertion order."""
         return iter(self._nodes)
 
     def __len__(self) -> int:
         return len(self._nodes)
 
     def parent(self, frame: str) -> str:
-        """The frame that holds `frame`; empty for the root."""
+        """The parent of `frame`; empty for the root."""
         above = self._node(frame).parent
         return above.id if above else ""
 
@@ -134,7 +134,7 @@ class TransformTree:
         return points @ matrix[:3, :3].T + matrix[:3, 3]
 
     def matrix(self, source: str, target: str) -> Matrix:
-        """What takes points of `source` to `target`, shape (4, 4)."""
+        """The transform from `source` to `target`, shape (4, 4)."""
         layout = self._refreshed()
         try:
             seen, seer = layout.rows[source], layout.rows[target]
@@ -144,27 +144,27 @@ class TransformTree:
         return relative
 
     def pose(self, frame: str, base: str) -> tuple[float, ...]:
-        """Place and turn of `frame` in `base`: x, y, z, rx, ry, rz."""
+        """The pose of `frame` in `base`: x, y, z, rx, ry, rz."""
         matrix = self.matrix(frame, base)
         return (*map(float, matrix[:3, 3]), *angles(matrix[:3, :3]))
 
     def axis(self, joint: str, base: str) -> Matrix:
-        """The axis of a joint in `base`, shape (3,), of length 1."""
+        """The axis of a joint in `base`, shape (3,), of unit length."""
         node = self._node(joint)
         motion, at = _motion(node), _AXIS[_motion(node).axis]
         before = [0.0] * 6
-        if motion.kind == "hinge":  # turns that stand before it in Rx·Ry·Rz turn it with them
+        if motion.kind == "hinge":  # rotations that precede it in Rx·Ry·Rz rotate the axis
             before[3 : 3 + at] = node.pose[3 : 3 + at]
         in_parent = np.array(pose_rows(before))[:3, at]
         direction: Matrix = self.matrix(_parent(node).id, base)[:3, :3] @ in_parent
         return direction
 
     def motion(self, joint: str) -> Motion:
-        """How a joint moves. Raises `FrameError` for a frame that is no joint."""
+        """The motion of a joint. Raises `FrameError` for a frame that is not a joint."""
         return _motion(self._node(joint))
 
     def path(self, frame: str) -> tuple[str, ...]:
-        """The frame and all that hold it, up to the root."""
+        """The frame and all its ancestors, up to the root."""
         found = [self._node(frame)]
         while (above := found[-1].parent) is not None:
             found.append(above)
@@ -233,7 +233,7 @@ def _motion(node: _Node) -> Motion:
 
 
 def _index(node: _Node) -> int:
-    """Which number of the pose the joint moves."""
+    """Index of the pose component that the joint moves."""
     motion = _motion(node)
     return _AXIS[motion.axis] + (3 if motion.kind == "hinge" else 0)
 

@@ -1,1 +1,1 @@
-"""Servants answer for devices: one class per interface, listed in `registry`."""
+"""Servants of devices: one class per interface, listed in `registry`."""

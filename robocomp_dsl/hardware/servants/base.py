@@ -28,7 +28,7 @@ def base_state_to_message(struct: type[Any], state: Any) -> Any:
 
 
 class GenericBaseServant(Servant):
-    """What every base can tell."""
+    """The operations that every base supports."""
 
     @property
     def _base(self) -> MobileBaseDevice:
@@ -46,34 +46,34 @@ class GenericBaseServant(Servant):
 
 
 class _BaseServant(GenericBaseServant):
-    """What both interfaces share beyond that."""
+    """The common operations of both interfaces."""
 
     def stopBase(self) -> None:
-        """Stop as fast as the base can."""
+        """Stop as fast as possible."""
         self._base.stop()
 
     def resetOdometer(self) -> None:
-        """The odometry starts again at x = z = alpha = 0."""
+        """Reset the odometry to x = z = alpha = 0."""
         self._base.set_odometry(ORIGIN)
 
     def setOdometer(self, state: Any) -> None:
-        """The odometry goes on from the pose in `state`."""
+        """Set the odometry to the pose in `state`."""
         self._base.set_odometry(Pose(state.x, state.z, state.alpha))
 
     def setOdometerPose(self, x: int, z: int, alpha: float) -> None:
-        """The odometry goes on from this pose."""
+        """Set the odometry to this pose."""
         self._base.set_odometry(Pose(x, z, alpha))
 
     def correctOdometer(self, x: int, z: int, alpha: float) -> None:
-        """The corrected pose goes on from this pose."""
+        """Set the corrected pose."""
         self._base.correct(Pose(x, z, alpha))
 
 
 class DifferentialRobotServant(_BaseServant):
-    """A base that goes ahead and turns."""
+    """A base that moves ahead and turns."""
 
     def poll(self) -> list[tuple[Any, ...]]:
-        """The state and its time, as the topic has them."""
+        """The state and its time, as the topic's inputs."""
         state = self._base.state()
         return [(base_state_to_message(self.types.TBaseState, state), state.time)]
 
@@ -83,7 +83,7 @@ class DifferentialRobotServant(_BaseServant):
 
 
 class OmniRobotServant(_BaseServant):
-    """A base that goes sideways, too."""
+    """A base that also moves sideways."""
 
     def setSpeedBase(self, advx: float, advz: float, rot: float) -> None:
         """Drive until the next command."""

@@ -13,7 +13,7 @@ class BatteryServant(Servant):
     """One battery."""
 
     def getBatteryState(self) -> Any:
-        """The state now."""
+        """The current state."""
         it = self.device().charge()
         states = self.types.BatteryStates
         full = states.Charged if it.left >= 1 else states.Charging

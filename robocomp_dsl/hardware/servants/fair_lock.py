@@ -1,8 +1,8 @@
 """A fair lock for one worker thread and its visitors: threads get it in order of arrival.
 
-A `threading.Lock` may be taken again at once by the thread that released it, so that a simulation
-that never sleeps would never let a caller in. Here the next thread waits in a queue and goes first.
-Between its turns the worker sleeps until a visitor has had the lock.
+A thread that releases a `threading.Lock` can immediately acquire it again, so a simulation that
+never sleeps would starve all callers. Here the lock passes to the next thread in the queue.
+Between its turns the worker sleeps until a visitor has held the lock.
 """
 
 from __future__ import annotations
@@ -49,11 +49,11 @@ class FairLock:
 
     @contextmanager
     def worker_turn(self) -> Iterator[None]:
-        """Hold the lock as the worker, which sees the effects of all visits before."""
+        """Hold the lock as the worker, which sees the effects of all earlier visits."""
         with self.reader:
             self._idle.acquire(blocking=False)
             yield
 
     def wait_for_visitor(self, seconds: float) -> bool:
-        """As the worker: wait until a visit since its last turn; False after `seconds`."""
+        """As the worker: wait for a visit after its last turn; False after `seconds`."""
         return self._idle.acquire(timeout=max(seconds, 0.0))

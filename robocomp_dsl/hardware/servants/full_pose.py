@@ -1,6 +1,6 @@
-"""`FullPoseEstimation` over a base: where it is in space if it knows that, else on the floor.
+"""`FullPoseEstimation` over a base: its pose in space if known, else its pose on the floor.
 
-In a simulator that is the true pose; the driver of a real base tells its corrected pose.
+In a simulator it is the true pose; the driver of a real base reports its corrected pose.
 """
 
 # ruff: noqa: N802  called as in the interface
@@ -30,14 +30,14 @@ class FullPoseServant(Servant):
         return robot
 
     def setInitialPose(self, x: float, y: float, z: float, rx: float, ry: float, rz: float) -> None:
-        """Where the robot is now."""
+        """The current pose of the robot."""
         require_finite(x=x, y=y, z=z, rx=rx, ry=ry, rz=rz)
         matrix = np.eye(4)
         matrix[:3] = pose_rows((x, y, z, rx, ry, rz))
         self._robot.set_full_pose(matrix)
 
     def getFullPoseEuler(self) -> Any:
-        """The pose with its angles, and how it changes."""
+        """The pose with its angles, and its derivatives."""
         it = self._robot.full_pose()
         turned = it.matrix[:3, :3]
         side, _, adv = (turned.T @ it.velocity).tolist()

@@ -23,7 +23,7 @@ class GpsServant(Servant):
         return True, it.latitude, it.longitude, it.altitude
 
     def getPos(self) -> tuple[bool, float, float, float]:
-        """Position against the last reset, in mm."""
+        """Position relative to the last reset, in mm."""
         return (True, *self._gps.position())
 
     def getUTMData(self) -> tuple[bool, int, str, float, float]:
@@ -31,5 +31,5 @@ class GpsServant(Servant):
         return (True, *utm(self._gps.place()))
 
     def resetPos(self) -> None:
-        """The present position becomes the origin."""
+        """Make the current position the origin."""
         self._gps.reset()

@@ -19,7 +19,7 @@ class ImuServant(Servant):
         return found
 
     def getDataImu(self) -> Any:
-        """Everything."""
+        """All measurements."""
         types, it = self.types, self._imu.measure()
         rx, ry, rz = it.orientation
         return types.DataImu(
@@ -47,5 +47,5 @@ class ImuServant(Servant):
         return self.getDataImu().rot
 
     def resetImu(self) -> None:
-        """The present orientation becomes the reference."""
+        """Make the current orientation the reference."""
         self._imu.reset()

@@ -1,4 +1,4 @@
-"""`Laser` over a range finder. Its base is the one that carries the range finder, if any."""
+"""`Laser` over a range finder, with the base that carries it, if any."""
 
 # ruff: noqa: N802  called as in the interface
 
@@ -38,7 +38,7 @@ class LaserServant(Servant):
         return self.types.TLaserData.from_columns(angle=scan.angles, dist=scan.distances)
 
     def getLaserAndBStateData(self) -> tuple[Any, Any]:
-        """The latest scan, and the state of the base; all zero where nothing drives."""
+        """The latest scan, and the state of the base; all zero without a base."""
         state = self.types.TBaseState
         base = (
             base_state_to_message(state, self.device(self.ids[1]).state())
@@ -48,7 +48,7 @@ class LaserServant(Servant):
         return self.getLaserData(), base
 
     def getLaserConfData(self) -> Any:
-        """How the laser is set up."""
+        """Configuration of the laser."""
         return settings_to_message(self.types.LaserConfData, self.ids[0], self._laser.settings)
 
 

@@ -13,18 +13,18 @@ from robocomp_dsl.hardware.servants.base import (
     OmniRobotServant,
 )
 from robocomp_dsl.hardware.servants.battery import BatteryServant
-from robocomp_dsl.hardware.servants.camera import CameraSimpleServant, RgbdSimpleServant
-from robocomp_dsl.hardware.servants.cartesian_controller import CartesianControllerServant
-from robocomp_dsl.hardware.servants.control_board import ControlBoardServant
-from robocomp_dsl.hardware.servants.display import DisplayServant
+from robocomp_dsl.hardware.servants.cameras.camera import CameraSimpleServant, RgbdSimpleServant
+from robocomp_dsl.hardware.servants.cameras.display import DisplayServant
+from robocomp_dsl.hardware.servants.cameras.head_camera import HeadCameraServant
+from robocomp_dsl.hardware.servants.cameras.rgbd import RgbdServant
 from robocomp_dsl.hardware.servants.full_pose import FullPoseServant
 from robocomp_dsl.hardware.servants.gps import GpsServant
-from robocomp_dsl.hardware.servants.head_camera import HeadCameraServant
 from robocomp_dsl.hardware.servants.imu import ImuServant
-from robocomp_dsl.hardware.servants.joint_motor import JointMotorServant
-from robocomp_dsl.hardware.servants.joint_motor_simple import JointMotorSimpleServant
+from robocomp_dsl.hardware.servants.joints.cartesian_controller import CartesianControllerServant
+from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServant
+from robocomp_dsl.hardware.servants.joints.joint_motor import JointMotorServant
+from robocomp_dsl.hardware.servants.joints.joint_motor_simple import JointMotorSimpleServant
 from robocomp_dsl.hardware.servants.laser import LaserServant
-from robocomp_dsl.hardware.servants.rgbd import RgbdServant
 from robocomp_dsl.hardware.servants.servant import Servant
 from robocomp_dsl.hardware.servants.skin import SkinServant
 from robocomp_dsl.hardware.servants.touch_sensor import TouchSensorServant
@@ -54,4 +54,4 @@ SERVANTS: Mapping[str, type[Servant]] = {
     "RoboCompUltrasound::Ultrasound": UltrasoundServant,
     "RoboCompBatteryStatus::BatteryStatus": BatteryServant,
 }
-"""Interface name to servant class, for devices that any robot has."""
+"""Interface name to servant class, for devices that simulated and real robots have."""

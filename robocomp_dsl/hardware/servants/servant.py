@@ -1,7 +1,7 @@
 """The base of servants: their types and devices, and the mapping of errors to exceptions.
 
-In: an interface as generated code declares it, and the devices behind the port. Out: nothing of its
-own; the methods of the classes below are the operations.
+In: an interface as declared by generated code, and the devices of the port. Out: the base classes;
+the methods of their subclasses are the operations.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ _MODULE = "RoboComp"
 
 
 class InterfaceTypes:
-    """The types that an interface mentions, as attributes under the names that the IDSL gives them.
+    """The types of an interface, as attributes with their IDSL names.
 
-    Generated classes of the same name in two modules carry their module before it
-    (`RoboCompLaser_TData`); here they do not.
+    Generated classes of the same name in two modules have their module as prefix
+    (`RoboCompLaser_TData`); the attributes do not.
     """
 
     def __init__(self, interface: rt.Interface) -> None:
@@ -63,15 +63,15 @@ def _plain_name(class_: type) -> str:
 
 
 class Servant:
-    """One port. `ids` are its devices, in order; `devices` is looked into at every call."""
+    """One port. `ids` are its devices, in order; they are looked up in `devices` at every call."""
 
     NEEDS_LOCK: ClassVar[bool] = True
-    """Whether the world must stand still during a call."""
+    """Whether the world must be paused during a call."""
 
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = (
         (HardwareError, "HardwareFailedException"),
     )
-    """Kinds of failures and the exceptions that they become, the special ones first."""
+    """Error classes and the exceptions that they are mapped to, specific ones first."""
 
     def __init__(
         self, interface: rt.Interface, port: str, ids: tuple[str, ...], devices: Mapping[str, Any]
@@ -92,14 +92,14 @@ class Servant:
             raise DeviceGone(f"`{key}` has been removed from the world") from None
 
     def board_device(self) -> Any:
-        """The board of all joints. Raises `DeviceGone` when there are none left."""
+        """The board of all joints. Raises `DeviceGone` if none are left."""
         for device in self._devices.values():
             if hasattr(device, "board"):
                 return device
         raise DeviceGone("there are no joints any more")
 
     def to_idl_error(self, operation: str, error: HardwareError) -> Exception:
-        """What the caller of `operation` gets: a declared exception where there is one."""
+        """The exception for the caller of `operation`: a declared one if possible."""
         for kind, name in self.FAILURES:
             for declared in self._throws.get(operation, ()):
                 if isinstance(error, kind) and _plain_name(declared) == name:
@@ -108,6 +108,6 @@ class Servant:
         return error
 
     def declared_error(self, declared: type[Any], error: HardwareError) -> Exception:
-        """The exception that the interface declares, filled in."""
+        """The exception that the interface declares, with its fields."""
         exception: Exception = declared(what=str(error))
         return exception

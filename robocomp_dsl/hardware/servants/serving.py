@@ -1,6 +1,6 @@
 """Serves devices as interfaces: each operation is one call of a servant under the lock.
 
-In: the ports of a component, the devices that each stands for, and the devices, simulated or real.
+In: the ports of a component, the ids of their devices, and the devices, simulated or real.
 Out: for every port an object with the operations of its interface as methods.
 """
 

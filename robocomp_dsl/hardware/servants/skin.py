@@ -25,7 +25,7 @@ class FrameTopic(Protocol):
         """Publish a frame."""
 
     def has_subscribers(self) -> bool:
-        """Whether anybody gets it."""
+        """Whether the topic has subscribers."""
 
 
 class ContactTopic(Protocol):
@@ -35,7 +35,7 @@ class ContactTopic(Protocol):
         """Publish the touches of a frame."""
 
     def has_subscribers(self) -> bool:
-        """Whether anybody gets them."""
+        """Whether the topic has subscribers."""
 
 
 class SkinServant(Servant):
@@ -47,7 +47,7 @@ class SkinServant(Servant):
         return found
 
     def getGeometry(self) -> Any:
-        """Where the taxels are."""
+        """The positions of the taxels."""
         it = self._skin.geometry
         x, y, z = _columns(it.points)
         nx, ny, nz = _columns(it.normals)
@@ -78,7 +78,7 @@ class SkinServant(Servant):
         return self._list(frame, self._skin.touches(frame))
 
     def calibrate(self, seconds: float) -> None:
-        """Take the baseline."""
+        """Measure the baseline."""
         self._skin.calibrate(seconds)
 
     def publish(self, frames: FrameTopic, touches: ContactTopic) -> None:
@@ -98,7 +98,7 @@ class SkinServant(Servant):
             touched = felt
             try:
                 found = self._skin.touches(new)
-            except HardwareError:  # its taxels have been taken away meanwhile
+            except HardwareError:  # its taxels were removed meanwhile
                 return
             touches.contacts(self._list(new, found))
 

@@ -10,10 +10,10 @@ from robocomp_dsl.hardware.servants.servant import Servant
 
 
 class TouchSensorServant(Servant):
-    """All sensors of the port; one that was removed is left out."""
+    """All sensors of the port; removed ones are omitted."""
 
     def getValues(self) -> dict[str, Any]:
-        """The values by the sensors' names."""
+        """The values by sensor name."""
         return {
             name: self.types.SensorState(name=name, value=self.device(name).value())
             for name in self.ids

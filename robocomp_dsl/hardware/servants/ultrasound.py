@@ -23,36 +23,36 @@ class UltrasoundServant(Servant):
     )
 
     def getBusParams(self) -> Any:
-        """The bus."""
+        """Configuration of the bus."""
         return self.types.BusParams(numSensors=len(self.ids), basicPeriod=_PERIOD_MS)
 
     def getSensorParams(self, sensor: str) -> Any:
-        """How one sensor is set up."""
+        """Configuration of one sensor."""
         self._known(sensor)
         return self.types.SensorParams(device=self.port, busId=self.ids.index(sensor), name=sensor)
 
     def getAllSensorParams(self) -> list[Any]:
-        """How all sensors are set up."""
+        """Configuration of all sensors."""
         return [self.getSensorParams(sensor) for sensor in self.ids]
 
     def getAllSonarPose(self) -> Any:
-        """Where they sit on the robot: x to the right, y ahead."""
+        """Mounting poses on the robot: x to the right, y ahead."""
         poses = [self._known(sensor).mounted() for sensor in self.ids]
         return self.types.SonarPoseList(
             [self.types.SonarPose(sensor.x, sensor.z, sensor.alpha) for sensor in poses]
         )
 
     def getSonarsNumber(self) -> int:
-        """How many there are."""
+        """Number of sensors."""
         return len(self.ids)
 
     def getSensorDistance(self, sensor: str) -> int:
-        """What one of them measures, in mm."""
+        """The distance measured by one sensor, in mm."""
         distance: float = self._known(sensor).distance()
         return round(distance)
 
     def getAllSensorDistances(self) -> Any:
-        """What all of them measure, in mm."""
+        """The distances measured by all sensors, in mm."""
         return np.array([self.getSensorDistance(sensor) for sensor in self.ids], dtype=np.int32)
 
     def _known(self, sensor: str) -> Any:

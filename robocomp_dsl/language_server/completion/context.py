@@ -16,9 +16,10 @@ from typing import Any
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
-from robocomp_dsl.syntax.grammar.tables import END, Tables, load, name_action
+from robocomp_dsl.syntax.grammar.tables import Tables, load, name_action
 from robocomp_dsl.syntax.languages.builder import Builder
 from robocomp_dsl.syntax.recovery import recovery
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext

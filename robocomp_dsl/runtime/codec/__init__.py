@@ -1,1 +1,1 @@
-"""CDR encoding and decoding. `codec` has the functions that others call."""
+"""CDR encoding and decoding; `codec` is the entry point."""

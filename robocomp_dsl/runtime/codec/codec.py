@@ -1,16 +1,16 @@
-"""Values to messages and back: CDR, little endian, version 1, as DDS and ROS 2 send it.
+"""Convert values to messages and back: CDR, little endian, version 1, as in DDS and ROS 2.
 
-In: the fields of an operation or one type. Out: functions made for them alone: their source is
-written from the schema (`encoder`, `decoder`) and compiled once, on first use.
+In: the fields of an operation, or one type. Out: specialised functions: their source is generated
+from the schema (`encoder`, `decoder`) and compiled once, on first use.
 
 The format is OMG CDR (CORBA 3.0, section 15.3; DDS-XTypes 1.3, section 7.4.1, "XCDR version 1")
-behind the 4 bytes 00 01 00 00; numbers are aligned to their size, counted from behind these. An
-enum is 32 bits; a dictionary a sequence of (key, value) structs; an exception a struct; the inputs
-of an operation one struct, its outputs another. A struct without fields is one zero byte, as ROS 2
-has it.
+after the 4 bytes 00 01 00 00; numbers are aligned to their size, counted from the end of these
+bytes. An enum is 32 bits; a dictionary a sequence of (key, value) structs; an exception a struct;
+the inputs of an operation one struct, its outputs another. A struct without fields is one zero
+byte, as in ROS 2.
 
-Decoded arrays are views of the message and read-only; `copy()` them to change them. Decoders raise
-`MalformedMessage` whatever the bytes are, and nothing else.
+Decoded arrays are read-only views of the message; `copy()` them before changing them. For invalid
+bytes decoders raise `MalformedMessage` and no other exception.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ R = TypeVar("R", bound=Struct)
 def compile_encoder(fields: Fields, *, result: bool = False) -> Callable[[Any], bytes]:
     """A function from the tuple of the fields' values to a message; raises `EncodeError`.
 
-    With `result` it takes what a method returns: None, the one value, or a tuple of several.
+    With `result` it accepts the result of a method: None, a single value, or a tuple of several.
     """
     return encoder_function(fields, _form(fields, result))
 
 
 def compile_decoder(fields: Fields, *, result: bool = False) -> Callable[[Buffer], Any]:
-    """A function from a message to what `compile_encoder` takes; raises `MalformedMessage`."""
+    """A function from a message to the argument of `compile_encoder`; raises `MalformedMessage`."""
     return decoder_function(fields, _form(fields, result))
 
 
 def _form(fields: Fields, result: bool) -> str:
-    """How the values stand together in Python: `none`, `one` or `tuple`."""
+    """The Python form of the values: `none`, `one` or `tuple`."""
     if not result or len(fields) > 1:
         return "tuple"
     return "one" if fields else "none"

@@ -1,8 +1,8 @@
-"""Writes decoders. In: a schema. Out: a Python function from bytes to values.
+"""Generates decoders. In: a schema. Out: a Python function from bytes to values.
 
-What it makes is fast and trusts nothing: every number is unpacked and every slice taken in a way
-that fails on bytes that do not fit. Any failure hands the message to `read`, which either has an
-explanation (`MalformedMessage`) or reads what is rare, as messages of big-endian peers.
+Generated decoders are fast and safe for any input: every `unpack` and slice fails on bytes that do
+not fit. After a failure `read` decodes the message again: it raises a located `MalformedMessage`,
+or returns the values of rare formats such as big-endian messages.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from robocomp_dsl.runtime.data.struct import Struct
 
 
 def decoder_function(fields: Fields, form: str) -> Callable[[Any], Any]:
-    """The decoder; `form` says how the values are handed over: `none`, `one` or `tuple`."""
+    """The decoder; `form` is the form of the result: `none`, `one` or `tuple`."""
     compiled: list[Callable[[Any], Any]] = []
 
     def from_view(buffer: Any) -> Any:
-        """Buffers other than bytes have a decoder of their own, for they have no `decode`."""
+        """Buffers other than bytes need their own decoder, because they have no `decode`."""
         if not compiled:
             compiled.append(_written(fields, form, view=True))
         return compiled[0](memoryview(buffer).toreadonly().cast("B"))
@@ -61,7 +61,7 @@ def _unpacker(layout: struct.Struct) -> Callable[..., Any]:
 
 
 class _Decoder(Emitter):
-    """`after` are the lines that wait, with the numbers in `run`, for being unpacked."""
+    """`after` has the lines to emit after the numbers in `run` are unpacked."""
 
     variable = "o"
     origin = 4
@@ -72,7 +72,7 @@ class _Decoder(Emitter):
         self.after: list[str] = []
 
     def message(self, fields: Fields, form: str) -> None:
-        """The whole body."""
+        """The complete body."""
         self.line(f"if {self.number('I')} != {HEADER}: raise ValueError")
         values = [self.value(type_) for _, type_ in fields]
         if not fields:
@@ -90,20 +90,20 @@ class _Decoder(Emitter):
             self.line(f"return {values[0] if values else None}")
 
     def line(self, text: str) -> None:
-        """Add a line, behind the numbers that it may need."""
+        """Append a line, after the numbers that it may need."""
         if self.run:
             self.after.append(text)
         else:
             super().line(text)
 
     def number(self, code: str) -> str:
-        """The variable of a number that is yet to be unpacked."""
+        """The variable of a number that is unpacked later."""
         name = self.name("n")
         self.run.append((code, name))
         return name
 
     def flush(self) -> None:
-        """One `unpack_from` for the numbers that wait, then the lines that wait for them."""
+        """Emit one `unpack_from` for the pending numbers, then the pending lines."""
         if not self.run:
             return
         names = [name for _, name in self.run if name]
@@ -116,7 +116,7 @@ class _Decoder(Emitter):
             self.line(line)
 
     def value(self, type_: Type) -> str:
-        """One value of any type: an expression for it, to be used once."""
+        """One value of any type: an expression that may be used once."""
         match type_:
             case Primitive():
                 value = self.primitive(type_)
@@ -136,7 +136,7 @@ class _Decoder(Emitter):
         return value
 
     def primitive(self, type_: Primitive) -> str:
-        """A number, a bool or a text."""
+        """A number, a bool or a string."""
         if type_ is STRING:
             return self.text()
         if type_ is BOOL:
@@ -144,7 +144,7 @@ class _Decoder(Emitter):
         return self.number(type_.code)
 
     def start(self) -> str:
-        """Where the next byte lies in the buffer: a number or the variable."""
+        """Offset of the next byte in the buffer: a number or the variable."""
         self.flush()
         if self.at is not None:
             return str(self.at + self.origin)
@@ -152,7 +152,7 @@ class _Decoder(Emitter):
         return "o"
 
     def text(self) -> str:
-        """Length, UTF-8, NUL. Length 0, which some peers write, is an empty text, too."""
+        """Length, UTF-8, NUL. Some peers write an empty string as length 0."""
         length, text, end = self.number("I"), self.name("s"), self.name("e")
         start = self.start()
         self.line(f"{end} = {start} + {length} - 1")
@@ -165,7 +165,7 @@ class _Decoder(Emitter):
         return text
 
     def record(self, type_: type[Struct]) -> str:
-        """An object, made past its `__init__`, which would only fill in defaults."""
+        """An object, created without calling `__init__`, which would only set defaults."""
         if not type_._fields_:
             self.run.append(("x", ""))
         values = [self.value(inner) for _, inner in type_._fields_]
@@ -185,7 +185,7 @@ class _Decoder(Emitter):
         return name
 
     def block(self, dtype: np.dtype[Any], size: int, alignment: int) -> str:
-        """A count and that many elements that lie as numpy has them."""
+        """A count, and as many elements in numpy's memory layout."""
         count, name = self.number("I"), self.name("a")
         start = self.start()
         if alignment == 8:
@@ -198,7 +198,7 @@ class _Decoder(Emitter):
         return name
 
     def struct_array(self, type_: Any) -> str:
-        """A structured array: a view of the message if the wire has it as memory does."""
+        """A structured array: a view of the message if wire and memory layout are the same."""
         layout = row_layout(type_._element_)
         if layout.direct:
             name = self.block(layout.dtype, layout.stride, layout.alignment)
@@ -216,7 +216,7 @@ class _Decoder(Emitter):
         return view
 
     def sequence(self, type_: Sequence) -> str:
-        """A list. It grows as elements are found, never by what its count claims."""
+        """A list. It grows with the decoded elements, independent of the transmitted count."""
         count, name = self.number("I"), self.name("q")
         self.flush()
         self.line(f"{name} = []")
@@ -228,7 +228,7 @@ class _Decoder(Emitter):
         return name
 
     def dictionary(self, type_: Dictionary) -> str:
-        """A dict; of equal keys the last one counts."""
+        """A dict; of duplicate keys the last one is used."""
         count, name = self.number("I"), self.name("q")
         self.flush()
         self.line(f"{name} = {{}}")

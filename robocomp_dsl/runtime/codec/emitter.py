@@ -1,10 +1,10 @@
-"""What the writers of encoders and decoders share: lines of source, constants, and the position.
+"""Shared by the generators of encoders and decoders: source lines, constants, and the position.
 
 In: the items of a message in order. Out: the source of a function and the names it uses.
 
-Numbers in a row become one call of a `struct.Struct` that has the padding between them built in.
-Where their start is only known when the message is, there is one such `Struct` for each residue.
-Positions count from behind the encapsulation header, as alignment does.
+Adjacent numbers become one call of a `struct.Struct` that includes the padding between them. If
+their start is known only at run time, there is one such `Struct` for each residue. Positions count
+from the end of the encapsulation header, like alignment.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from typing import Any
 from robocomp_dsl.runtime.data.layout import padding
 
 SIZES = {"x": 1, "?": 1, "B": 1, "h": 2, "i": 4, "I": 4, "f": 4, "q": 8, "d": 8}
-"""Size and alignment of what a `struct` letter stands for; x is a byte without meaning."""
+"""Size and alignment of each `struct` letter; x is a padding byte."""
 
 HEADER = 0x0100
 """The header 00 01 00 00 (CDR, little endian, no options), read as a little-endian number."""
 
-MAX_NESTED = 15  # Python refuses more than 20 blocks in each other
+MAX_NESTED = 15  # Python rejects more than 20 nested blocks
 
 
 def numbers(codes: Iterable[str], start: int) -> struct.Struct:
-    """These numbers in a row where the first one's padding begins at `start`."""
+    """The format of adjacent numbers if the first one's padding starts at `start`."""
     form, at = "<", start
     for code in codes:
         gap = padding(at, SIZES[code])
@@ -35,11 +35,11 @@ def numbers(codes: Iterable[str], start: int) -> struct.Struct:
 
 
 class Emitter:
-    """A function being written.
+    """A function under construction.
 
-    `at`: the position if it is known now; else the variable `variable` holds it (plus `origin`) as
-    soon as `settle` has written the increments that wait in `later`, and it is a multiple of
-    `multiple`. Subclasses say in `flush` what becomes of the numbers that wait in `run`.
+    `at` is the position if it is known at generation time; else it is the variable `variable` plus
+    `origin` once `settle` has emitted the increments in `later`, and is a multiple of
+    `multiple`. Subclasses emit the pending numbers in `run` with `flush`.
     """
 
     variable = "p"
@@ -67,7 +67,7 @@ class Emitter:
         return f"{letter}{self._count}"
 
     def constant(self, value: Any) -> str:
-        """A name for an object that the source cannot spell."""
+        """A name for an object that has no literal."""
         for name, known in self.names.items():
             if known is value:
                 return name
@@ -76,13 +76,13 @@ class Emitter:
         return name
 
     def flush(self) -> None:
-        """Write out the numbers in `run`."""
+        """Emit the numbers in `run`."""
         raise NotImplementedError
 
     def take_run(self) -> tuple[Callable[[Callable[..., Any]], str], int | None]:
-        """End the run: how to call its `Struct` (by a function that picks the method), and where.
+        """End the run: the expression for its `Struct` method, and the position.
 
-        The second is the position if it is known. The increment of the position is noted.
+        The second is the position if it is known. The increment of the position is recorded.
         """
         codes = [code for code, _ in self.run]
         self.run = []
@@ -93,7 +93,7 @@ class Emitter:
         alignment = max(SIZES[code] for code in codes)
         known = self.multiple >= alignment
         layout = numbers(codes, 0)
-        # Behind the widest number the residue does not depend on the start any more.
+        # After the widest number the residue is independent of the start.
         self.multiple = min(alignment, layout.size & -layout.size)
         self.settle()
         if known:
@@ -105,7 +105,7 @@ class Emitter:
         return lambda pick: self.constant(tuple(map(pick, residues))) + index, None
 
     def advance(self, *sizes: str) -> None:
-        """Go on by sizes that are only known when the message is; nothing is known behind them."""
+        """Advance by sizes known only at run time; the position after them is unknown."""
         if self.at is not None:
             self.later = [str(self.at + self.origin)]
             self.at = None
@@ -114,7 +114,7 @@ class Emitter:
         self.multiple = 1
 
     def settle(self) -> None:
-        """Bring the variable up to date."""
+        """Update the variable."""
         if self.at is not None:
             self.advance()
         if self.later:
@@ -124,7 +124,7 @@ class Emitter:
         self.later = []
 
     def loop(self, head: str, body: Callable[[], None]) -> None:
-        """A loop; nothing is known of the position in it and behind it."""
+        """A loop; the position inside and after it is unknown."""
         self._loops += 1
         if self._loops > MAX_NESTED:
             raise TypeError(f"more than {MAX_NESTED} sequences within each other")

@@ -1,13 +1,13 @@
-"""Writes encoders. In: a schema. Out: a Python function from values to bytes.
+"""Generates encoders. In: a schema. Out: a Python function from values to bytes.
 
-For a pose with a text in its header the body is, but for names:
+For a pose with a string in its header the body is, apart from names:
 
     v1 = value.header
     s1 = v1.frame_id.encode()
     l1 = len(s1)
     t1 = K1(256, v1.sec, v1.nanosec, l1 + 1)       # struct.Struct.pack, with the message's header
     p = 12 + l1
-    t2 = K2[p & 7](value.x, value.y, …)            # NUL of the text, padding, 7 doubles
+    t2 = K2[p & 7](value.x, value.y, …)            # NUL of the string, padding, 7 doubles
     return join((t1, s1, t2))
 """
 
@@ -41,7 +41,7 @@ _GAPS = (b"", None, None, None, bytes(4))  # padding before numbers of 8 bytes: 
 
 
 def encoder_function(fields: Fields, form: str) -> Callable[[Any], bytes]:
-    """The encoder; `form` says how the values come: `none`, `one` or `tuple`."""
+    """The encoder; `form` is the form of the values: `none`, `one` or `tuple`."""
     writer = _Encoder()
     writer.message(fields, form)
 
@@ -58,7 +58,7 @@ def _packer(layout: struct.Struct) -> Callable[..., Any]:
 
 
 class _Encoder(Emitter):
-    """`parts` are the expressions for the pieces of the message that are not collected yet."""
+    """`parts` are the expressions for the pieces of the message that are not yet joined."""
 
     def __init__(self) -> None:
         super().__init__({"join": b"".join, "ndarray": np.ndarray, "as_array": as_array})
@@ -66,7 +66,7 @@ class _Encoder(Emitter):
         self.spilled = False
 
     def message(self, fields: Fields, form: str) -> None:
-        """The whole body."""
+        """The complete body."""
         self.run.append(("I", str(HEADER)))
         names = ["value"]
         if form == "tuple":
@@ -88,20 +88,20 @@ class _Encoder(Emitter):
             self.line(f"return join(({', '.join(self.parts)}))")
 
     def flush(self) -> None:
-        """One `pack` for the numbers that wait."""
+        """Emit one `pack` for the pending numbers."""
         if not self.run:
             return
         values = ", ".join(value for _, value in self.run if value)
         call, at = self.take_run()
         expression = f"{call(_packer)}({values})"
-        if at is None:  # the position moves on before the pieces are joined
+        if at is None:  # the position advances before the pieces are joined
             part = self.name("t")
             self.line(f"{part} = {expression}")
             expression = part
         self.parts.append(expression)
 
     def spill(self) -> None:
-        """Move the pieces so far into the list `out`, as loops need it."""
+        """Move the previous pieces into the list `out`, which loops extend."""
         parts, self.parts = ", ".join(self.parts), []
         if not self.spilled:
             self.line(f"out = [{parts}]")
@@ -137,7 +137,7 @@ class _Encoder(Emitter):
                 self.struct_array(type_, expression)
 
     def primitive(self, type_: Primitive, expression: str) -> None:
-        """A number, a bool or a text."""
+        """A number, a bool or a string."""
         if type_ is STRING:
             self.text(expression)
         elif type_ is BOOL:
@@ -146,7 +146,7 @@ class _Encoder(Emitter):
             self.run.append((type_.code, expression))
 
     def text(self, expression: str) -> None:
-        """Length with the NUL, UTF-8; the NUL is left to the next run."""
+        """Length with the NUL, UTF-8; the NUL is packed with the next run."""
         text, length = self.name("s"), self.name("l")
         self.line(f"{text} = {expression}.encode()")
         self.line(f"{length} = len({text})")
@@ -176,7 +176,7 @@ class _Encoder(Emitter):
         self.block(name, dtype.itemsize, dtype.itemsize)
 
     def struct_array(self, type_: Any, expression: str) -> None:
-        """A structured array, as it is in memory if that is how the wire has it."""
+        """A structured array, copied from memory if wire and memory layout are the same."""
         layout = row_layout(type_._element_)
         source, name, cls = self.assigned("a", expression), self.name("a"), self.constant(type_)
         self.line(
@@ -205,7 +205,7 @@ class _Encoder(Emitter):
         return count
 
     def block(self, name: str, size: int, alignment: int) -> None:
-        """A count and memory that is sent as it is. An empty one has no padding before it."""
+        """A count, and memory sent unchanged. An empty array has no padding before it."""
         count = self.count(name)
         gaps = []
         if alignment == 8 and (self.at is None or self.at % 8):

@@ -1,6 +1,6 @@
-"""Why a value could not be encoded. In: the fields, the values, the failure. Out: `EncodeError`.
+"""Explains why a value cannot be encoded. In: fields, values, failure. Out: `EncodeError`.
 
-Encoders only notice that something failed; this walks the values once more, slowly, to tell where.
+Encoders only detect a failure; this module checks the values again to locate it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from robocomp_dsl.runtime.errors import EncodeError
 
 
 def explain(fields: Fields, form: str, values: Any, failure: Exception) -> EncodeError:
-    """The error to raise for `values`, which an encoder of `fields` refused with `failure`."""
+    """The error to raise for `values`, which an encoder of `fields` rejected with `failure`."""
     try:
         for name, type_, value in _paired(fields, form, values):
             _check(type_, value, name)
@@ -52,7 +52,7 @@ def _paired(fields: Fields, form: str, values: Any) -> list[tuple[str, Type, Any
 
 
 def _check(type_: Type, value: Any, path: str) -> None:
-    """Raise `EncodeError` for the first thing that is wrong with `value`."""
+    """Raise `EncodeError` for the first invalid part of `value`."""
     try:
         match type_:
             case Primitive():
@@ -68,7 +68,7 @@ def _check(type_: Type, value: Any, path: str) -> None:
                 as_scalar(type_, value)
             case _ if issubclass(type_, Struct):
                 _check_record(type_, value)
-            case _:
+            case _ if issubclass(type_, StructArray):
                 _check_rows(type_, value)
     except EncodeError as error:
         inner = error.path if path else error.path.removeprefix(".")

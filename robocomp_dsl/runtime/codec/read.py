@@ -1,8 +1,8 @@
 """Reads a message step by step. In: bytes and a schema. Out: values, or `MalformedMessage`.
 
-This is for what the generated decoders give up on: it tells which field at which byte is wrong, and
-reads big-endian messages and padding announced in the options of the header (DDS-XTypes 1.3,
-section 7.6.3.1.2). It is complete, so tests hold the generated decoders against it.
+The fallback of the generated decoders: it locates invalid fields by path and byte offset, and reads
+big-endian messages and padding declared in the header options (DDS-XTypes 1.3, section 7.6.3.1.2).
+It is a complete decoder; tests compare the generated decoders with it.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _BIG, _LITTLE = b"\0\0", b"\0\1"
 
 
 def read(fields: Fields, form: str, message: Any) -> Any:
-    """The values of `fields`; `form` says how they are handed over: `none`, `one` or `tuple`."""
+    """The values of `fields`; `form` is the form of the result: `none`, `one` or `tuple`."""
     reader = _Reader(message)
     several = form == "tuple"
     values = tuple(
@@ -47,7 +47,7 @@ def read(fields: Fields, form: str, message: Any) -> Any:
 
 
 def read_number(message: Any, limit: int, what: str) -> int:
-    """The int that a message begins with, from 0 to below `limit`."""
+    """The int at the start of a message, from 0 to below `limit`."""
     reader = _Reader(memoryview(message))
     number: int = reader.number("i", "")
     if not 0 <= number < limit:
@@ -56,7 +56,7 @@ def read_number(message: Any, limit: int, what: str) -> int:
 
 
 class _Reader:
-    """The bytes and how far they are read; all offsets from the start of the message."""
+    """The bytes and the read position; all offsets from the start of the message."""
 
     def __init__(self, message: Any) -> None:
         if len(message) < 4:
@@ -66,13 +66,13 @@ class _Reader:
             raise MalformedMessage(f"encoding {kind.hex()} is not CDR (0000 or 0001)")
         if len(message) - options < 4:
             raise MalformedMessage(f"{options} bytes of padding announced, there are fewer", "", 3)
-        # The views of the message that arrays become must not hold it writable.
+        # Arrays are views of the message and must not be writable.
         self.data = message[: len(message) - options] if options else message
         self.big = kind == _BIG
         self.at = 4
 
     def take(self, size: int, path: str, alignment: int = 1) -> int:
-        """Go past `size` bytes behind the padding. The offset where they begin."""
+        """Skip padding and `size` bytes; returns the offset where the bytes start."""
         start = self.at + padding(self.at - 4, alignment)
         if start + size > len(self.data):
             start = min(start, len(self.data))
@@ -82,7 +82,7 @@ class _Reader:
         return start
 
     def finish(self) -> None:
-        """Raise for bytes behind the message."""
+        """Raise for bytes after the end of the message."""
         if self.at != len(self.data):
             extra = len(self.data) - self.at
             raise MalformedMessage(f"{extra} bytes more than the message has", "", self.at)
@@ -93,7 +93,7 @@ class _Reader:
         return form.unpack_from(self.data, self.take(form.size, path, form.size))[0]
 
     def count(self, path: str, size: int) -> int:
-        """A number of elements of at least `size` bytes, for which there must be room."""
+        """A count of elements of at least `size` bytes, limited by the remaining bytes."""
         count: int = self.number("I", path)
         left = len(self.data) - self.at
         if count * size > left:
@@ -123,7 +123,7 @@ class _Reader:
         return value
 
     def primitive(self, type_: Primitive, path: str) -> Any:
-        """A number, a bool or a text."""
+        """A number, a bool or a string."""
         if type_ is STRING:
             return self.text(path)
         if type_ is BOOL:
@@ -147,7 +147,7 @@ class _Reader:
             raise MalformedMessage("the text is not UTF-8", path, start + error.start) from None
 
     def member(self, type_: type[Enum], path: str) -> Enum:
-        """A member of an enumeration."""
+        """An enumerator."""
         number = self.number("i", path)
         try:
             return type_(number)
@@ -166,12 +166,12 @@ class _Reader:
         return value
 
     def sequence(self, type_: Sequence, path: str) -> list[Any]:
-        """A list; every element has one byte at least."""
+        """A list; every element has at least one byte."""
         count = self.count(path, 1)
         return [self.value(type_.element, f"{path}[{i}]") for i in range(count)]
 
     def dictionary(self, type_: Dictionary, path: str) -> dict[Any, Any]:
-        """Pairs; of equal keys the last one counts."""
+        """Pairs; of duplicate keys the last one is used."""
         pairs = {}
         for index in range(self.count(path, 2)):
             key = self.value(type_.key, f"{path}[{index}].key")
@@ -179,7 +179,7 @@ class _Reader:
         return pairs
 
     def array(self, primitive: Primitive, path: str) -> Any:
-        """Numbers: a view of the message, a copy where the byte order is the other one."""
+        """Numbers: a view of the message, or a copy if the byte order differs."""
         count = self.count(path, primitive.size)
         dtype = np.dtype(np.uint8) if primitive is BOOL else primitive.dtype
         start = self.take(count * primitive.size, path, primitive.size) if count else self.at
@@ -198,7 +198,7 @@ class _Reader:
         return dtype.newbyteorder(">") if self.big else dtype
 
     def native(self, array: Any, dtype: np.dtype[Any]) -> Any:
-        """The array in the byte order that the types promise; read-only as all received."""
+        """The array in native byte order; read-only like all received arrays."""
         if self.big and dtype.itemsize > 1:
             array = array.astype(dtype)
             array.flags.writeable = False
@@ -214,7 +214,7 @@ class _Reader:
         except ValueError as error:
             raise MalformedMessage(str(error), path, at) from None
         wrong = bad_element(layout, array)
-        if wrong is not None:  # reading it once more tells what is wrong
+        if wrong is not None:  # reading it again locates the error
             self.at = begin(layout, at, wrong)
             self.record(type_._element_, f"{path}[{wrong}]")
         return type_._over(self.native(array, layout.dtype))

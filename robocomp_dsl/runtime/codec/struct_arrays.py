@@ -1,8 +1,9 @@
-"""Sequences of fixed structs with padding, which the wire does not have quite as memory does.
+"""Sequences of fixed structs with padding, whose wire and memory layouts differ.
 
 In: a structured array and a position, or bytes and an offset. Out: the bytes, or the array. The
-wire has no padding behind the last element, and the first may lie otherwise than the rest (see
-`layout`). Positions count from behind the encapsulation header, offsets from the message's start.
+wire has no padding after the last element, and the first element may have other padding (see
+`layout`). Positions count from the end of the encapsulation header, offsets from the start of the
+message.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def column(array: NDArray[Any], leaf: Leaf) -> NDArray[Any]:
 
 
 def pack(layout: RowLayout, array: NDArray[Any], position: int) -> bytes:
-    """The elements as bytes that begin at `position`; padding is zero, whatever memory has."""
+    """The elements as bytes that start at `position`; padding bytes are zero."""
     if not len(array):
         return b""
     clean = np.zeros(len(array), layout.dtype)
@@ -51,9 +52,9 @@ def pack(layout: RowLayout, array: NDArray[Any], position: int) -> bytes:
 def unpack(
     layout: RowLayout, buffer: Any, offset: int, count: int, dtype: np.dtype[Any] | None = None
 ) -> tuple[NDArray[Any], int]:
-    """`count` elements and the offset behind them. Raises `ValueError` if the buffer is too short.
+    """`count` elements and the offset after them. Raises `ValueError` if the buffer is too short.
 
-    `dtype` is that of the layout, or the same of the other byte order.
+    `dtype` is that of the layout, or its equivalent in the other byte order.
     """
     dtype = dtype or layout.dtype
     if not count:
@@ -74,21 +75,21 @@ def unpack(
     _move(layout, buffer[start : start + size], offsets, data, layout.offsets)
     data[layout.stride : layout.stride + rest] = buffer[second:end] if rest else b""
     array: NDArray[Any] = np.ndarray(count, dtype, data)
-    array.flags.writeable = False  # as all that was received
+    array.flags.writeable = False  # like all received arrays
     return array, end
 
 
 def _move(
     layout: RowLayout, source: Any, froms: tuple[int, ...], target: bytearray, tos: tuple[int, ...]
 ) -> None:
-    """The leaves of the first element from one layout to the other."""
+    """Copy the leaves of the first element from one layout to the other."""
     for leaf, at, to in zip(layout.leaves, froms, tos, strict=True):
         size = leaf.primitive.size
         target[to : to + size] = source[at : at + size]
 
 
 def begin(layout: RowLayout, offset: int, index: int) -> int:
-    """Where element `index` begins when the first does at `offset` or behind its padding."""
+    """Start of element `index` if the first one starts at `offset` or after its padding."""
     first = layout.first_alignment
     start = offset + padding(offset - _HEADER, first)
     if not index:
@@ -98,7 +99,7 @@ def begin(layout: RowLayout, offset: int, index: int) -> int:
 
 
 def bad_element(layout: RowLayout, array: NDArray[Any]) -> int | None:
-    """The first element with a bool that is not 0 or 1, or an enum that has no such member."""
+    """The first element with a bool other than 0 or 1, or an unknown enumerator."""
     wrong = np.zeros(len(array), np.bool_)
     for leaf in _constrained(layout):
         numbers = column(array, leaf)
@@ -110,14 +111,14 @@ def bad_element(layout: RowLayout, array: NDArray[Any]) -> int | None:
 
 
 def _constrained(layout: RowLayout) -> list[Leaf]:
-    """The leaves for which not any bytes will do: bools and enums."""
+    """The leaves with invalid byte values: bools and enums."""
     return [
         leaf for leaf in layout.leaves if not isinstance(leaf.type, Primitive) or leaf.type is BOOL
     ]
 
 
 def checker(layout: RowLayout) -> Callable[[NDArray[Any]], None] | None:
-    """What raises `ValueError` for an array with a bad element; None if none can be bad."""
+    """A function that raises `ValueError` for an invalid element; None if all are valid."""
     if not _constrained(layout):
         return None
 

@@ -7,15 +7,14 @@ attributes.
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from robocomp_dsl.runtime.clock import Clock
+from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.machine import Machine
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.component.runner import Runner
 
 
 class Component:
@@ -34,7 +33,8 @@ class Component:
     log: logging.Logger
     clock: Clock
     machine: Machine
-    _runner: Runner
+    _lifecycle: Lifecycle
+    _request_stop: Callable[[], None]
 
     def initialize(self) -> None:
         """Called once at the start, before other components can call."""
@@ -53,16 +53,16 @@ class Component:
 
     def declare_emergency(self, reason: str) -> None:
         """Enter an emergency: `compute` is not called until `end_emergency`."""
-        self._runner.lifecycle.declare_emergency(reason)
+        self._lifecycle.declare_emergency(reason)
 
     def end_emergency(self) -> None:
         """Leave a declared emergency: `restore`, then `compute` again."""
-        self._runner.lifecycle.end_emergency()
+        self._lifecycle.end_emergency()
 
     def set_period(self, milliseconds: int) -> None:
         """Change the period of `compute`, in ms; 0: event-driven."""
-        self._runner.lifecycle.set_period(milliseconds)
+        self._lifecycle.set_period(milliseconds)
 
     def quit(self) -> None:
         """Stop the component normally, after the current hook."""
-        self._runner.stop()
+        self._request_stop()

@@ -5,7 +5,7 @@ from robocomp_dsl.runtime import types as rt
 
 
 class LifeState(rt.Enum):
-    """Where a component is in its life."""
+    """The lifecycle state of a component."""
 
     Initialize = 0
     Compute = 1
@@ -18,13 +18,15 @@ Names = list[rt.String]
 
 
 class PortInfo(rt.Struct):
-    """One port: an interface that the component serves, calls, publishes or hears."""
+    """One port: an interface that the component serves, calls, publishes or subscribes
+    to.
+    """
 
     role: rt.String = ""  # implements, requires, publishes or subscribesTo.
     name: rt.String = ""
     declared: rt.String = ""  # `Module::Interface`.
     middleware: rt.String = ""
-    # The components that the port is wired to; empty for any.
+    # The components that the port is connected to; empty for any.
     peers: Names = rt.default()
 
 
@@ -35,27 +37,28 @@ class ComponentInfo(rt.Struct):
     """RoboCompComponent::ComponentInfo."""
 
     name: rt.String = ""  # The name of this instance.
-    component: rt.String = ""  # The name of the component as its CDSL file has it.
+    component: rt.String = ""  # The component's name in its CDSL file.
     version: rt.String = ""
     domain: rt.String = ""
     host: rt.String = ""
     pid: rt.Int = 0
     state: LifeState = LifeState.Initialize
-    reason: rt.String = ""  # Why it is in an emergency; empty otherwise.
+    reason: rt.String = ""  # The reason of an emergency; empty otherwise.
     uptime: rt.Double = 0.0  # [s]
     ports: Ports = rt.default()
-    # The active states of its state machine, outer ones first; empty without one.
+    # The active states of its state machine, outermost first; empty without a state
+    # machine.
     states: Names = rt.default()
 
 
 class ParameterInfo(rt.Struct):
     """RoboCompComponent::ParameterInfo."""
 
-    name: rt.String = ""  # Its path, as in `motors[2].min`.
+    name: rt.String = ""  # Path of the parameter, as in `motors[2].min`.
     type: rt.String = ""
     unit: rt.String = ""
     live: rt.Bool = False  # Whether it may change while the component runs.
-    low: rt.String = ""  # Empty where there is no bound.
+    low: rt.String = ""  # Empty without a bound.
     high: rt.String = ""
     choices: Names = rt.default()
     value: rt.String = ""
@@ -67,7 +70,9 @@ ParameterList = list[ParameterInfo]
 
 
 class OperationStatistics(rt.Struct):
-    """What happened at one operation of one port. Percentiles are over the latest 512."""
+    """Statistics of one operation of one port. Percentiles are over the latest 512
+    calls.
+    """
 
     port: rt.String = ""
     operation: rt.String = ""
@@ -76,9 +81,8 @@ class OperationStatistics(rt.Struct):
     bytesIn: rt.Long = 0
     bytesOut: rt.Long = 0
     drops: rt.Long = 0  # Messages that were lost before they were handled.
-    malformed: rt.Long = 0  # Messages that could not be read.
-    # Publications that came later than the deadline of their connection allows.
-    missed: rt.Long = 0
+    malformed: rt.Long = 0  # Messages that could not be decoded.
+    missed: rt.Long = 0  # Publications that missed the deadline of their connection.
     p50: rt.Double = 0.0  # [ms]
     p90: rt.Double = 0.0  # [ms]
     p99: rt.Double = 0.0  # [ms]
@@ -91,10 +95,10 @@ OperationList = list[OperationStatistics]
 class Statistics(rt.Struct):
     """RoboCompComponent::Statistics."""
 
-    period: rt.Double = 0.0  # [ms] The period that is wanted; 0: only events.
+    period: rt.Double = 0.0  # [ms] The configured period; 0: event-driven.
     periodP50: rt.Double = 0.0  # [ms]
     periodP99: rt.Double = 0.0  # [ms]
-    jitter: rt.Double = 0.0  # [ms] p99 less p50.
+    jitter: rt.Double = 0.0  # [ms] p99 minus p50.
     computeP50: rt.Double = 0.0  # [ms]
     computeP99: rt.Double = 0.0  # [ms]
     cycles: rt.Long = 0
@@ -107,7 +111,7 @@ Values = dict[rt.String, rt.String]
 
 
 class Refusal(rt.DeclaredError):
-    """What was asked is not done; nothing has changed."""
+    """The request is rejected; nothing has changed."""
 
     reason: rt.String = ""
 
@@ -145,7 +149,7 @@ class ComponentProxy(rt.Proxy):
         self._call("setParameters", changes)
 
     def saveParameters(self) -> str:
-        """Keep the live values that were changed for the next start; says in which
+        """Save the changed live values for the next start; returns the name of the
         file.
 
         May raise Refusal.
@@ -153,7 +157,7 @@ class ComponentProxy(rt.Proxy):
         return self._call("saveParameters")
 
     def setPeriod(self, period: int) -> None:
-        """Another period; 0: only events.
+        """Set the period; 0: event-driven.
 
         May raise Refusal.
         """
@@ -170,5 +174,5 @@ class ComponentProxy(rt.Proxy):
         return self._call("getStatistics")
 
     def stop(self) -> None:
-        """End in order."""
+        """Stop the component cleanly."""
         self._call("stop")

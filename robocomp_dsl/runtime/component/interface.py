@@ -1,4 +1,4 @@
-"""Interfaces as the middleware sees them: operations, how they travel, and the hash of their shape.
+"""Interfaces as the middleware uses them: operations, their patterns, and the type hash.
 
 In: the declarations of generated code. Out: `Interface` and `Operation`, whose codecs are compiled
 on first use.
@@ -18,12 +18,12 @@ from robocomp_dsl.runtime.codec.codec import (
     compile_error_encoder,
 )
 from robocomp_dsl.runtime.data.schema import Declared, fields_of
-from robocomp_dsl.runtime.data.type_hash import digest, interface_shape
+from robocomp_dsl.runtime.data.type_hash import interface_hash, operation_shape
 from robocomp_dsl.runtime.errors import DeclaredError
 
 
 class Pattern(enum.StrEnum):
-    """How an operation travels.
+    """The communication pattern of an operation.
 
     `COMMAND`: one way, one to one. `QUERY`: request and reply. `PUBLISH`: one way, one to many.
     `UNMARKED`: a publication on a topic, a query with an empty reply on a service.
@@ -39,9 +39,9 @@ class Operation:
     """One operation. `outputs`: the result under the name "", then the `out` parameters in order.
 
     Generated code states inputs and outputs as names with annotations, and the result as `returns`.
-    The codecs take and give what the Python methods do: a request is the tuple of the arguments; a
-    reply is None without outputs, the output itself if there is one, else the tuple of them.
-    Encoders raise `EncodeError`, decoders `MalformedMessage` and nothing else.
+    The codecs use the values of the Python methods: a request is the tuple of the arguments; a
+    reply is None without outputs, the output itself if there is one, else a tuple. Encoders raise
+    only `EncodeError`, decoders only `MalformedMessage`.
     """
 
     def __init__(
@@ -63,6 +63,13 @@ class Operation:
         self.throws = throws
         self.idempotent = idempotent
 
+    @property
+    def shape(self) -> str:
+        """The canonical text that the type hash of the interface covers."""
+        return operation_shape(
+            self.pattern.value, self.name, self.inputs, self.outputs, self.throws
+        )
+
     @cached_property
     def encode_request(self) -> Callable[[tuple[Any, ...]], bytes]:
         """Arguments to bytes."""
@@ -75,25 +82,25 @@ class Operation:
 
     @cached_property
     def encode_reply(self) -> Callable[[Any], bytes]:
-        """What a servant returns to bytes."""
+        """The result of a servant to bytes."""
         return compile_encoder(self.outputs, result=True)
 
     @cached_property
     def decode_reply(self) -> Callable[[bytes], Any]:
-        """Bytes to what a proxy returns."""
+        """Bytes to the result of a proxy."""
         return compile_decoder(self.outputs, result=True)
 
     @cached_property
     def encode_error(self) -> Callable[[DeclaredError], bytes]:
         """A declared exception to bytes: its index in `throws`, then its fields.
 
-        Raises `EncodeError` for one that the operation does not declare.
+        Raises `EncodeError` for an exception that the operation does not declare.
         """
         return compile_error_encoder(self.throws)
 
     @cached_property
     def decode_error(self) -> Callable[[bytes], DeclaredError]:
-        """Bytes to the declared exception, to be raised."""
+        """Bytes to the declared exception, which the caller raises."""
         return compile_error_decoder(self.throws)
 
 
@@ -106,13 +113,13 @@ class Interface:
 
     @cached_property
     def hash(self) -> bytes:
-        """8 bytes that are equal for interfaces of equal shape and, but for chance, only for them.
+        """8 bytes that are equal for interfaces with the same canonical form.
 
-        The shape: the names of the interface, its operations, parameters, fields and enumerators,
-        their types on the wire, and the patterns. Names of types are not in it: a component that
-        knows two modules with a type of the same name calls them otherwise than its peer.
+        The canonical form has the names of the interface, its operations, parameters, fields and
+        enumerators, their wire types, and the patterns. Type names are excluded: a component that
+        uses two modules with types of the same name renames them.
         """
-        return digest(interface_shape(self))
+        return interface_hash(self.name, (operation.shape for operation in self.operations))
 
     @cached_property
     def _by_name(self) -> dict[str, Operation]:

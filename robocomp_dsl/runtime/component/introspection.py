@@ -10,7 +10,7 @@ import os
 import socket
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from robocomp_dsl.runtime.component import logs
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
@@ -23,11 +23,12 @@ from robocomp_dsl.runtime.component.component_interface import (
     Refusal,
     Statistics,
 )
+from robocomp_dsl.runtime.component.lifecycle import Lifecycle
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.parameters import ParameterRejected
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.component.runner import Runner
+from robocomp_dsl.runtime.component.statistics import Statistics as RunStatistics
+from robocomp_dsl.runtime.parameters import ParameterRejected, Parameters
 
 MAX_PERIOD_MS = 3_600_000
 _PORT_ROLES = {
@@ -38,10 +39,27 @@ _PORT_ROLES = {
 }
 
 
+class InspectedRunner(Protocol):
+    """What the servant reads of a runner."""
+
+    name: str
+    spec: ComponentSpec
+    settings: RunSettings
+    middleware_name: str
+    params: Parameters
+    lifecycle: Lifecycle
+    statistics: RunStatistics
+    callback_group: CallbackGroup
+    started: float
+
+    def stop(self) -> None:
+        """Request a stop; returns immediately."""
+
+
 class Introspection:
     """The servant of `Component`."""
 
-    def __init__(self, runner: Runner) -> None:
+    def __init__(self, runner: InspectedRunner) -> None:
         self._runner = runner
         self.callback_group = CallbackGroup()
 
@@ -68,7 +86,7 @@ class Introspection:
             domain=runner.settings.domain,
             host=socket.gethostname(),
             pid=os.getpid(),
-            state=LifeState[runner.state.value.capitalize()],
+            state=LifeState[runner.lifecycle.state.value.capitalize()],
             reason=runner.lifecycle.reason,
             uptime=time.time() - runner.started,
             ports=self._ports(),

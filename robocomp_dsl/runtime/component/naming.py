@@ -1,6 +1,6 @@
 """Names of running components under namespaces: `left/arm`; namespaces nest.
 
-In: names as written, prefixes. Out: full names, and distances between names. For a component in
+In: names and prefixes. Out: full names, and distances between names. For a component in
 `left`, components in `left` are nearest, then those without a namespace; components in `right` are
 on another branch and are found only by their full name.
 """

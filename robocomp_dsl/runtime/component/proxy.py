@@ -1,6 +1,6 @@
-"""The base of the generated proxies: typed methods in front of what a middleware bound.
+"""The base class of generated proxies: typed methods over a channel of the middleware.
 
-In: a link of a middleware. Out: an object with the operations of the interface as methods.
+In: a channel. Out: an object with the operations of the interface as methods.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ R = TypeVar("R")
 
 
 class Proxy(DeprecatedProxyNames):
-    """What a component calls. Every call may raise a `MiddlewareError`.
+    """A proxy of another component. Every call may raise a `MiddlewareError`.
 
-    An operation of the interface that has the name of a method here wins.
+    An operation with the name of a method of this class hides that method.
     """
 
     __slots__ = ("_calls", "_channel")
@@ -30,7 +30,7 @@ class Proxy(DeprecatedProxyNames):
         }
 
     def _call(self, operation: str, /, *arguments: object) -> R:  # type: ignore[type-var]
-        """Call an operation; what it gives has the type that the generated method declares."""
+        """Call an operation; the generated method declares the type of the result."""
         result: R = self._calls[operation](*arguments)
         return result
 

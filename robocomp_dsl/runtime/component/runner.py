@@ -101,6 +101,7 @@ class Runner:
             self.statistics,
             self._publish_state,
         )
+        self.worker._lifecycle = self.lifecycle
         if self.spec.machine:
             self.worker.machine = self.lifecycle.machine = Machine(
                 self.spec.machine, self.worker, self.worker.clock, self.lifecycle.wake
@@ -146,7 +147,7 @@ class Runner:
         worker.config_file = self.settings.config
         worker.log = logging.getLogger(self.name)
         worker.clock = clock
-        worker._runner = self
+        worker._request_stop = self.stop
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
             at = self._endpoint(port.name, port.proxy.INTERFACE, outgoing=not publishes)

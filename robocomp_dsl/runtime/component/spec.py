@@ -1,4 +1,4 @@
-"""What a component is made of: the constant that generated code writes and the runtime reads."""
+"""Data of a component: constants that generated code contains and the runtime reads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from robocomp_dsl.runtime.parameters import Parameters
 
 @dataclass(frozen=True, slots=True)
 class ServedPort:
-    """An interface that others call or publish to; `methods` maps its operations to methods."""
+    """An interface that other components use; `methods` maps its operations to methods."""
 
     name: str
     interface: Interface

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 TIMING_INTERVAL = 4
-"""One of so many calls is timed: reading the clock twice is a large part of the cost of a call."""
+"""One in this many calls is timed: reading the clock twice is a large part of a call's cost."""
 WINDOW = 512
 """Number of latest durations over which percentiles are computed."""
 

@@ -1,24 +1,19 @@
 """Finds a file that a parameter names, such as a map or a robot description.
 
 In: the value of the parameter, the configuration file. Out: the path, or `ConfigError` that lists
-every path where the file was looked for.
+all searched paths.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.runtime.config.candidates import search
 from robocomp_dsl.runtime.config.drop_ins import drop_in_roots
 from robocomp_dsl.runtime.config.search_environment import SearchEnvironment
 from robocomp_dsl.runtime.config.search_paths import search_paths
-from robocomp_dsl.runtime.parameters.findings import (
-    ConfigError,
-    ConfigFinding,
-    ConfigLocation,
-    ConfigText,
-    did_you_mean,
-)
+from robocomp_dsl.runtime.parameters.errors import ConfigError, did_you_mean
 
 
 def data_file(
@@ -63,11 +58,11 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _not_found(name: str, parameter: str, tried: list[Path]) -> ConfigFinding:
+def _not_found(name: str, parameter: str, tried: list[Path]) -> Finding:
     listed = "\n".join(f"  {entry}" for entry in dict.fromkeys(tried))
     near = did_you_mean(Path(name).name, _neighbours(tried))
-    return ConfigFinding(
-        ConfigLocation(ConfigText(f"parameter {parameter}", (name,)), 1, 1, max(1, len(name))),
+    return Finding(
+        Location(SourceText(f"parameter {parameter}", (name,)), 1, 1, max(1, len(name))),
         f"file not found: `{name:.200}`",
         label=near,
         help=f"`{parameter}` was looked for in this order:\n{listed}",

@@ -10,17 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.runtime.config.search_environment import Origin, Root, SearchEnvironment
-from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, ConfigText
 from robocomp_dsl.runtime.parameters.load import UnreadableFile, read_text
 
 SUFFIXES = (".conf", ".yaml")
 FORMAT_HELP = "a .conf file has one folder per line; a .yaml file has `path: [FOLDER, ...]`"
 
 
-def drop_in_roots(
-    environment: SearchEnvironment, findings: list[ConfigFinding]
-) -> tuple[Root, ...]:
+def drop_in_roots(environment: SearchEnvironment, findings: list[Finding]) -> tuple[Root, ...]:
     """The folders that drop-in files add. Errors go to `findings`; valid entries are used."""
     files = _files(environment.drop_in_folders)
     folders = dict.fromkeys(folder for file in files for folder in _folders(file, findings))
@@ -29,7 +27,7 @@ def drop_in_roots(
 
 
 def _files(folders: Iterable[Path]) -> list[Path]:
-    """The drop-in files, by name in each folder; a user's file overrides others of its name."""
+    """The drop-in files, by name in each folder; a user's file overrides one of the same name."""
     found: dict[str, Path] = {}
     for folder in folders:
         try:
@@ -41,14 +39,14 @@ def _files(folders: Iterable[Path]) -> list[Path]:
     return list(found.values())
 
 
-def _folders(file: Path, findings: list[ConfigFinding]) -> Iterator[Path]:
+def _folders(file: Path, findings: list[Finding]) -> Iterator[Path]:
     try:
         source = read_text(file)
     except UnreadableFile as error:
-        place = ConfigLocation(ConfigText(str(file), ()), 1, 1)
-        findings.append(ConfigFinding(place, f"unreadable drop-in file: {error}"))
+        place = Location(SourceText(str(file), ()), 1, 1)
+        findings.append(Finding(place, f"unreadable drop-in file: {error}"))
         return
-    text = ConfigText(str(file), tuple(source.splitlines()))
+    text = SourceText.of_text(file, source)
     entries = (
         _conf_folders(text) if file.suffix == ".conf" else _yaml_folders(text, source, findings)
     )
@@ -56,19 +54,19 @@ def _folders(file: Path, findings: list[ConfigFinding]) -> Iterator[Path]:
         try:
             yield (file.parent / Path(folder).expanduser()).absolute()
         except RuntimeError:  # the home folder of an unknown user
-            findings.append(ConfigFinding(place, f"`{folder}` is not a folder of this machine"))
+            findings.append(Finding(place, f"`{folder}` is not a folder of this machine"))
 
 
-def _conf_folders(text: ConfigText) -> Iterator[tuple[ConfigLocation, str]]:
+def _conf_folders(text: SourceText) -> Iterator[tuple[Location, str]]:
     for number, line in enumerate(text.lines, 1):
         folder = line.partition("#")[0].strip()
         if folder:
-            yield ConfigLocation(text, number, line.index(folder) + 1, len(folder)), folder
+            yield Location(text, number, line.index(folder) + 1, len(folder)), folder
 
 
 def _yaml_folders(
-    text: ConfigText, source: str, findings: list[ConfigFinding]
-) -> Iterator[tuple[ConfigLocation, str]]:
+    text: SourceText, source: str, findings: list[Finding]
+) -> Iterator[tuple[Location, str]]:
     from robocomp_dsl.runtime.parameters.tree import Items, Scalar  # noqa: PLC0415 - for .yaml only
     from robocomp_dsl.runtime.parameters.yaml_text import read_yaml  # noqa: PLC0415 - slow to load
 
@@ -77,11 +75,11 @@ def _yaml_folders(
         listed = member.value
         if key != "path" or not isinstance(listed, Items):
             findings.append(
-                ConfigFinding(member.place, f"`{key:.80}` is not a list `path`", help=FORMAT_HELP)
+                Finding(member.place, f"`{key:.80}` is not a list `path`", help=FORMAT_HELP)
             )
             continue
         for item in listed.items:
             if isinstance(item, Scalar) and item.text:
                 yield item.place, item.text
             else:
-                findings.append(ConfigFinding(item.place, "not a folder", help=FORMAT_HELP))
+                findings.append(Finding(item.place, "not a folder", help=FORMAT_HELP))

@@ -10,6 +10,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.runtime.config.candidates import (
     Candidate,
     InvalidName,
@@ -21,8 +22,7 @@ from robocomp_dsl.runtime.config.contexts import context_names
 from robocomp_dsl.runtime.config.drop_ins import drop_in_roots
 from robocomp_dsl.runtime.config.search_environment import Origin, SearchEnvironment
 from robocomp_dsl.runtime.config.search_paths import CONTEXTS, SearchPath, search_paths
-from robocomp_dsl.runtime.parameters import findings as located
-from robocomp_dsl.runtime.parameters.findings import ConfigError, ConfigFinding, did_you_mean
+from robocomp_dsl.runtime.parameters.errors import ConfigError, did_you_mean
 
 SUFFIXES = (".yaml", ".toml")
 DEFAULT = "config"
@@ -62,13 +62,13 @@ def resolve_config(request: ConfigRequest, environment: SearchEnvironment) -> Co
     Raises `ConfigError` for an invalid name, or a `--config-name` that is not found.
     """
     _check_names(request, environment)
-    findings: list[ConfigFinding] = []
+    findings: list[Finding] = []
     roots = (*environment.roots, *drop_in_roots(environment, findings))
     candidates = _candidates(request, search_paths(roots, environment.robot, request.context))
     winner = next((c for c in candidates if c.is_usable), None)
     if request.config_name and winner is None:
         raise ConfigError([_not_found(request.config_name, candidates)])
-    warnings = [str(finding).removeprefix("error: ") for finding in findings]
+    warnings = [finding.render(severity="") for finding in findings]
     known = context_names(roots)
     if request.context and request.context not in known:
         guess = did_you_mean(request.context, known)
@@ -93,7 +93,7 @@ def _check_names(request: ConfigRequest, environment: SearchEnvironment) -> None
         try:
             _ = word and check(word)
         except InvalidName as error:
-            findings.append(ConfigFinding(_option_location(option, word), str(error)))
+            findings.append(Finding(_option_location(option, word), str(error)))
     if findings:
         raise ConfigError(findings)
 
@@ -126,10 +126,10 @@ def _writable(folder: Path) -> bool:
     return os.access(folder, os.W_OK | os.X_OK)
 
 
-def _not_found(file: str, candidates: list[Candidate]) -> ConfigFinding:
+def _not_found(file: str, candidates: list[Candidate]) -> Finding:
     searched = "\n".join(f"  {c.path} ({c.search_path}): {c.skip_reason}" for c in candidates)
     near = did_you_mean(file, existing_configs(candidates))
-    return ConfigFinding(
+    return Finding(
         _option_location("--config-name", file),
         f"configuration not found: `{file}`",
         label=near,
@@ -150,5 +150,5 @@ def existing_configs(candidates: list[Candidate]) -> list[str]:
     return names
 
 
-def _option_location(option: str, word: str) -> located.ConfigLocation:
-    return located.ConfigLocation(located.ConfigText(option, (word,)), 1, 1, max(1, len(word)))
+def _option_location(option: str, word: str) -> Location:
+    return Location(SourceText(option, (word,)), 1, 1, max(1, len(word)))

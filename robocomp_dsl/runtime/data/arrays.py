@@ -1,43 +1,42 @@
-"""Sequences of fixed structs: one numpy structured array behind what looks like a list.
+"""Sequences of fixed structs: one numpy structured array with the interface of a list.
 
-In: struct objects, columns, structured arrays or received bytes. Out: `StructArray`; objects per
-element would cost two orders of magnitude more to send and receive.
+In: struct objects, columns, structured arrays or received bytes. Out: `StructArray`; one object per
+element would be two orders of magnitude slower to send and receive.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, MutableSequence
-from typing import Any, ClassVar, Generic, Never, Self, TypeVar, get_args, overload
+from typing import Any, Generic, Never, Self, TypeVar, get_args, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.runtime.data.convert import as_array, described
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.layout import row_layout
 from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.rows import row_view, row_views, rows_of, writable
-from robocomp_dsl.runtime.data.schema import Type
+from robocomp_dsl.runtime.data.schema import StructArrayBase, Type
 from robocomp_dsl.runtime.data.struct import Struct
 from robocomp_dsl.runtime.data.values import shown_items
-from robocomp_dsl.runtime.errors import EncodeError
 
 T = TypeVar("T", bound=Struct)
 
 
-class StructArray(MutableSequence[T]):
+class StructArray(MutableSequence[T], StructArrayBase):
     """A list of structs of numbers, stored as one numpy structured array.
 
     `scan[3].dist` reads and writes the array, `column("dist")` is a writable numpy view of all.
-    Slices share the data as numpy's do, and an array of indices or bools selects as in numpy;
-    `append` and `insert` may move it, and views taken before then keep the old one.
-    What was received is read-only, as it lies in the message: `copy()` it to change elements.
+    Slices share the data, and an array of indices or bools selects, both as in numpy. `append` and
+    `insert` may reallocate; earlier views then refer to the old memory.
+    Received arrays are read-only views of the message: `copy()` them before changing elements.
 
-    Made from struct objects, or from a structured numpy array with the same field names, which is
-    shared where its type is the very same. Raises `EncodeError` for values that do not fit.
+    Constructed from struct objects, or from a structured numpy array with the same field names,
+    which is shared if its dtype is identical. Raises `EncodeError` for values that do not fit.
     """
 
     __slots__ = ("_array", "_store")
-    _element_: ClassVar[type[Any]]
     _array: NDArray[Any]  # what is in the list
     _store: NDArray[Any]  # with room to grow behind
 
@@ -52,9 +51,9 @@ class StructArray(MutableSequence[T]):
 
     @classmethod
     def from_columns(cls, **columns: Any) -> Self:
-        """An array from one sequence per field, all of one length; a single number goes to all.
+        """An array from one sequence per field, all of one length; a single number is repeated.
 
-        A nested struct is given as a struct array; fields that are not named are zero.
+        Nested structs are passed as struct arrays; omitted fields are zero.
         """
         if unknown := set(columns) - set(cls._element_._names_):
             raise TypeError(f"{cls._element_.__name__} has no field {', '.join(sorted(unknown))}")
@@ -89,7 +88,7 @@ class StructArray(MutableSequence[T]):
 
     @classmethod
     def _rows(cls, items: Any) -> NDArray[Any]:
-        """`items` as an array of this type's layout."""
+        """`items` as an array with the layout of this type."""
         if isinstance(items, StructArray):
             if items._element_._plain_ is cls._element_:
                 return items._array
@@ -114,7 +113,7 @@ class StructArray(MutableSequence[T]):
 
     @classmethod
     def _over(cls, array: NDArray[Any]) -> Self:
-        """A list over `array`, which has the right type."""
+        """A list over `array`, whose dtype must match."""
         self = cls.__new__(cls)
         self._array = self._store = array
         return self
@@ -122,19 +121,19 @@ class StructArray(MutableSequence[T]):
     def column(self, name: str) -> NDArray[Any]:
         """The numbers of one field of all elements, shape (n,): a view, not a copy.
 
-        An enum's are its ints. For a field that is a struct use `nested`.
+        Enum columns hold ints. For a struct field use `nested`.
         """
         return self._array[name]
 
     def nested(self, name: str) -> StructArray[Any]:
-        """One field of all elements, where it is a struct: an array of these, sharing the data."""
+        """One struct field of all elements: a struct array that shares the data."""
         type_ = self._field_type(name)
         if not (isinstance(type_, type) and issubclass(type_, Struct)):
             raise TypeError(f"{name} is no struct; column({name!r}) gives its numbers")
         return array_class(type_)._over(self._array[name])
 
     def copy(self) -> Self:
-        """The same elements in memory of their own, which may be changed."""
+        """The same elements in their own, writable memory."""
         return self._over(self._array.copy())
 
     def __iter__(self) -> Iterator[T]:
@@ -154,7 +153,7 @@ class StructArray(MutableSequence[T]):
         return row
 
     def _checked(self, index: int) -> int:
-        """`index` counted from the front. Raises `IndexError`."""
+        """`index` as a non-negative index. Raises `IndexError`."""
         count = len(self._array)
         if not -count <= index < count:
             raise IndexError(f"index {index} of {type(self).__name__} with {count} elements")
@@ -172,7 +171,7 @@ class StructArray(MutableSequence[T]):
         rows = self._rows(value)
         span = range(len(self._array))[index]
         if len(rows) == len(span):
-            writable(self._array)[index] = rows.copy()  # it may be a part of itself
+            writable(self._array)[index] = rows.copy()  # it may be a view of this array
         elif span.step == 1:
             before, behind = self._array[: span.start], self._array[max(span.start, span.stop) :]
             self._array = self._store = np.concatenate([before, rows, behind])
@@ -184,29 +183,29 @@ class StructArray(MutableSequence[T]):
         self._array = self._store = np.delete(self._array, where)
 
     def insert(self, index: int, value: T) -> None:
-        """As of a list; costs a copy of all, `append` does not."""
+        """See `list.insert`; copies all elements, unlike `append`."""
         self[index:index] = rows_of(self._element_, (value,))
 
     def append(self, value: T) -> None:
-        """As of a list."""
+        """See `list`."""
         self._extend(rows_of(self._element_, (value,)))
 
     def extend(self, values: Iterable[T]) -> None:
-        """As of a list."""
+        """See `list`."""
         self._extend(self._rows(values))
 
     def clear(self) -> None:
-        """As of a list."""
+        """See `list`."""
         self._array = self._store = np.zeros(0, self._array.dtype)
 
     def reverse(self) -> None:
-        """As of a list."""
+        """See `list`."""
         self._array = self._store = self._array[::-1]
 
     def sort(self, *, key: Callable[[T], Any], reverse: bool = False) -> None:
-        """As of a list, but structs have no order of their own, so there must be a `key`.
+        """See `list.sort`; structs have no order, so `key` is required.
 
-        By one field, `scan[numpy.argsort(scan.dist)]` is much faster.
+        For a single field `scan[numpy.argsort(scan.dist)]` is much faster.
         """
         keys = [key(row) for row in self]
         order = sorted(range(len(keys)), key=keys.__getitem__, reverse=reverse)
@@ -214,7 +213,7 @@ class StructArray(MutableSequence[T]):
 
     def _extend(self, rows: NDArray[Any]) -> None:
         count, total = len(self._array), len(self._array) + len(rows)
-        # Only memory that this list made itself has room that nobody else sees.
+        # Only memory allocated by this list has spare capacity that no other view sees.
         if total > len(self._store) or self._store is self._array:
             store = np.zeros(max(total, 2 * count, 8), row_layout(self._element_).dtype)
             store[:count] = self._array
@@ -243,7 +242,7 @@ class StructArray(MutableSequence[T]):
         return self._array.copy() if copy else self._array
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copied with data of its own, and pickled, with its class found through the element's."""
+        """Copied and pickled with its own data; the class is found through the element's class."""
         cls = type(self)
         if cls.__dict__.get("_anonymous_"):
             return _restored, (cls._element_, self._array.copy())
@@ -256,7 +255,7 @@ def _restored(element: type[Struct], array: NDArray[Any]) -> StructArray[Any]:
 
 @once
 def array_class(element: type[Struct]) -> type[StructArray[Any]]:
-    """The struct array for an element for which no IDSL file declares a sequence."""
+    """The struct array class of an element without a sequence in any IDSL file."""
     members = {"__slots__": (), "_element_": element, "_anonymous_": True}
     return type(f"{element.__name__}Array", (StructArray,), members)
 
@@ -266,9 +265,9 @@ E = TypeVar("E", bound=Struct)
 
 
 class Column(Generic[D]):
-    """The numbers of one field of all elements, as an attribute of a `StructArray`: a view.
+    """A descriptor: the numbers of one field of all elements of a `StructArray`, as a view.
 
-    `field` is the attribute of the elements where that of the array is called otherwise.
+    `field` is the attribute of the elements if it differs from the array's attribute.
     """
 
     def __init__(self, field: str = "") -> None:
@@ -285,7 +284,7 @@ class Column(Generic[D]):
 
 
 class NestedColumn(Generic[E]):
-    """The same for a field that is a struct: an array of these, sharing the data."""
+    """A descriptor for a struct field: a struct array that shares the data."""
 
     def __init__(self, element: type[E], field: str = "") -> None:
         self._element = element

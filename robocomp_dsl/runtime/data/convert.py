@@ -1,7 +1,7 @@
-"""Python values made fit for their type. In: what users give to a field. Out: canonical values.
+"""Convert Python values to field types. In: values that users assign. Out: canonical values.
 
-A conversion never changes a value beyond the rounding of a float; what does not fit raises
-`EncodeError` with the index of the culprit as its path.
+A conversion never changes a value except for float rounding; an invalid value raises
+`EncodeError`, with its index as the path.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, STRING, Enum, Primitive
-from robocomp_dsl.runtime.errors import EncodeError
 
 FLAGS = {False: False, True: True}
-"""What a bool field takes; equal keys make 0, 1 and numpy's bools do as well."""
+"""The accepted values of a bool field; by equality also 0, 1 and numpy's bools."""
 
 
 def as_array(value: Any, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """A one-dimensional contiguous array of `dtype` with the same numbers, copied only if needed.
+    """A one-dimensional contiguous array of `dtype` with the same values, copied only if needed.
 
-    Whole floats are taken for integers, 0 and 1 for bools, bytes for a sequence of byte.
+    Accepts integral floats for integers, 0 and 1 for bools, bytes for a sequence of byte.
     """
     if isinstance(value, bytes | bytearray):
         value = np.frombuffer(value, np.uint8)
@@ -58,14 +58,14 @@ def _converted(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 def _changed(array: NDArray[Any], result: NDArray[Any]) -> NDArray[np.bool_]:
-    """Where a number became another one; sign and wrap-around are seen by going back."""
+    """Index of a number changed by the conversion; converting back shows sign and overflow."""
     back = result.astype(array.dtype)
     changed: NDArray[np.bool_] = (back != array) | ((result < 0) != (array < 0))
     return changed
 
 
 def _unboxed(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
-    """An array of Python objects: integers too large for numpy, or no numbers at all."""
+    """Convert an array of Python objects: integers too large for numpy, or other types."""
     for at, item in enumerate(array):
         if not isinstance(item, int | float | np.number | np.bool_):
             raise EncodeError(f"takes numbers ({dtype.name}), not {described(item)}", f"[{at}]")
@@ -75,7 +75,7 @@ def _unboxed(array: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 def as_scalar(type_: Primitive | type[Enum], value: Any) -> Any:
-    """`value` as a bool, int, float, str or member of the enumeration."""
+    """`value` as a bool, int, float, str or enumerator."""
     if not isinstance(type_, Primitive):
         return _member(type_, value)
     if type_ is STRING:
@@ -130,7 +130,7 @@ def _float(type_: Primitive, value: Any) -> float:
     return number
 
 
-_FLOAT_LIMIT = (2 - 2**-24) * 2**127  # from here on rounding gives infinity
+_FLOAT_LIMIT = (2 - 2**-24) * 2**127  # larger values round to infinity
 _INFINITIES = (float("inf"), float("-inf"))
 
 
@@ -150,7 +150,7 @@ def described(value: Any) -> str:
 
 
 def as_list(value: Any) -> list[Any]:
-    """The elements of a sequence. A text or a dict is refused, for it is given by mistake."""
+    """The elements of a sequence. Strings and dicts are rejected: they are usually mistakes."""
     if isinstance(value, list):
         return value
     if isinstance(value, str | bytes | dict) or not isinstance(value, Iterable):

@@ -1,11 +1,11 @@
-"""How the elements of a sequence of fixed structs lie in memory and on the wire.
+"""Memory and wire layout of the elements of a sequence of fixed structs.
 
 In: a struct class whose leaves are numbers, bools and enums. Out: `RowLayout`.
 
-In XCDR1 every leaf is aligned by itself to its size, counted from the start of the message; a
-struct has no alignment or padding of its own. So behind the first element, which may begin at
-another residue, all elements have the same layout and the same distance, and the last one has no
-padding behind it. The numpy type has that layout, so elements are copied as one block.
+In XCDR1 every leaf is aligned to its size, counted from the start of the message; a struct has no
+alignment or padding of its own. So after the first element, which may start at another residue,
+all elements have the same layout and stride, and the last one has no trailing padding. The numpy
+dtype has that layout, so elements are copied as one block.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ class Leaf:
 
     @property
     def primitive(self) -> Primitive:
-        """What is on the wire; an enum is an int there."""
+        """The wire type; an enum is an int."""
         return self.type if isinstance(self.type, Primitive) else INT
 
 
@@ -38,10 +38,10 @@ class Leaf:
 class RowLayout:
     """Layout of the elements from the second on. Sizes and offsets in bytes.
 
-    `offsets` of the leaves from the start of the element; `residue`: where an element begins,
-    modulo `alignment`, the largest of its leaves; `stride`: distance of two elements, the size of
-    `dtype`; `size`: without the padding behind; `direct`: no padding anywhere and the first element
-    lies as the others do, once its start is aligned.
+    `offsets` of the leaves from the start of the element; `residue`: start of an element modulo
+    `alignment`, the largest alignment of its leaves; `stride`: distance of two elements (size of
+    `dtype`); `size`: without trailing padding; `direct`: there is no padding, and the first element
+    has the layout of the others once its start is aligned.
     """
 
     dtype: np.dtype[Any]
@@ -55,11 +55,11 @@ class RowLayout:
 
     @property
     def first_alignment(self) -> int:
-        """That of the first leaf; the padding before an element follows from it."""
+        """Alignment of the first leaf; it determines the padding before an element."""
         return self.leaves[0].primitive.size
 
     def first(self, start: int) -> tuple[tuple[int, ...], int]:
-        """Offsets and size of a first element that begins at `start`, aligned for it."""
+        """Offsets and size of a first element at the aligned position `start`."""
         return _placed(self.leaves, start)
 
 
@@ -70,7 +70,7 @@ def padding(position: int, alignment: int) -> int:
 
 @once
 def row_layout(element: type[Struct]) -> RowLayout:
-    """The layout of a sequence of `element`. Raises `TypeError` for one without fixed size."""
+    """The layout of a sequence of `element`. Raises `TypeError` if its size is not fixed."""
     leaves = tuple(_leaves(element, ()))
     if not leaves:
         raise TypeError(f"{element.__name__} has no fields to make an array of")
@@ -110,7 +110,7 @@ def _is_leaf(type_: Type) -> TypeGuard[Primitive | type[Enum]]:
 
 
 def _placed(leaves: tuple[Leaf, ...], start: int) -> tuple[tuple[int, ...], int]:
-    """Offsets of the leaves and size of an element that begins at `start`."""
+    """Offsets of the leaves, and size, of an element that starts at `start`."""
     offsets, at = [], start
     for leaf in leaves:
         at += padding(at, leaf.primitive.size)
@@ -120,7 +120,7 @@ def _placed(leaves: tuple[Leaf, ...], start: int) -> tuple[tuple[int, ...], int]
 
 
 def _dtype(type_: Type, offsets: Iterator[int], size: int = 0) -> tuple[np.dtype[Any], int, int]:
-    """The numpy type with its begin and end; leaves take their offsets from the iterator."""
+    """The numpy dtype with its start and end; leaves take their offsets from the iterator."""
     if not (isinstance(type_, type) and issubclass(type_, Struct)):
         primitive = type_ if isinstance(type_, Primitive) else INT
         at = next(offsets)

@@ -1,8 +1,8 @@
-"""A value that is derived from a class, computed once. In: a function of a class. Out: it, cached.
+"""Cache for a value derived from a class. In: a function of a class. Out: the cached function.
 
-The class itself holds the value, so that both are freed together. `functools.cache` would hold
-every class for good, and does not pass a strict type check here: a class whose instances define
-`__hash__` is taken for not hashable.
+The value is stored in the class, so that both are freed together. `functools.cache` would keep
+every class alive, and fails a strict type check here: a class whose instances define `__hash__`
+is considered unhashable.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ _MISSING = (None, None)
 
 
 def once(make: Callable[[type[Any]], R]) -> Callable[[type[Any]], R]:
-    """`make`, whose first result for every class is kept; safe to call from several threads."""
-    # Python finds only interned names in its cache of attributes.
+    """`make` with its first result cached for every class; thread-safe."""
+    # Python's attribute cache only finds interned names.
     name = sys.intern(f"_cached_{make.__module__}.{make.__qualname__}")
 
     def get(cls: type[Any]) -> R:
         pair: tuple[type[Any] | None, Any] = getattr(cls, name, _MISSING)
-        if pair[0] is cls:  # else it is the value of a base class
+        if pair[0] is cls:  # otherwise the value of a base class
             found: R = pair[1]
             return found
         return stored(cls)
@@ -33,7 +33,7 @@ def once(make: Callable[[type[Any]], R]) -> Callable[[type[Any]], R]:
     def stored(cls: type[Any]) -> R:
         value = make(cls)
         with _storing:
-            if name not in cls.__dict__:  # else another thread was faster
+            if name not in cls.__dict__:  # otherwise another thread was faster
                 setattr(cls, name, (cls, value))
         first: R = cls.__dict__[name][1]
         return first

@@ -1,7 +1,7 @@
-"""Elements of a struct array as objects, and objects as elements.
+"""Convert elements of a struct array to objects, and objects to elements.
 
-In: a structured numpy array or struct objects. Out: live views of single elements, which are
-instances of the struct's class, and arrays made of objects.
+In: a structured numpy array, or struct objects. Out: live views of single elements, which are
+instances of the struct's class, and arrays built from objects.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robocomp_dsl.runtime.data.convert import as_scalar, described
+from robocomp_dsl.runtime.data.errors import EncodeError
 from robocomp_dsl.runtime.data.layout import Leaf, RowLayout, row_layout
 from robocomp_dsl.runtime.data.per_class_cache import once
 from robocomp_dsl.runtime.data.schema import BOOL, Enum, Primitive, Type
 from robocomp_dsl.runtime.data.struct import Struct
-from robocomp_dsl.runtime.errors import EncodeError
 
 
 def row_view(element: type[Struct], array: NDArray[Any], index: int) -> Any:
@@ -32,7 +32,7 @@ def row_view(element: type[Struct], array: NDArray[Any], index: int) -> Any:
 
 
 def row_views(element: type[Struct], array: NDArray[Any]) -> Iterator[Any]:
-    """All elements, one after the other."""
+    """All elements in order."""
     cls = _row_class(element)
     for index in range(len(array)):
         row = cls.__new__(cls)
@@ -42,7 +42,7 @@ def row_views(element: type[Struct], array: NDArray[Any]) -> Iterator[Any]:
 
 
 def writable(array: NDArray[Any]) -> NDArray[Any]:
-    """`array` itself. Raises `ValueError` for one that lies in a received message."""
+    """`array` itself. Raises `ValueError` if it is a view of a received message."""
     if not array.flags.writeable:
         raise ValueError("received data is read-only; copy() the list and change the copy")
     return array
@@ -50,7 +50,7 @@ def writable(array: NDArray[Any]) -> NDArray[Any]:
 
 @once
 def _row_class(element: type[Struct]) -> Any:
-    """A subclass of `element` without data of its own."""
+    """A subclass of `element` that stores no data itself."""
     members: dict[str, Any] = {"__slots__": ("_array", "_index"), "__doc__": element.__doc__}
     for name, (_, type_) in zip(element._names_, element._fields_, strict=True):
         members[name] = _property(name, type_)
@@ -89,7 +89,7 @@ def _nested_property(name: str, type_: type[Struct]) -> property:
 def rows_of(element: type[Struct], items: Iterable[Any]) -> NDArray[Any]:
     """A new structured array with the values of struct objects.
 
-    Raises `EncodeError` with the index and field of what does not fit.
+    Raises `EncodeError` with the index and field of an invalid value.
     """
     layout = row_layout(element)
     items = list(items)
@@ -103,7 +103,7 @@ def rows_of(element: type[Struct], items: Iterable[Any]) -> NDArray[Any]:
 
 @once
 def _packer(element: type[Struct]) -> tuple[Callable[..., bytes], Callable[[Any], Any]]:
-    """What packs the leaves of one object as the numpy type has them, and what reads them."""
+    """A function that packs the leaves of an object for the dtype, and their attribute getter."""
     layout, at, form = row_layout(element), 0, "<"
     for leaf, offset in zip(layout.leaves, layout.offsets, strict=True):
         form += "x" * (offset - at) + leaf.primitive.code

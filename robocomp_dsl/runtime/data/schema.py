@@ -1,6 +1,6 @@
-"""The types of IDSL as the runtime sees them: what the codec encodes and the shape hash covers.
+"""The IDSL types in the runtime: schema objects for codecs and type hashes.
 
-In: what generated code declares, also as annotations. Out: immutable schema objects; structs,
+In: declarations and annotations of generated code. Out: immutable schema objects; structs,
 exceptions, enums and struct arrays are described by their classes themselves.
 """
 
@@ -9,13 +9,9 @@ from __future__ import annotations
 import enum
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias, get_args, get_origin
+from typing import Any, ClassVar, TypeAlias, get_args, get_origin
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.data.arrays import StructArray
-    from robocomp_dsl.runtime.data.struct import Struct
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,27 +27,42 @@ class Primitive:
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """The numpy type of an array of it, in wire order."""
+        """The numpy dtype of its arrays, in wire order."""
         return np.dtype(f"<{self.code}" if self.size > 1 else self.code)
 
 
 BOOL = Primitive("bool", "?", 1)
-BYTE = Primitive("byte", "B", 1)  # unsigned, as ROS and YARP have it
+BYTE = Primitive("byte", "B", 1)  # unsigned, as in ROS and YARP
 SHORT = Primitive("short", "h", 2)
 INT = Primitive("int", "i", 4)
 LONG = Primitive("long", "q", 8)
 FLOAT = Primitive("float", "f", 4)
 DOUBLE = Primitive("double", "d", 8)
-STRING = Primitive("string", "", 4)  # it begins with its length
+STRING = Primitive("string", "", 4)  # its length prefix
 
 
 class Enum(enum.IntEnum):
-    """Base of the enumerations that an IDSL file declares; 32 bits on the wire."""
+    """Base of the enumerations of an IDSL file; 32 bits on the wire."""
+
+
+class StructBase:
+    """What the schema knows of a struct or exception class; `Struct` is its only subclass."""
+
+    __slots__ = ()
+    _fields_: ClassVar[Fields]  # (name on the wire, type)
+    _names_: ClassVar[tuple[str, ...]]  # the attributes, in the same order
+
+
+class StructArrayBase:
+    """What the schema knows of an array of structs; `StructArray` is its only subclass."""
+
+    __slots__ = ()
+    _element_: ClassVar[type[Any]]
 
 
 @dataclass(frozen=True, slots=True)
 class Array:
-    """A sequence of numbers or bools; one-dimensional numpy array in Python."""
+    """A sequence of numbers or bools; in Python a one-dimensional numpy array."""
 
     element: Primitive
 
@@ -62,7 +73,7 @@ class Array:
 
 @dataclass(frozen=True, slots=True)
 class Sequence:
-    """A sequence of anything else; a list in Python."""
+    """A sequence of any other type; in Python a list."""
 
     element: Type
 
@@ -73,7 +84,7 @@ class Sequence:
 
 @dataclass(frozen=True, slots=True)
 class Dictionary:
-    """Keys and values; a dict in Python, a sequence of (key, value) structs on the wire."""
+    """Keys and values; in Python a dict, on the wire a sequence of (key, value) structs."""
 
     key: Type
     value: Type
@@ -84,21 +95,21 @@ class Dictionary:
 
 
 Type: TypeAlias = (
-    "Primitive | Array | Sequence | Dictionary | type[Enum | Struct | StructArray[Any]]"
+    Primitive | Array | Sequence | Dictionary | type[Enum | StructBase | StructArrayBase]
 )
 Fields: TypeAlias = tuple[tuple[str, Type], ...]
 
 Declared: TypeAlias = "Mapping[str, object] | Iterable[tuple[str, object]]"
-"""Fields as generated code states them: a name and an annotation for each."""
+"""Fields in generated code: names and annotations."""
 
 _OBJECTS = (Primitive, Array, Sequence, Dictionary)
 
 
 def schema_of(annotation: Any) -> Type:
-    """The type that an annotation of generated code stands for; a schema object is one itself.
+    """The type of an annotation in generated code; a schema object is returned unchanged.
 
     `Annotated[float, FLOAT]` is FLOAT, `list[X]` a sequence, `dict[K, V]` a dictionary. Raises
-    `TypeError` for what IDSL has no type for.
+    `TypeError` for any type that IDSL lacks.
     """
     if metadata := getattr(annotation, "__metadata__", None):
         annotation = metadata[0]
@@ -118,13 +129,11 @@ def schema_of(annotation: Any) -> Type:
 
 
 def _is_declared(cls: Any) -> bool:
-    """Whether it is an enum, a struct or an array of structs, whose classes know their fields."""
-    if not isinstance(cls, type):
-        return False
-    return issubclass(cls, Enum) or hasattr(cls, "_fields_") or hasattr(cls, "_element_")
+    """Whether it is an enum, a struct or a struct array, whose class has the schema."""
+    return isinstance(cls, type) and issubclass(cls, Enum | StructBase | StructArrayBase)
 
 
 def fields_of(declared: Declared) -> Fields:
-    """The fields with their schema."""
+    """The fields with their types."""
     pairs = declared.items() if isinstance(declared, Mapping) else declared
     return tuple((name, schema_of(type_)) for name, type_ in pairs)

@@ -1,36 +1,43 @@
-"""Structs: the classes behind the structs and exceptions that an IDSL file declares.
+"""Structs: the base class of the structs and exceptions of an IDSL file.
 
-In: annotated class attributes. Out: slots, a constructor that is compiled when the first object is
-made, and comparison, hash, repr, copy and pickle by value, numpy arrays included.
+In: annotated class attributes. Out: slots, a constructor that is compiled for the first object,
+and comparison, hash, repr, copy and pickle by value, including numpy arrays.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
+from typing import Any, ClassVar, dataclass_transform
 
 import numpy as np
 
-from robocomp_dsl.runtime.data.schema import Array, Dictionary, Enum, Primitive, Sequence, schema_of
+from robocomp_dsl.runtime.data.schema import (
+    Array,
+    Dictionary,
+    Enum,
+    Fields,
+    Primitive,
+    Sequence,
+    StructBase,
+    Type,
+    schema_of,
+)
 from robocomp_dsl.runtime.data.values import hashed, same, shown
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.data.schema import Fields, Type
 
 _EMPTY = object()
 
 
 def default() -> Any:
-    """The default of a field that holds an object: a list, dict, array or struct.
+    """The default of a field of type list, dict, array or struct.
 
-    Every new struct gets an empty one of its own.
+    Every new struct gets its own empty object.
     """
     return _EMPTY
 
 
 class StructMeta(type):
-    """Turns the annotations of a class into slots, `_fields_` and `_names_`."""
+    """Converts the annotations of a class to slots, `_fields_` and `_names_`."""
 
     def __new__(
         cls,
@@ -40,7 +47,7 @@ class StructMeta(type):
         *,
         rename: Mapping[str, str] | None = None,
     ) -> StructMeta:
-        """A new class. `rename` maps attributes to field names of the IDSL file that differ."""
+        """A new class. `rename` maps attributes to field names of the IDSL file if they differ."""
         if "_fields_" in namespace or any(hasattr(base, "_plain_") for base in bases):
             return super().__new__(cls, name, bases, namespace)  # a base, or a user's subclass
         annotations = _annotations(name, namespace)
@@ -76,28 +83,28 @@ def _annotations(name: str, namespace: dict[str, Any]) -> dict[str, object]:
 
 
 @dataclass_transform()
-class Struct(metaclass=StructMeta):
+class Struct(StructBase, metaclass=StructMeta):
     """Base of the structs that an IDSL file declares: a value with named fields.
 
-    A subclass annotates one attribute for each field, in the order of the wire:
+    A subclass annotates one attribute per field, in wire order:
 
         class Beam(rt.Struct):
             angle: rt.Float = 0.0
             dist: rt.Float = 0.0
 
-    An attribute without a default must be given to the constructor; the default of a list, dict,
-    array or struct is `rt.default()`. `class Beam(rt.Struct, rename={"None_": "None"})` names the
-    fields that the IDSL file calls otherwise than Python does.
+    The constructor requires attributes without a default; the default of a list, dict, array or
+    struct is `rt.default()`. `class Beam(rt.Struct, rename={"None_": "None"})` states the names of
+    fields that differ between the IDSL file and Python.
     """
 
     __slots__ = ()
-    _fields_: ClassVar[Fields] = ()  # (name on the wire, type)
-    _names_: ClassVar[tuple[str, ...]] = ()  # the attributes, in the same order
+    _fields_: ClassVar[Fields] = ()
+    _names_: ClassVar[tuple[str, ...]] = ()
     _defaults_: ClassVar[dict[str, Any]] = {}
-    _plain_: ClassVar[type[Struct]]  # the declared class, also of a row of an array
+    _plain_: ClassVar[type[Struct]]  # the declared class, also of an array element
 
     def __init__(self, *args: Any, **fields: Any) -> None:
-        # Compiled on first use and put in place: programs construct few of the types they import.
+        # Compiled and replaced on first use: programs construct few of the types they import.
         cls = self._plain_
         cls.__init__ = init = _constructor(cls)  # type: ignore[method-assign]
         init(self, *args, **fields)
@@ -108,7 +115,7 @@ class Struct(metaclass=StructMeta):
         return all(same(getattr(self, n), getattr(other, n)) for n in self._names_)
 
     def __hash__(self) -> int:
-        """By value, so that structs can be keys of dictionaries; do not change one that is."""
+        """By value, so that structs can be dictionary keys; do not change such a struct."""
         return hash((self._plain_, *(hashed(v) for v in self._astuple())))
 
     def __repr__(self) -> str:
@@ -117,7 +124,7 @@ class Struct(metaclass=StructMeta):
         return f"{self._plain_.__name__}({text})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Copied and pickled as its fields; a row of an array becomes a value of its own."""
+        """Copied and pickled by fields; an array element becomes an independent value."""
         return self._plain_, self._astuple()
 
     def _astuple(self) -> tuple[Any, ...]:
@@ -125,7 +132,7 @@ class Struct(metaclass=StructMeta):
 
 
 def _constructor(cls: type[Struct]) -> Callable[..., None]:
-    """`__init__` with a parameter for each field, as fast as one written by hand."""
+    """`__init__` with one parameter per field, as fast as hand-written code."""
     scope: dict[str, Any] = {"_zeros": np.zeros}
     parameters, body = ["self"], []
     for position, (name, (_, type_)) in enumerate(zip(cls._names_, cls._fields_, strict=True)):
@@ -158,7 +165,7 @@ def _parameter(
 
 
 def _empty(type_: Type, constant: str, scope: dict[str, Any]) -> str:
-    """An expression for a new, empty object of `type_`."""
+    """An expression for a new empty object of `type_`."""
     if isinstance(type_, Sequence):
         return "[]"
     if isinstance(type_, Dictionary):

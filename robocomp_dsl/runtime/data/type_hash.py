@@ -1,13 +1,12 @@
-"""The canonical text of an interface's shape, and its hash. In: schema objects. Out: text, bytes.
+"""Canonical form and type hash of an interface. In: schema objects. Out: text, bytes.
 
-Two sides that share this text understand each other's bytes and mean the same by them.
+Two components with the same canonical form can communicate.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
-from robocomp_dsl.runtime.data.arrays import StructArray
 from robocomp_dsl.runtime.data.schema import (
     Array,
     Dictionary,
@@ -15,29 +14,33 @@ from robocomp_dsl.runtime.data.schema import (
     Fields,
     Primitive,
     Sequence,
+    StructArrayBase,
+    StructBase,
     Type,
 )
-from robocomp_dsl.runtime.data.struct import Struct
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.component.interface import Interface, Operation
 
 
-def digest(text: str) -> bytes:
-    """The first 8 bytes of the SHA-256 of `text`."""
+def interface_hash(name: str, operations: Iterable[str]) -> bytes:
+    """The first 8 bytes of the SHA-256 of the shape of an interface.
+
+    `operations` are their shapes, in any order: the order in the file has no meaning.
+    """
     from hashlib import sha256  # noqa: PLC0415 - loads OpenSSL, which types alone do not need
 
+    text = "\n".join([f"interface {name}", *sorted(operations)])
     return sha256(text.encode()).digest()[:8]
 
 
-def interface_shape(interface: Interface) -> str:
-    """Every operation on a line of its own, in alphabetical order: their order means nothing."""
-    lines = sorted(_operation(operation) for operation in interface.operations)
-    return "\n".join([f"interface {interface.name}", *lines])
+def operation_shape(
+    pattern: str, name: str, inputs: Fields, outputs: Fields, throws: Iterable[Type]
+) -> str:
+    """One line per operation, in alphabetical order, because their order is irrelevant."""
+    exceptions = ",".join(map(type_shape, throws))
+    return f"{pattern} {name}({_fields(inputs)})->({_fields(outputs)}) throws({exceptions})"
 
 
 def type_shape(type_: Type) -> str:
-    """`struct{x:double,y:double}`, `sequence<int>` and so on."""
+    """`struct{x:double,y:double}`, `sequence<int>` etc."""
     match type_:
         case Primitive():
             return type_.name
@@ -45,9 +48,9 @@ def type_shape(type_: Type) -> str:
             return f"sequence<{type_shape(type_.element)}>"
         case Dictionary():
             return f"dictionary<{type_shape(type_.key)},{type_shape(type_.value)}>"
-    if issubclass(type_, StructArray):
+    if issubclass(type_, StructArrayBase):
         return f"sequence<{type_shape(type_._element_)}>"
-    if issubclass(type_, Struct):
+    if issubclass(type_, StructBase):
         return f"struct{{{_fields(type_._fields_)}}}"
     return f"enum{{{_enumerators(type_)}}}"
 
@@ -57,13 +60,5 @@ def _fields(fields: Fields) -> str:
 
 
 def _enumerators(enum: type[Enum]) -> str:
-    # Python adds an underscore to some names; other languages do not.
+    # Python appends an underscore to some names; other languages do not.
     return ",".join(f"{enumerator.name.rstrip('_')}={enumerator.value}" for enumerator in enum)
-
-
-def _operation(operation: Operation) -> str:
-    throws = ",".join(map(type_shape, operation.throws))
-    return (
-        f"{operation.pattern.value} {operation.name}({_fields(operation.inputs)})"
-        f"->({_fields(operation.outputs)}) throws({throws})"
-    )

@@ -1,6 +1,6 @@
-"""Field values compared, hashed and shown. In: what fields hold. Out: bools, hashables, text.
+"""Compare, hash and format field values. In: field values. Out: bools, hashables, text.
 
-Plain `==` and `hash` do not do for numpy arrays and for lists and dictionaries that hold them.
+Plain `==` and `hash` fail for numpy arrays, and for lists and dictionaries that contain them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ _ITEMS_SHOWN = 8
 
 
 def same(a: Any, b: Any) -> bool:
-    """Whether two field values are equal; NaN differs from itself, as everywhere in Python."""
+    """Whether two field values are equal; NaN differs from itself, as usual in Python."""
     if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
         return bool(np.array_equal(a, b))
     if isinstance(a, list) and isinstance(b, list):
@@ -25,9 +25,9 @@ def same(a: Any, b: Any) -> bool:
 
 
 def hashed(value: Any) -> Hashable:
-    """Something hashable that is equal for equal field values.
+    """A hashable object that is equal for equal field values.
 
-    Arrays and lists agree, because `same` lets them be equal.
+    Arrays and lists give the same object, because `same` treats them as equal.
     """
     if isinstance(value, np.ndarray):
         return hashed(value.tolist())
@@ -39,7 +39,7 @@ def hashed(value: Any) -> Hashable:
 
 
 def shown(value: Any) -> str:
-    """The value for reading, long ones cut and their length told."""
+    """The value as readable text; long values are cut, with their length."""
     if isinstance(value, np.ndarray):
         if value.size > _ITEMS_SHOWN:
             head = ", ".join(map(repr, value.ravel()[:_ITEMS_SHOWN].tolist()))
@@ -53,6 +53,6 @@ def shown(value: Any) -> str:
 
 
 def shown_items(items: Any) -> str:
-    """A list for reading, cut after the first few."""
+    """A list as readable text, cut after the first elements."""
     text = ", ".join(shown(item) for item in items[:_ITEMS_SHOWN])
     return f"[{text}, … {len(items)} in all]" if len(items) > _ITEMS_SHOWN else f"[{text}]"

@@ -1,7 +1,7 @@
-"""State machines of components: what generated code describes, run by python-statemachine.
+"""State machines of components, executed by python-statemachine.
 
-In: a `MachineSpec`, the worker's methods, a clock. Out: a `Machine`, which the worker drives with
-`self.machine.go("event")`.
+In: a `MachineSpec`, the worker's methods, a clock. Out: a `Machine`, which the worker uses with
+`self.machine.send("event")`.
 """
 
 from robocomp_dsl.runtime.machine.machine import Machine, UnknownEvent

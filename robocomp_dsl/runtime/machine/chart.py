@@ -1,7 +1,7 @@
-"""A machine's description as a class of python-statemachine.
+"""Builds a class of python-statemachine from a machine's description.
 
-In: a `MachineSpec`. Out: a `StateChart` class whose delayed events are handed to somebody who
-waits for them: the library would sleep until they are due, and with it the component.
+In: a `MachineSpec`. Out: a `StateChart` class that passes delayed events to a callback. The library
+itself would sleep until they are due and block the component.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from robocomp_dsl.runtime.machine.spec import MachineSpec, StateSpec, Transition
 
 
 class ExternallyTimedChart(StateChart[Any]):
-    """What machines of both languages have.
+    """Callbacks of the machines of both languages.
 
-    `later` takes an event and the seconds until it is due, `cancel` the id of those to forget,
-    `begun` the machine itself before anything happens.
+    `later` receives an event and the seconds until it is due, `cancel` the id of the events to
+    cancel, `begun` the machine before its first event.
     """
 
     catch_errors_as_events = False
@@ -35,7 +35,7 @@ class ExternallyTimedChart(StateChart[Any]):
     ) -> None:
         self._later = later
         self._cancel = cancel
-        begun(self)  # its first states are entered now, and their methods may use it
+        begun(self)  # entering the initial states calls methods that may use it
         super().__init__(listeners=listeners)
 
     def _put_nonblocking(self, trigger_data: TriggerData, internal: bool = False) -> None:
@@ -46,27 +46,27 @@ class ExternallyTimedChart(StateChart[Any]):
             super()._put_nonblocking(trigger_data, internal=internal)
 
     def put_due(self, trigger_data: TriggerData) -> None:
-        """An event that was delayed, and is due now."""
+        """A delayed event that is due."""
         trigger_data.execution_time = 0.0
         super()._put_nonblocking(trigger_data)
         self._engine.processing_loop()
 
     def cancel_event(self, send_id: str) -> None:
-        """Forget the delayed events of this id (the library's name for it)."""
+        """Cancel the delayed events with this id (the name is the library's)."""
         self._cancel(send_id)
         super().cancel_event(send_id)
 
 
 def chart_of(spec: MachineSpec) -> type[ExternallyTimedChart]:
-    """The class. Raises what the library raises for a document that it does not support."""
-    # Expressions of a document can only read and write its data: no code of it is run.
+    """The class. Raises the library's exceptions for unsupported documents."""
+    # Expressions of a document can only read and write its data; they cannot run code.
     chart = load(spec.scxml, format="scxml", trusted=False) if spec.scxml else _from_states(spec)
     both: type[ExternallyTimedChart] = new_class(spec.name, (ExternallyTimedChart, chart))
     return both
 
 
 def timer_event(number: int) -> str:
-    """The event of the transition with this number, when its time has come."""
+    """The timed event of the transition with this number."""
     return f"after_{number}_s"
 
 

@@ -23,9 +23,16 @@ from robocomp_dsl.runtime.machine.spec import MachineSpec
 
 log = logging.getLogger("robocomp")
 
+MAX_TRANSITIONS = 1000
+"""Transitions that one event may cause; more are an endless loop."""
+
 
 class UnknownEvent(Exception):
     """The machine has no event or state of this name; the message suggests the nearest."""
+
+
+class EndlessTransitions(Exception):
+    """Transitions without events lead from state to state without end."""
 
 
 @dataclass(frozen=True, order=True, slots=True)
@@ -65,6 +72,7 @@ class Machine(DeprecatedMachineNames):
         self._chart: Any = None
         self._running = False
         self._entry_count = 0
+        self._transition_count = 0
         self._active: tuple[str, ...] = ()
 
     def start(self) -> None:
@@ -74,6 +82,7 @@ class Machine(DeprecatedMachineNames):
         chart = chart_of(self.spec)
 
         def enter() -> bool:
+            self._transition_count = 0
             chart(self._schedule_delayed, self._cancel, self._on_chart_created, [_Listener(self)])
             self._running = True
             self._update_state()
@@ -86,7 +95,7 @@ class Machine(DeprecatedMachineNames):
 
     @property
     def states(self) -> tuple[str, ...]:
-        """The names of the active states, outer ones first; empty before the start."""
+        """The names of the active states, outermost first; empty before the start."""
         return self._active
 
     @property
@@ -101,7 +110,7 @@ class Machine(DeprecatedMachineNames):
         return state in self._active
 
     def send(self, event: str, **data: object) -> bool:
-        """Send an event: its transitions are taken; returns whether there was one.
+        """Send an event and take its transitions; returns whether there was one.
 
         `data` is for the conditions of an SCXML document (`_event.data`). If a transition is being
         processed (in this thread or another one), the event is queued and False is returned.
@@ -121,6 +130,7 @@ class Machine(DeprecatedMachineNames):
         If a method of the worker raises, the timers are restored, and `timer` is due again.
         """
         before, waiting = self._entry_count, list(self._timers)
+        self._transition_count = 0
         try:
             fire()
         except BaseException:
@@ -160,13 +170,22 @@ class Machine(DeprecatedMachineNames):
         return moved
 
     def tick(self) -> None:
-        """Call the `state_…` methods of the active states, outer ones first."""
+        """Call the `state_…` methods of the active states, outermost first."""
         for name in self._active:
-            # A method may have left the states of the others.
+            # A method may have exited the states of the others.
             if name in self._active and (method := self._hooks["state", name]):
                 method()
 
     # Called by the chart.
+
+    def on_transition(self, source: str) -> None:
+        """A transition is taken. Raises `EndlessTransitions` for a loop without events."""
+        self._transition_count += 1
+        if self._transition_count > MAX_TRANSITIONS:
+            raise EndlessTransitions(
+                f"one event caused more than {MAX_TRANSITIONS} transitions, last from `{source}`:"
+                " give one of its transitions an event, or a condition that becomes false"
+            )
 
     def on_state_entered(self, name: str) -> None:
         """A state was entered: start its timers."""
@@ -241,6 +260,9 @@ class _Listener:
 
     def __init__(self, machine: Machine) -> None:
         self._machine = machine
+
+    def before_transition(self, source: Any) -> None:
+        self._machine.on_transition(str(source.id))
 
     def on_enter_state(self, state: Any) -> None:
         self._machine.on_state_entered(str(state.id))

@@ -27,7 +27,7 @@ class StateSpec:
         return self.method or self.name
 
     def walk(self) -> Iterator[StateSpec]:
-        """The state and all nested states, outer ones first."""
+        """The state and all nested states, outermost first."""
         yield self
         for state in self.inside:
             yield from state.walk()
@@ -35,7 +35,7 @@ class StateSpec:
 
 @dataclass(frozen=True, slots=True)
 class TransitionSpec:
-    """A transition, taken on `event` or `after` so many seconds, whichever is first."""
+    """A transition, taken on `event` or after `after` seconds, whichever is first."""
 
     source: str
     target: str
@@ -47,7 +47,7 @@ class TransitionSpec:
 class MachineSpec:
     """One state machine; if `scxml` is set, that document defines its behaviour.
 
-    `events` are the names that `Machine.send` accepts, with those of `transitions`.
+    `events` are the further names that `Machine.send` accepts besides those of `transitions`.
     """
 
     name: str
@@ -57,6 +57,6 @@ class MachineSpec:
     scxml: str = ""
 
     def walk(self) -> Iterator[StateSpec]:
-        """All states, outer ones first."""
+        """All states, outermost first."""
         for state in self.states:
             yield from state.walk()

@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
 from robocomp_dsl.runtime.middleware.base import Endpoint, OperationCallable
 
 DISCOVERY_TIMEOUT_S = 1.0
-"""After the start of a component, its calls wait so long for a server to appear."""
+"""After the start of a component, its calls wait this long for a server to appear."""
 
 log = logging.getLogger("robocomp")
 _T = TypeVar("_T")

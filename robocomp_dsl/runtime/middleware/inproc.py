@@ -112,7 +112,7 @@ class _Port:
 
 
 class _Domain:
-    """Everything that is served in one domain of this process."""
+    """All served ports of one domain in this process."""
 
     def __init__(self) -> None:
         self.changed = threading.Condition()

@@ -2,15 +2,10 @@
 
 from typing import TYPE_CHECKING, Any
 
-from robocomp_dsl.runtime.parameters.findings import (
-    ConfigError,
-    ConfigFinding,
-    ConfigLocation,
-    ParameterRejected,
-)
-from robocomp_dsl.runtime.parameters.group import ParameterGroup
+from robocomp_dsl.finding import Finding, Location, SourceText
+from robocomp_dsl.runtime.parameters.errors import ConfigError, ParameterRejected
 from robocomp_dsl.runtime.parameters.load import load_values
-from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema, Value
+from robocomp_dsl.runtime.parameters.schema import Group, Parameter, ParameterGroup, Schema, Value
 from robocomp_dsl.runtime.parameters.values import Description, Parameters
 
 if TYPE_CHECKING:
@@ -18,15 +13,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ConfigError",
-    "ConfigFinding",
-    "ConfigLocation",
     "Description",
+    "Finding",
     "Group",
+    "Location",
     "Parameter",
     "ParameterGroup",
     "ParameterRejected",
     "Parameters",
     "Schema",
+    "SourceText",
     "Value",
     "load_values",
 ]

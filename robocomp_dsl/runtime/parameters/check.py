@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from robocomp_dsl.finding import Finding, Location
 from robocomp_dsl.runtime.parameters import overrides
 from robocomp_dsl.runtime.parameters import scalar as scalars
-from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, did_you_mean
+from robocomp_dsl.runtime.parameters.errors import did_you_mean
 from robocomp_dsl.runtime.parameters.scalar import InvalidValue
 from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Entry, Group, Parameter, Schema
 from robocomp_dsl.runtime.parameters.tree import NODE_NAMES, Items, Mapping, Member, Node, Scalar
@@ -19,18 +20,18 @@ _MOST_NODES = 100_000
 _MOST_FINDINGS = 100
 
 
-def check_values(root: Mapping, schema: Schema, findings: list[ConfigFinding]) -> dict[str, Any]:
+def check_values(root: Mapping, schema: Schema, findings: list[Finding]) -> dict[str, Any]:
     """The value of every parameter of `schema`. Adds to `findings`, at most 100 in all."""
     checker = _Checker(findings)
     try:
         return checker.group(root, schema, "")
     except _TooManyFindings as enough:
-        findings.append(ConfigFinding(enough.place, str(enough)))
+        findings.append(Finding(enough.place, str(enough)))
         return {}
 
 
 class _TooManyFindings(Exception):
-    def __init__(self, place: ConfigLocation, message: str) -> None:
+    def __init__(self, place: Location, message: str) -> None:
         self.place = place
         super().__init__(message)
 
@@ -38,14 +39,14 @@ class _TooManyFindings(Exception):
 class _Checker:
     """Walks a tree along its schema. It limits the entries: aliases can make a short file huge."""
 
-    def __init__(self, findings: list[ConfigFinding]) -> None:
+    def __init__(self, findings: list[Finding]) -> None:
         self.findings = findings
         self.visited = 0
 
-    def add(self, place: ConfigLocation, message: str, label: str = "", help: str = "") -> None:
+    def add(self, place: Location, message: str, label: str = "", help: str = "") -> None:
         if len(self.findings) >= _MOST_FINDINGS:
             raise _TooManyFindings(place, "too many errors, the rest is not shown")
-        self.findings.append(ConfigFinding(place, message, label, help))
+        self.findings.append(Finding(place, message, label, help))
 
     def group(self, found: Mapping, schema: Schema, prefix: str) -> dict[str, Any]:
         known = {entry.name: entry for entry in schema}
@@ -111,7 +112,7 @@ class _Checker:
         if not isinstance(node, Items):
             message = f"`{path}` must be a list, not {NODE_NAMES[type(node)]}"
             way_out = f"begin each of the {entry.name} with `- `"
-            if node.place.text.name == overrides.SOURCE_NAME:
+            if node.place.file == overrides.SOURCE_NAME:
                 way_out = f"set a member of one of them, as in `--set {path}[0].…`"
             self.add(node.place, message, help=way_out)
             return []

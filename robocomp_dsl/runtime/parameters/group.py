@@ -1,4 +1,4 @@
-"""Groups of parameters: typed attributes that are plain reads (no descriptor, no lock).
+"""Groups of parameters with values.
 
 In: checked values. Out: objects of the generated classes, and a walk over all parameters.
 """
@@ -6,31 +6,11 @@ In: checked values. Out: objects of the generated classes, and a walk over all p
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, TypeVar
+from typing import Any, TypeVar
 
-from robocomp_dsl.runtime.parameters.schema import Group, Parameter, Schema
+from robocomp_dsl.runtime.parameters.schema import Group, Parameter, ParameterGroup
 
-GroupT = TypeVar("GroupT", bound="ParameterGroup")
-
-
-class ParameterGroup:
-    """Base of the generated class of one group; its attributes are the parameters of `SCHEMA`."""
-
-    __slots__ = ()
-    SCHEMA: ClassVar[Schema] = ()
-
-    def __setattr__(self, name: str, value: object) -> None:
-        raise AttributeError(
-            f"`{name}` cannot be assigned: parameters change through `set`, "
-            f'as in self.params.set({{"{name}": {value!r:.40}}})'
-        )
-
-    def __delattr__(self, name: str) -> None:
-        raise AttributeError(f"`{name}` cannot be deleted, it is a parameter")
-
-    def __repr__(self) -> str:
-        shown = ", ".join(f"{e.attribute}={getattr(self, e.attribute)!r}" for e in self.SCHEMA)
-        return f"{type(self).__name__}({shown})"
+GroupT = TypeVar("GroupT", bound=ParameterGroup)
 
 
 def build_group(kind: type[GroupT], values: Mapping[str, Any]) -> GroupT:

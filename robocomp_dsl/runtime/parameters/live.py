@@ -11,11 +11,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from robocomp_dsl.runtime.parameters.findings import ParameterRejected, did_you_mean
-from robocomp_dsl.runtime.parameters.group import ParameterGroup, walk_parameters
+from robocomp_dsl.runtime.parameters.errors import ParameterRejected, did_you_mean
+from robocomp_dsl.runtime.parameters.group import walk_parameters
 from robocomp_dsl.runtime.parameters.overrides import format_path, parse_path
 from robocomp_dsl.runtime.parameters.scalar import InvalidValue
-from robocomp_dsl.runtime.parameters.schema import Parameter, Value
+from robocomp_dsl.runtime.parameters.schema import Parameter, ParameterGroup, Value
 
 _log = logging.getLogger("robocomp.parameters")
 

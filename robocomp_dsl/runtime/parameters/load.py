@@ -10,15 +10,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
+from robocomp_dsl.finding import Finding, Location, SourceText
+from robocomp_dsl.regular_file import open_regular
 from robocomp_dsl.runtime.parameters import overrides as command_line
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters.check import check_values
-from robocomp_dsl.runtime.parameters.findings import (
-    ConfigError,
-    ConfigFinding,
-    ConfigLocation,
-    ConfigText,
-)
+from robocomp_dsl.runtime.parameters.errors import ConfigError
 from robocomp_dsl.runtime.parameters.schema import Schema
 from robocomp_dsl.runtime.parameters.tree import Mapping
 
@@ -33,7 +30,7 @@ def load_values(
 
     `saved_file` is the file of saved live values; it may be missing.
     """
-    findings: list[ConfigFinding] = []
+    findings: list[Finding] = []
     root = _read(path, findings)
     if root is not None and saved_file is not None and saved_file.exists():
         values_kept = _read(saved_file, findings)
@@ -46,21 +43,21 @@ def load_values(
     raise ConfigError(sorted(findings, key=_reading_order))
 
 
-def _reading_order(finding: ConfigFinding) -> tuple[bool, int, int]:
-    place = finding.place
-    return place.text.name == command_line.SOURCE_NAME, place.line, place.column
+def _reading_order(finding: Finding) -> tuple[bool, int, int]:
+    location = finding.location
+    return location.file == command_line.SOURCE_NAME, location.line, location.column
 
 
-def _read(path: Path | None, findings: list[ConfigFinding]) -> Mapping | None:
+def _read(path: Path | None, findings: list[Finding]) -> Mapping | None:
     if path is None:
-        return Mapping(ConfigLocation(ConfigText("(no configuration file)", ()), 1, 1))
+        return Mapping(Location(SourceText("(no configuration file)", ()), 1, 1))
     try:
         source = read_text(path)
     except UnreadableFile as error:
-        place = ConfigLocation(ConfigText(str(path), ()), 1, 1)
-        findings.append(ConfigFinding(place, f"unreadable configuration: {error}"))
+        place = Location(SourceText(str(path), ()), 1, 1)
+        findings.append(Finding(place, f"unreadable configuration: {error}"))
         return None
-    text = ConfigText(str(path), tuple(source.splitlines()))
+    text = SourceText.of_text(path, source)
     # A component without a file needs no reader; that of YAML takes long to load.
     if path.suffix.lower() == ".toml":
         from robocomp_dsl.runtime.parameters.toml_text import read_toml  # noqa: PLC0415
@@ -78,7 +75,7 @@ class UnreadableFile(Exception):
 def read_text(path: Path) -> str:
     """The text of a file. Raises `UnreadableFile`."""
     try:
-        with path.open("rb") as stream:
+        with open_regular(path) as stream:
             data = stream.read(MAX_BYTES + 1)
     except FileNotFoundError:
         raise UnreadableFile("file not found") from None

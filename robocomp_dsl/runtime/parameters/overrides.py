@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, ConfigText
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.runtime.parameters.tree import (
     NODE_NAMES,
     Items,
@@ -26,7 +26,7 @@ _STEP = re.compile(r"\.?([A-Za-z_][A-Za-z0-9_-]*)|\[([0-9]{1,6})\]")
 
 
 def parse_path(path: str) -> list[str | int] | None:
-    """`a.b[2].c` as `["a", "b", 2, "c"]`; None when it is no such path."""
+    """`a.b[2].c` as `["a", "b", 2, "c"]`; None if the path is invalid."""
     steps: list[str | int] = []
     at = 0
     while at < len(path):
@@ -41,29 +41,27 @@ def parse_path(path: str) -> list[str | int] | None:
 
 
 def format_path(path: Iterable[str | int]) -> str:
-    """The inverse of `steps`."""
+    """The inverse of `parse_path`."""
     text = ""
     for step in path:
         text += f"[{step}]" if isinstance(step, int) else f".{step}" if text else step
     return text
 
 
-def apply(root: Mapping, overrides: Iterable[str], findings: list[ConfigFinding]) -> Mapping:
+def apply(root: Mapping, overrides: Iterable[str], findings: list[Finding]) -> Mapping:
     """`root` with all overrides applied; later ones take precedence."""
     for written in overrides:
         path, equals, value = written.partition("=")
-        text = ConfigText(SOURCE_NAME, (written,))
-        key = ConfigLocation(text, 1, 1, max(1, len(path)))
+        text = SourceText(SOURCE_NAME, (written,))
+        key = Location(text, 1, 1, max(1, len(path)))
         found = parse_path(path.strip()) if equals else None
         if found is None:
             message = f"`--set {written:.80}` is not of the form `key=value`"
             findings.append(
-                ConfigFinding(key, message, help="write for instance `--set motors[2].min=-1`")
+                Finding(key, message, help="write for instance `--set motors[2].min=-1`")
             )
             continue
-        leaf = Scalar(
-            ConfigLocation(text, 1, len(path) + 2, max(1, len(value))), value, TextSyntax.RAW
-        )
+        leaf = Scalar(Location(text, 1, len(path) + 2, max(1, len(value))), value, TextSyntax.RAW)
         root = set_node(root, found, key, leaf, findings)
     return root
 
@@ -71,15 +69,15 @@ def apply(root: Mapping, overrides: Iterable[str], findings: list[ConfigFinding]
 def set_node(
     root: Mapping,
     path: list[str | int],
-    key: ConfigLocation,
+    key: Location,
     leaf: Scalar,
-    findings: list[ConfigFinding],
+    findings: list[Finding],
 ) -> Mapping:
     """`root` with `leaf` at `path`; adds a finding at `key` if the path is invalid."""
     try:
         changed = _replace(root, path, 0, key, leaf)
     except _InvalidPath as error:
-        findings.append(ConfigFinding(key, str(error)))
+        findings.append(Finding(key, str(error)))
         return root
     assert isinstance(changed, Mapping)  # noqa: S101 - a root stays what it is
     return changed
@@ -90,9 +88,9 @@ class _InvalidPath(Exception):
 
 
 def _replace(
-    node: Node | None, path: list[str | int], depth: int, key: ConfigLocation, leaf: Scalar
+    node: Node | None, path: list[str | int], depth: int, key: Location, leaf: Scalar
 ) -> Node:
-    """A copy of `node` with `leaf` at `path[depth:]`; aliases elsewhere keep what they have."""
+    """A copy of `node` with `leaf` at `path[depth:]`; aliases of the node are unchanged."""
     if depth == len(path):
         return leaf
     step = path[depth]

@@ -12,7 +12,8 @@ from collections.abc import Mapping as Values
 from contextlib import suppress
 from pathlib import Path
 
-from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigText
+from robocomp_dsl.finding import Finding, SourceText
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.runtime.parameters.overrides import parse_path, set_node
 from robocomp_dsl.runtime.parameters.schema import Value
 from robocomp_dsl.runtime.parameters.tree import Mapping, Scalar
@@ -34,13 +35,13 @@ def is_saved_file(name: str) -> bool:
     return name.endswith(_SUFFIX)
 
 
-def apply(root: Mapping, saved: Mapping, findings: list[ConfigFinding]) -> Mapping:
+def apply(root: Mapping, saved: Mapping, findings: list[Finding]) -> Mapping:
     """`root` with the saved values applied."""
     for path, member in saved.members.items():
         found = parse_path(path)
         if found is None or not isinstance(member.value, Scalar):
             message = f"`{path:.80}` is not of the form `path: value`"
-            findings.append(ConfigFinding(member.place, message, help="delete this line"))
+            findings.append(Finding(member.place, message, help="delete this line"))
             continue
         root = set_node(root, found, member.place, member.value, findings)
     return root
@@ -49,12 +50,12 @@ def apply(root: Mapping, saved: Mapping, findings: list[ConfigFinding]) -> Mappi
 def saved_parameters(file: Path) -> list[str]:
     """The parameters in a file that was read without findings."""
     try:
-        source = file.read_text(encoding="utf-8-sig")
+        source = read_text(file, "utf-8-sig")
     except OSError:
         return []
     from robocomp_dsl.runtime.parameters.yaml_text import read_yaml  # noqa: PLC0415 - slow to load
 
-    root = read_yaml(ConfigText(str(file), ()), source, [])
+    root = read_yaml(SourceText(str(file), ()), source, [])
     return list(root.members) if root else []
 
 

@@ -13,7 +13,7 @@ import re
 from numbers import Integral, Real
 from typing import SupportsFloat
 
-from robocomp_dsl.runtime.parameters.findings import did_you_mean
+from robocomp_dsl.runtime.parameters.errors import did_you_mean
 from robocomp_dsl.runtime.parameters.schema import KIND_NAMES, Parameter, Value
 from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
@@ -25,7 +25,7 @@ _NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
 _TRUE = {"true", "yes", "on"}
 _FALSE = {"false", "no", "off"}
 _MAX_DIGITS = 400
-"""Digits of a number, at most: Python refuses to convert very long ones anyway."""
+"""Maximum number of digits; Python refuses to convert longer numbers anyway."""
 
 
 class InvalidValue(Exception):
@@ -90,7 +90,7 @@ def check_range(parameter: Parameter, path: str, value: Value) -> Value:
 
 
 def _text(parameter: Parameter, path: str, scalar: Scalar) -> str:
-    """A string; what every YAML 1.2 reader takes for a number or a bool must be quoted."""
+    """A string; text that YAML 1.2 readers parse as a number or bool must be quoted."""
     text = scalar.text
     if scalar.style is not TextSyntax.PLAIN or text in parameter.choices:
         return text

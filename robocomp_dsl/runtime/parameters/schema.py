@@ -1,15 +1,13 @@
 """Schema of the parameters of a component: constants in generated code.
 
-In: the arguments that the generator writes from a PDSL file. Out: `Parameter` and `Group`.
+In: the arguments that the generator writes from a PDSL file. Out: `Parameter` and `Group`, and the
+base class of generated groups, whose attributes are plain reads (no descriptor, no lock).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.parameters.group import ParameterGroup
+from typing import ClassVar, Literal, TypeAlias
 
 Kind: TypeAlias = Literal["string", "int", "float", "bool", "choice"]
 Value: TypeAlias = bool | int | float | str
@@ -45,6 +43,26 @@ class Parameter:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "attribute", self.attribute or self.name)
+
+
+class ParameterGroup:
+    """Base of the generated class of one group; its attributes are the parameters of `SCHEMA`."""
+
+    __slots__ = ()
+    SCHEMA: ClassVar[Schema] = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(
+            f"`{name}` cannot be assigned: parameters change through `set`, "
+            f'as in self.params.set({{"{name}": {value!r:.40}}})'
+        )
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"`{name}` cannot be deleted, it is a parameter")
+
+    def __repr__(self) -> str:
+        shown = ", ".join(f"{e.attribute}={getattr(self, e.attribute)!r}" for e in self.SCHEMA)
+        return f"{type(self).__name__}({shown})"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TypeAlias
 
-from robocomp_dsl.runtime.parameters.findings import ConfigLocation
+from robocomp_dsl.finding import Location
 
 
 class TextSyntax(Enum):
@@ -25,7 +25,7 @@ class TextSyntax(Enum):
 class Scalar:
     """One value, not yet interpreted."""
 
-    place: ConfigLocation
+    place: Location
     text: str
     style: TextSyntax = TextSyntax.PLAIN
 
@@ -34,15 +34,15 @@ class Scalar:
 class Items:
     """A list."""
 
-    place: ConfigLocation
+    place: Location
     items: list[Node]
 
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One `key: value`; `place` is that of the key."""
+    """One `key: value`; `place` is the location of the key."""
 
-    place: ConfigLocation
+    place: Location
     value: Node
 
 
@@ -50,7 +50,7 @@ class Member:
 class Mapping:
     """Keys and values in order of writing."""
 
-    place: ConfigLocation
+    place: Location
     members: dict[str, Member] = field(default_factory=dict)
 
 

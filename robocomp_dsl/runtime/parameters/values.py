@@ -11,13 +11,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from robocomp_dsl.finding import Location, SourceText
 from robocomp_dsl.runtime.parameters import saved
 from robocomp_dsl.runtime.parameters import scalar as scalars
-from robocomp_dsl.runtime.parameters.findings import ConfigLocation, ConfigText, ParameterRejected
-from robocomp_dsl.runtime.parameters.group import ParameterGroup, build_group, walk_parameters
+from robocomp_dsl.runtime.parameters.errors import ParameterRejected
+from robocomp_dsl.runtime.parameters.group import build_group, walk_parameters
 from robocomp_dsl.runtime.parameters.live import apply_changes
 from robocomp_dsl.runtime.parameters.load import load_values
-from robocomp_dsl.runtime.parameters.schema import Kind, Parameter, Value
+from robocomp_dsl.runtime.parameters.schema import Kind, Parameter, ParameterGroup, Value
 from robocomp_dsl.runtime.parameters.tree import Scalar, TextSyntax
 
 
@@ -154,5 +155,5 @@ def _description(path: str, owner: ParameterGroup, parameter: Parameter) -> Desc
 
 
 def _from_text(parameter: Parameter, path: str, text: str) -> Value:
-    place = ConfigLocation(ConfigText(path, (text,)), 1, 1)
+    place = Location(SourceText(path, (text,)), 1, 1)
     return scalars.from_scalar(parameter, path, Scalar(place, text, TextSyntax.RAW))

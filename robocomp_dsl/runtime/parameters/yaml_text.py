@@ -14,20 +14,20 @@ import yaml
 from yaml import events
 from yaml.error import MarkedYAMLError, YAMLError
 
-from robocomp_dsl.runtime.parameters.findings import ConfigFinding, ConfigLocation, ConfigText
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.runtime.parameters.tree import Items, Mapping, Member, Node, Scalar, TextSyntax
 
 _MAX_DEPTH = 40
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-def read_yaml(text: ConfigText, source: str, findings: list[ConfigFinding]) -> Mapping | None:
-    """The root mapping of `source`; None when it is not YAML. Adds to `findings`."""
+def read_yaml(text: SourceText, source: str, findings: list[Finding]) -> Mapping | None:
+    """The root mapping of `source`; None if it is not YAML. Adds to `findings`."""
     composer = _Composer(text, findings)
     try:
         return composer.document(iter(yaml.parse(source, Loader=_LOADER)))
     except _TooDeep as deep:
-        findings.append(ConfigFinding(deep.place, "the file is nested too deeply"))
+        findings.append(Finding(deep.place, "the file is nested too deeply"))
     except MarkedYAMLError as error:
         findings.append(_syntax_error(text, error))
     except YAMLError as error:
@@ -36,14 +36,14 @@ def read_yaml(text: ConfigText, source: str, findings: list[ConfigFinding]) -> M
 
 
 class _TooDeep(Exception):
-    def __init__(self, place: ConfigLocation) -> None:
+    def __init__(self, place: Location) -> None:
         self.place = place
 
 
 class _Composer:
-    """Makes nodes of the events of one text (events are `Any`: PyYAML declares no attributes)."""
+    """Builds nodes from a text's events (`Any`: PyYAML declares no attributes)."""
 
-    def __init__(self, text: ConfigText, findings: list[ConfigFinding]) -> None:
+    def __init__(self, text: SourceText, findings: list[Finding]) -> None:
         self.text = text
         self.findings = findings
         self.anchors: dict[str, Node] = {}
@@ -55,9 +55,7 @@ class _Composer:
             if isinstance(event, events.DocumentStartEvent) and root is not None:
                 place = self.place(event.start_mark, 3)
                 self.findings.append(
-                    ConfigFinding(
-                        place, "a configuration is one YAML document; a second one starts here"
-                    )
+                    Finding(place, "a configuration is one YAML document; a second one starts here")
                 )
                 break
             if isinstance(event, events.NodeEvent):
@@ -66,17 +64,17 @@ class _Composer:
 
     def as_root(self, root: Node | None) -> Mapping | None:
         if isinstance(root, Mapping):
-            return Mapping(ConfigLocation(self.text, 1, 1), root.members)
+            return Mapping(Location(self.text, 1, 1), root.members)
         if root is not None and not (isinstance(root, Scalar) and root.text == ""):
             self.findings.append(
-                ConfigFinding(
+                Finding(
                     root.place,
                     "a configuration is a group of `key: value` lines",
                     help=_root_help(root),
                 )
             )
             return None
-        return Mapping(ConfigLocation(self.text, 1, 1))
+        return Mapping(Location(self.text, 1, 1))
 
     def node(self, event: Any, depth: int) -> Node:
         place = self.place(event.start_mark, _width(event))
@@ -88,7 +86,7 @@ class _Composer:
             message = (
                 f"the tag `{event.tag.replace('tag:yaml.org,2002:', '!!')}` has no meaning here"
             )
-            self.findings.append(ConfigFinding(place, message, help="remove it"))
+            self.findings.append(Finding(place, message, help="remove it"))
         if isinstance(event, events.ScalarEvent):
             plain = event.style in (None, "") and event.tag is None
             node: Node = Scalar(
@@ -102,13 +100,13 @@ class _Composer:
             self.anchors[event.anchor] = node
         return node
 
-    def alias(self, name: Any, place: ConfigLocation) -> Node:
+    def alias(self, name: Any, place: Location) -> Node:
         found = self.anchors.get(name)
         if found is None:
             message = (
                 f"the alias `*{name}` stands before the end of its anchor `&{name}`, or has none"
             )
-            self.findings.append(ConfigFinding(place, message))
+            self.findings.append(Finding(place, message))
             return Scalar(place, "")
         return found
 
@@ -118,20 +116,20 @@ class _Composer:
             items.append(self.node(event, depth + 1))
         return items
 
-    def mapping(self, place: ConfigLocation, depth: int) -> Mapping:
+    def mapping(self, place: Location, depth: int) -> Mapping:
         members: dict[str, Member] = {}
         merged: list[Node] = []
         while not isinstance(event := next(self.stream), events.MappingEndEvent):
             key = self.node(event, depth + 1)
             value = self.node(next(self.stream), depth + 1)
             if not isinstance(key, Scalar):
-                self.findings.append(ConfigFinding(key.place, "a key must be a single word"))
+                self.findings.append(Finding(key.place, "a key must be a single word"))
             elif key.text == "<<" and key.style is TextSyntax.PLAIN:
                 merged += value.items if isinstance(value, Items) else [value]
             elif (earlier := members.get(key.text)) is not None:
                 message = f"`{key.text:.60}` is a duplicate key"
                 label = f"first defined in line {earlier.place.line}"
-                self.findings.append(ConfigFinding(key.place, message, label))
+                self.findings.append(Finding(key.place, message, label))
             else:
                 members[key.text] = Member(key.place, value)
         self.merge(members, merged)
@@ -140,13 +138,13 @@ class _Composer:
     def merge(self, members: dict[str, Member], merged: list[Node]) -> None:
         for source in merged:
             if not isinstance(source, Mapping):
-                self.findings.append(ConfigFinding(source.place, "`<<` merges groups only"))
+                self.findings.append(Finding(source.place, "`<<` merges groups only"))
                 continue
             for name, member in source.members.items():
                 members.setdefault(name, member)
 
-    def place(self, mark: Any, width: int = 1) -> ConfigLocation:
-        return ConfigLocation(self.text, mark.line + 1, mark.column + 1, width)
+    def place(self, mark: Any, width: int = 1) -> Location:
+        return Location(self.text, mark.line + 1, mark.column + 1, width)
 
 
 def _width(event: Any) -> int:
@@ -160,21 +158,19 @@ def _root_help(root: Node) -> str:
     return "write for instance `rate: 20`"
 
 
-def _syntax_error(text: ConfigText, error: MarkedYAMLError) -> ConfigFinding:
+def _syntax_error(text: SourceText, error: MarkedYAMLError) -> Finding:
     mark = error.problem_mark or error.context_mark
     reason = error.problem or error.context or "it cannot be parsed"
-    place = (
-        ConfigLocation(text, mark.line + 1, mark.column + 1) if mark else ConfigLocation(text, 1, 1)
-    )
+    place = Location(text, mark.line + 1, mark.column + 1) if mark else Location(text, 1, 1)
     way_out = "indent with spaces, YAML takes no tabs" if "\t" in place.excerpt else ""
     label = ""
     if error.context and error.context_mark and error.context_mark.line != place.line - 1:
         label = f"{error.context}, which begins in line {error.context_mark.line + 1}"
-    return ConfigFinding(place, f"this is not YAML: {reason}", label, way_out)
+    return Finding(place, f"this is not YAML: {reason}", label, way_out)
 
 
-def _reader_error(text: ConfigText, source: str, error: YAMLError) -> ConfigFinding:
+def _reader_error(text: SourceText, source: str, error: YAMLError) -> Finding:
     offset = min(getattr(error, "position", 0) or 0, len(source))
     before = source[:offset]
-    place = ConfigLocation(text, before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1)
-    return ConfigFinding(place, f"this is not YAML: {getattr(error, 'reason', None) or error}")
+    place = Location(text, before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1)
+    return Finding(place, f"this is not YAML: {getattr(error, 'reason', None) or error}")

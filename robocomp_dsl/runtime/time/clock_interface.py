@@ -8,24 +8,23 @@ class Tick(rt.Struct):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
-    # How often time has begun anew: at a reset, or where an earlier state was gone back
-    # to.
+    # Number of discontinuities: resets, and returns to an earlier state.
     epoch: rt.Int = 0
-    # Simulated seconds per second of late; 0 while it is held.
+    # Recent real-time factor: simulated seconds per wall second; 0 while paused.
     realTimeFactor: rt.Double = 0.0
-    paused: rt.Bool = False  # Time stands still.
+    paused: rt.Bool = False  # Simulated time is paused.
 
 
 Peers = list[rt.String]
 
 
 class Hearer(rt.Struct):
-    """A port that is subscribed to a topic."""
+    """A port that subscribes to a topic."""
 
     component: rt.String = ""
     port: rt.String = ""
     declared: rt.String = ""  # `Module::Interface`.
-    # The publishers that it is wired to; empty for any.
+    # The publishers that it is connected to; empty for any.
     publishers: Peers = rt.default()
 
 
@@ -35,9 +34,9 @@ Hearers = list[Hearer]
 class Due(rt.Struct):
     """RoboCompLockStep::Due."""
 
-    # [ns] When the component has something to do next; -1: it is not known to have.
-    time: rt.Long = 0
-    # Whether what others do to it can bring that forward: it is asked at every step.
+    time: rt.Long = 0  # [ns] Time of the next scheduled work; -1: none is known.
+    # Whether messages of other components can create earlier work; such a component is
+    # polled at every step.
     restless: rt.Bool = False
 
 
@@ -50,21 +49,21 @@ FOLLOWER = rt.Interface(
 
 
 class FollowerProxy(rt.Proxy):
-    """Every component in lock-step serves it."""
+    """Served by every component in lock-step."""
 
     __slots__ = ()
     INTERFACE = FOLLOWER
 
     def introduce(self) -> Hearers:
-        """What it is subscribed to."""
+        """The subscriptions of the component."""
         return self._call("introduce")
 
     def meet(self, all: Hearers) -> None:
-        """Find all of them that hear what it publishes."""
+        """Discover the subscribers of the component's topics."""
         self._call("meet", all)
 
     def advance(self, t: Tick) -> Due:
-        """It is `t` now: do all that is due, and say what is next."""
+        """Advance to time `t`: do all work that is due, and return the next due time."""
         return self._call("advance", t)
 
     def query(self, request: Tick) -> Due:
@@ -79,13 +78,13 @@ LEADER = rt.Interface(
 
 
 class LeaderProxy(rt.Proxy):
-    """The source of the clock serves it."""
+    """Served by the clock source."""
 
     __slots__ = ()
     INTERFACE = LEADER
 
     def leave(self, name: str) -> None:
-        """The component called `name` ends, and is not to be missed."""
+        """The component `name` exits; the source no longer waits for it."""
         self._call("leave", name)
 
 

@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.deprecated import DeprecatedClockNames
 from robocomp_dsl.runtime.time.clock_interface import Tick
 
 STALE_TIMEOUT_S = 3.0
-"""Without a tick for so long the source counts as lost."""
+"""Without a tick for this time the source counts as lost."""
 STALE_POLL_S = 0.5
 """While the source is lost, waits end after this time."""
 

@@ -1,7 +1,7 @@
-"""A simulated battery: it is discharged by the motors and a constant load.
+"""A simulated battery, discharged by the motors and a constant load.
 
-In: the capacity (Wh), the voltage (V) and the load at rest (W). Out: how much is left. Motors
-give nothing back when they brake.
+In: the capacity (Wh), the voltage (V) and the load at rest (W). Out: the remaining charge. Motors
+recover no energy when they brake.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _HOUR = 3600.0  # s
 
 
 class Battery:
-    """The device `name`; it feeds all motors of the world."""
+    """The device `name`; it powers all motors of the world."""
 
     def __init__(self, capacity: float, voltage: float, idle: float, *, name: str) -> None:
         self._capacity, self._voltage, self._idle = capacity * _HOUR, voltage, idle
@@ -27,7 +27,7 @@ class Battery:
         """Nothing to add."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
-        """Full."""
+        """Start with a full battery."""
         self._left = self._capacity
         self.find(model, data)
 
@@ -45,7 +45,7 @@ class Battery:
         return self._idle + float(moved.sum())
 
     def charge(self) -> Charge:
-        """The state now."""
+        """The current state."""
         power = self._power()
         return Charge(
             self._left / self._capacity,

@@ -1,7 +1,7 @@
-"""A simulated camera: a copy of the world's state is drawn in a thread of its own.
+"""A simulated camera: its thread renders a copy of the world's state.
 
-In: a frame, along whose z axis it looks, and the optics. Out: pictures, no more often than the
-camera takes them and only when somebody asks. It renders offscreen (`view.offscreen`); for a
+In: a frame, whose z axis is the viewing direction, and the optics. Out: pictures on request, at
+most one per camera period. It renders offscreen (`view.offscreen`); for a
 missing library the error names the Debian package.
 """
 
@@ -23,9 +23,9 @@ from robocomp_dsl.simulation.world.noise import NoiseLevel
 
 
 class Camera:
-    """The device `name` on the body `body`. `turns` are those of its world.
+    """The device `name` on the body `body`. `turns` is the lock of its world.
 
-    `model_camera` is the name of a camera that a model file has; its own settings count.
+    `model_camera` is the name of a camera in a model file; its settings take precedence.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class Camera:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """A camera that looks along the z axis of its frame, y up."""
+        """Add a camera that looks along the z axis of its frame, y up."""
         width, height = self._settings.width, self._settings.height
         spec.visual.global_.offwidth = max(spec.visual.global_.offwidth, width)
         spec.visual.global_.offheight = max(spec.visual.global_.offheight, height)
@@ -64,7 +64,7 @@ class Camera:
         )
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """Nothing has been seen yet."""
+        """Start without a picture."""
         self._random = random
         self._latest = None
         self.find(model, data)
@@ -81,9 +81,9 @@ class Camera:
         return self._settings
 
     def picture(self) -> Picture:
-        """The latest picture; a new one in each period of the camera.
+        """The latest picture; a new one in each camera period.
 
-        Takes its turn at the world only for as long as its state is copied.
+        Holds the lock of the world only while its state is copied.
         """
         with self.lock:
             time = float(self._data.time)
@@ -100,11 +100,11 @@ class Camera:
         return self._latest
 
     def close(self) -> None:
-        """Free what drawing needs; the next picture prepares it again."""
+        """Free the rendering resources; the next picture recreates them."""
         self._renderer.close()
 
     def _frame(self, time: float) -> int:
-        """Which picture since time began: so many a second, however late each is asked for."""
+        """Index of the current camera period since time 0, independent of the time of the call."""
         return math.floor(time / self._settings.period + 1e-6)
 
     def _noisy(self, seen: Picture) -> Picture:
@@ -118,7 +118,7 @@ class Camera:
 
 
 class _RenderThread:
-    """The thread that draws: a context of OpenGL belongs to one thread for life."""
+    """The rendering thread: an OpenGL context belongs to one thread for its lifetime."""
 
     def __init__(self, settings: CameraSettings) -> None:
         self._settings = settings
@@ -126,14 +126,14 @@ class _RenderThread:
         self._painter: Renderer | None = None
 
     def __deepcopy__(self, memo: object) -> Self:
-        return self  # copies of the world are drawn by the same one
+        return self  # copies of the world use the same renderer
 
     def render(self, model: Any, data: Any, name: str) -> Picture:
-        """Draw; other callers wait meanwhile, the world does not."""
+        """Render; other callers wait meanwhile, the world continues."""
         return self._thread.submit(self._draw, model, data, name).result()
 
     def close(self) -> None:
-        """Free the rendering context, some 90 MB, once nothing is drawn; returns immediately."""
+        """Free the rendering context (about 90 MB) after the last picture; returns immediately."""
         self._thread.submit(self._free)
 
     def _draw(self, model: Any, data: Any, name: str) -> Picture:

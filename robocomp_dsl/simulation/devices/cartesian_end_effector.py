@@ -1,4 +1,4 @@
-"""An end effector of a model file that a Cartesian controller moves.
+"""An end effector of a model file, moved by a Cartesian controller.
 
 In: the board of the world, which of its joints, a body or site as tip, a body as base. Out: poses
 and goals in m, in the axes of the model.
@@ -55,7 +55,7 @@ class CartesianEndEffector:
 
     @staticmethod
     def goal(pose: Matrix) -> Matrix:
-        """A pose, (4, 4), or a place, (3,), as the controller takes it. Raises `CommandRefused`."""
+        """The goal of a pose, (4, 4), or a position, (3,) [m], in mm. Raises `CommandRefused`."""
         if not np.isfinite(pose).all():
             raise CommandRefused("the goal holds NaN or infinity")
         if pose.ndim == 1:

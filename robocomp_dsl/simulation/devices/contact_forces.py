@@ -1,9 +1,9 @@
 """The contact forces on some bodies, read from MuJoCo's solver in a few array operations.
 
-In: model and data after each step. Out: one entry per contact and body: where it is, and the force
-on that body, split to_frames the part along the contact's normal and the part along the surface. A
-step is only written down; working it out waits until many can be worked out at once, since small
-arrays cost as much as large ones.
+In: model and data after each step. Out: one entry per contact and body: its position, and the force
+on that body, split into the parts along the contact's normal and along the surface. Steps are only
+recorded; the computation is deferred until many can be computed together, since small arrays cost
+as much as large ones.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 GRAIN = 0.00025
-"""Contacts of one frame nearer together than about this are taken as one [m]."""
+"""Contacts of one frame closer than about this are merged [m]."""
 
 _TRUE = np.array([True])
 
 _EDGES = np.arange(10)
-"""The most edges that the friction pyramid of a contact can have."""
+"""Maximum number of edges of a contact's friction pyramid."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +38,7 @@ class LimbContacts:
 
 
 class ContactRecorder:
-    """Writes down the contacts of some steps and works out the forces on limbs.
+    """Records the contacts of each step, and computes the forces on limbs.
 
     `limb_of_geom` (geoms,) is -1 without skin; limb i has its frame on `bodies[i]`, at
     `origins[i]` (3,) with the axes `axes[i]` (3, 3) as columns.
@@ -53,7 +53,7 @@ class ContactRecorder:
         self._written: list[tuple[Any, ...]] = []
 
     def record(self, data: Any) -> None:
-        """Take down the step that was just made."""
+        """Record the step that was just completed."""
         if not data.ncon:
             return
         found = data.contact
@@ -74,7 +74,7 @@ class ContactRecorder:
     def take(self) -> LimbContacts | None:
         """The contacts of all steps since the last call, in the frames of their limbs.
 
-        None if there is no force on any limb. A contact between two limbs counts on both.
+        None if there is no force on any limb. A contact between two limbs counts for both.
         """
         written, self._written = self._written, []
         if not written:
@@ -104,11 +104,11 @@ class ContactRecorder:
         if pressing.all():
             return LimbContacts(mine, here, normal, along)
         if not pressing.any():
-            return None  # they have only just met, or part again
+            return None  # the bodies have just touched, or are separating
         return LimbContacts(mine[pressing], here[pressing], normal[pressing], along[pressing])
 
     def _limb_poses(self, place: Floats, turn: Floats) -> tuple[Floats, Floats]:
-        """Places (s * l, 3) and turns (s * l, 3, 3) of the l limbs' frames at all s steps."""
+        """Positions (s * l, 3) and rotations (s * l, 3, 3) of the l limb frames at all s steps."""
         turns = turn.reshape(-1, len(self._bodies), 3, 3)
         places = place.reshape(-1, len(self._bodies), 3)
         places = places + np.einsum("slij,lj->sli", turns, self._origins)
@@ -135,9 +135,9 @@ class ContactRecorder:
 
 
 def to_frames(vectors: Floats, turns: Floats) -> Floats:
-    """Vectors (k, 3) of the world in frames whose turns are (k, 3, 3).
+    """Vectors (k, 3) of the world in frames with rotations (k, 3, 3).
 
-    Written out, since numpy's products of many small matrices are far slower.
+    Written out, since numpy multiplies many small matrices far slower.
     """
     x, y, z = vectors[:, :1], vectors[:, 1:2], vectors[:, 2:]
     turned: Floats = x * turns[:, 0] + y * turns[:, 1] + z * turns[:, 2]
@@ -145,9 +145,9 @@ def to_frames(vectors: Floats, turns: Floats) -> Floats:
 
 
 def merge(touch: LimbContacts) -> LimbContacts:
-    """The same contacts, those at nearly the same place as one.
+    """The contacts with those at nearly the same position merged.
 
-    Forces are summed, so that nothing is lost; the place is their mean by normal force.
+    Forces are summed; the position is their mean, weighted by normal force.
     """
     grain = np.floor(touch.points * (1.0 / GRAIN)).astype(np.int64) + (1 << 15)
     key = ((touch.limb * (1 << 16) + grain[:, 0]) * (1 << 16) + grain[:, 1]) * (1 << 16)

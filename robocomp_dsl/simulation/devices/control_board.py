@@ -1,8 +1,8 @@
 """A control board on the joints of a simulated robot.
 
 In: a compiled MuJoCo model whose joints have torque motors of the same name. Out: before every
-physics step the board sees the joints and sets the motors. Encoders may start with an unknown
-offset (`encoder_zero`), so that calibration has something to find.
+physics step the board reads the joints and sets the motors. Encoders may start with an unknown
+offset (`encoder_zero`), which calibration then finds.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ COOLING_RATE = 120.0
 """Time constant of its temperature [s]."""
 
 FEELING = 0.005
-"""Time constant of the sensors of torque [s]."""
+"""Time constant of the torque sensors [s]."""
 
 HEAT_PERIOD = 0.1
-"""How often temperatures are worked out [s]."""
+"""Period of the temperature update [s]."""
 
 
 class SimulatedBoard:
-    """A part of a `World`: `board` has the state, `commands` takes orders, `settings` adjusts.
+    """A part of a `World`: `board` has the state, `commands` and `settings` its operations.
 
     `groups` maps joints to separately served groups.
     """
@@ -68,10 +68,10 @@ class SimulatedBoard:
         self._to_board = robot_board.transmission.T
 
     def build(self, spec: Any) -> None:
-        """Nothing to add: the robot brought its motors along."""
+        """Nothing to add: the robot already has motors."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002 - shared
-        """Find joints and motors; raises `SceneError` for one that is not there."""
+        """Find joints and motors; raises `SceneError` for missing ones."""
         self.find(model, data)
         self.board.begin(*self._measure())
 
@@ -91,18 +91,18 @@ class SimulatedBoard:
         self._look()
 
     def _look(self) -> None:
-        """Views of the data: asking for them at every step costs as much as reading them."""
+        """Cached views of the data: creating them at every step costs as much as reading them."""
         self._places, self._speeds = self._data.qpos, self._data.qvel
         self._ctrl = self._data.ctrl
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        """A copy looks at the copied data."""
+        """A copy has views of the copied data."""
         self.__dict__.update(state)
         if "_data" in state:
             self._look()
 
     def before_step(self, dt: float) -> None:
-        """Measure, let the board work, and set the motors."""
+        """Measure, step the board, and set the motors."""
         q, dq = self._measure()
         weight = self._weight() if self._hold_weight else None
         if self.board.law.errors.needs_torque:
@@ -114,7 +114,7 @@ class SimulatedBoard:
             self._update_temperature()
 
     def _measure(self) -> tuple[Floats, Floats]:
-        """Angles as the encoders tell them, and speeds."""
+        """Encoder angles, and speeds."""
         where, speed, _ = self._runs
         q, dq = self._places[where].copy(), self._speeds[speed].copy()
         if not self._plain:
@@ -130,7 +130,7 @@ class SimulatedBoard:
         self.board.law.errors.measured_torque = felt + (measured - felt) * (dt / (dt + FEELING))
 
     def _weight(self) -> Floats:
-        """Torques that hold the arm against gravity, its own swing and the drag of its joints."""
+        """Torques that compensate gravity, Coriolis forces and joint friction."""
         reference = self.board.references.velocity
         _, speed, _ = self._runs
         bias = self._data.qfrc_bias[speed]
@@ -144,7 +144,7 @@ class SimulatedBoard:
         return weight
 
     def _update_temperature(self) -> None:
-        """Motors warm up by their current and cool down in the room; slowly, so now and then."""
+        """Update motor temperatures from currents and cooling; slow, so only now and then."""
         motors, current = self.board.motors, self.board.current
         final = ROOM_TEMPERATURE + HEATING_RATE * motors.resistance * current * current
         warmer = (final - motors.temperature) * (self._unheated / COOLING_RATE)

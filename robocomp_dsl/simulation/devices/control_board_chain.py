@@ -1,6 +1,6 @@
 """Extracts the chain of joints from a base to a tip from a compiled MuJoCo model.
 
-In: the model, a board's joints, a site or body as tip. Out: `Chain`, with a tree of its own.
+In: the model, a board's joints, a site or body as tip. Out: `Chain`, with its own tree.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ _TIP = "tip of the chain"
 def extract_chain(
     model: Any, joints: Sequence[str], tip: str, *, base: str = "", prefix: str = ""
 ) -> JointChain:
-    """The chain of `joints` that carries the site, or else the body, `tip`.
+    """The chain of `joints` that carries the site `tip`, or else the body of that name.
 
     Poses are expressed in the body `base`, or in the world; the rest posture is the middle of the
-    limits. Raises `SceneError` for missing names, and for a joint that does not move the tip.
+    limits. Raises `SceneError` for missing names, and for joints that do not move the tip.
     """
     mirrored = model_transforms(model)
     end = _tip(model, mirrored, prefix + tip)
@@ -52,7 +52,7 @@ def extract_chain(
 
 
 def _tip(model: Any, mirrored: ModelTransforms, name: str) -> str:
-    """The frame of a site (a new one, since a body may have its name), or of a body."""
+    """The frame of a body, or of a site (a new frame, since a body may have its name)."""
     at = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, name)
     if at < 0:
         return mirrored.bodies[_body(model, name)]

@@ -1,7 +1,7 @@
 """A simulated base with two driven wheels: velocity motors, friction, two sliding casters.
 
-In: commands of the Protocol. Out: states; the odometry counts the encoders' steps, the corrected
-pose is the true one unless `correct` has moved it.
+In: commands of the Protocol. Out: states; the odometry counts encoder steps, the corrected pose is
+the true one unless `correct` has changed it.
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ from robocomp_dsl.hardware.kinematics.planar import ORIGIN, Pose, arc
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 
-_GAIN = 4.0  # N·m per rad/s of error: follows a ramp within a few steps, and does not ring
+_GAIN = 4.0  # N·m per rad/s of error: follows a ramp within a few steps, without oscillation
 _STALL = 6.0  # N·m
-_STILL = 1.0  # mm/s at the wheels, below which the base counts as standing
+_STILL = 1.0  # mm/s at the wheels: slower counts as standing
 _CASTER = 30.0  # mm
 _CLEARANCE = 60.0  # mm between the floor and the body
-_OVERLAP = -0.005  # m that the body may touch something at the start
+_OVERLAP = -0.005  # m: permitted penetration at the start
 
 
 class DifferentialRobot:
     """The device. `start` is its initial pose; `name` prefixes its parts in the MuJoCo model.
 
-    `drift` is the standard deviation of the relative error with which the odometry knows each
-    wheel's radius; the errors are drawn once, at the start. `watchdog` in s: without a command for
-    so long it stops; 0: never.
+    `drift` is the standard deviation of the relative error of each wheel's radius in the odometry;
+    the errors are drawn once, at the start. `watchdog` in s: the base stops this long after the
+    last command; 0: never.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class DifferentialRobot:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """Put body, wheels, casters and motors into the world."""
+        """Add body, wheels, casters and motors to the world."""
         it = self._mechanics
         body = spec.worldbody.add_body(
             name=self.name,
@@ -87,7 +87,7 @@ class DifferentialRobot:
                 pos=axes.point(0, _CASTER, z),
                 mass=0.2,
                 condim=1,
-                priority=1,  # or the floor's friction would hold the caster
+                priority=1,  # otherwise the floor's friction would brake the caster
             )
         for side, x in (("left", -it.axis / 2), ("right", it.axis / 2)):
             self._add_wheel(spec, body, side, x)
@@ -116,7 +116,7 @@ class DifferentialRobot:
         motor.forcerange = [-_STALL, _STALL]
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """Find the parts again. Raises `SceneError` when the start is inside something."""
+        """Find the parts. Raises `SceneError` if the start is inside an obstacle."""
         joints = [model.joint(f"{self.name}_{side}") for side in ("left", "right")]
         motors = [model.actuator(f"{self.name}_{side}").id for side in ("left", "right")]
         self._motors = np.array(motors)
@@ -139,7 +139,7 @@ class DifferentialRobot:
                 )
 
     def before_step(self, dt: float) -> None:
-        """Bring the motors' targets nearer to the commanded speeds."""
+        """Ramp the motors' targets to the commanded speeds."""
         self._since_command += dt
         if self._watchdog and self._since_command > self._watchdog:
             self._goal[:] = 0.0
@@ -148,7 +148,7 @@ class DifferentialRobot:
         self._data.ctrl[self._motors] = self._target / self._mechanics.wheel_radius
 
     def after_step(self, dt: float) -> None:  # noqa: ARG002  the Protocol's, not needed here
-        """Count the encoders and integrate the odometry."""
+        """Read the encoders and integrate the odometry."""
         rolled = self._encoder() * self._radii
         left, right = rolled - self._travelled
         if left or right:
@@ -165,7 +165,7 @@ class DifferentialRobot:
 
     @property
     def mechanics(self) -> Mechanics:
-        """How the base is built."""
+        """The dimensions and limits of the base."""
         return self._mechanics
 
     def true_pose(self) -> Pose:
@@ -191,17 +191,17 @@ class DifferentialRobot:
         self._since_command = 0.0
 
     def stop(self) -> None:
-        """Stop as fast as the motors can."""
+        """Stop as fast as possible."""
         self._goal[:] = 0.0
         self._target[:] = 0.0
         self._since_command = 0.0
 
     def set_odometry(self, pose: Pose) -> None:
-        """The odometry goes on from `pose`. Raises `CommandRefused`."""
+        """Set the odometry to `pose`. Raises `CommandRefused`."""
         require_finite(x=pose.x, z=pose.z, alpha=pose.alpha)
         self._odometry = pose
 
     def correct(self, pose: Pose) -> None:
-        """The corrected pose goes on from `pose`. Raises `CommandRefused`."""
+        """Set the corrected pose to `pose`. Raises `CommandRefused`."""
         require_finite(x=pose.x, z=pose.z, alpha=pose.alpha)
         self._correction = pose.then(self.true_pose().inverse())

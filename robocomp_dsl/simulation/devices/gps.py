@@ -1,7 +1,7 @@
 """A simulated satellite receiver: x of the world is east, z is north.
 
 In: the origin of the world on the globe, and the standard deviation of each coordinate in mm. Out:
-a new fix ten times a second, whoever asks for it.
+a new fix ten times a second, independent of callers.
 """
 
 from __future__ import annotations
@@ -57,15 +57,15 @@ class Gps:
         return np.array(self._data.xpos[self._body] + noise)
 
     def place(self) -> GeoPoint:
-        """Where it is on the globe."""
+        """The position on the globe."""
         east, north, up = self._fix.tolist()
         return offset(self._origin, east, north, up)
 
     def position(self) -> Triple:
-        """Where it is against the last reset, in mm."""
+        """The position relative to the last reset, in mm."""
         east, north, up = ((self._fix - self._zero) / MM).tolist()
         return east, up, north
 
     def reset(self) -> None:
-        """The present position becomes the origin."""
+        """Make the current position the origin."""
         self._zero = self._fix

@@ -1,7 +1,7 @@
 """A simulated inertial measurement unit on a frame: MuJoCo's sensors, in RoboComp's axes.
 
-In: where it is, and its noise. Out: measurements. The errors are others 200 times a second, whoever
-asks for them.
+In: its mounting pose and its noise. Out: measurements. Errors are drawn 200 times a second,
+independent of callers.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ class ImuNoise:
 
 
 class Imu:
-    """The device `name` on the body `body`; its reference is the frame of the world.
+    """The device `name` on the body `body`; its initial reference is the world frame.
 
-    It sits in the frame of the body, or at a `site` that is there.
+    It is mounted in the frame of the body, or at an existing `site`.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Imu:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """A site and three sensors."""
+        """Add a site and three sensors."""
         if not self._model_site:
             spec.body(self._at).add_site(name=self.name)
         for what, kind in _SENSORS.items():
@@ -90,7 +90,7 @@ class Imu:
         self._where = np.array([range(start, start + 3) for start in first]).ravel()
 
     def after_step(self, dt: float) -> None:
-        """Draw other errors when they are due."""
+        """Draw new errors when they are due."""
         if self._noise is not None and self._data.time >= self._due - dt / 2:
             self._due += _PERIOD
             first, two, three, four, five, six = self._random.standard_normal(6).tolist()
@@ -113,7 +113,7 @@ class Imu:
             tx, ty, tz = tx + turn * turned[0], ty + turn * turned[1], tz + turn * turned[2]
         return Inertial(
             time=float(data.time),
-            # y and z are exchanged; an axis of rotation changes its sign in a mirror
+            # y and z are exchanged; a mirror reverses the sign of a rotation axis
             acceleration=(ax, az, ay),
             angular_velocity=(-tx, -tz, -ty),
             field=(fx / length, fz / length, fy / length),
@@ -122,7 +122,7 @@ class Imu:
         )
 
     def reset(self) -> None:
-        """The present orientation becomes the reference."""
+        """Make the current orientation the reference."""
         self._back = self._rotation().T.copy()
 
     def _rotation(self) -> NDArray[np.float64]:

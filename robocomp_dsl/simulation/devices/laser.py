@@ -1,7 +1,7 @@
 """A simulated planar range finder: rays of MuJoCo from a site on the body that carries it.
 
-In: the settings and where it is mounted. Out: scans at fixed moments of simulated time, whoever
-asks for them, so that noise does not depend on the callers.
+In: the settings and the mounting pose. Out: scans at fixed times of simulated time, so that noise
+does not depend on the callers.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.world.noise import NoiseLevel
 
-_PAST = 1e-4  # m after a surface of the carrier, where a ray continues
-_OWN_SURFACES = 8  # of the carrier that one ray may pass
+_PAST = 1e-4  # m behind a surface of the carrier, where a ray continues
+_OWN_SURFACES = 8  # surfaces of the carrier that one ray may pass
 
 
 @dataclass(frozen=True, slots=True)
 class LaserMount:
-    """Where a device sits: a body of the model, and the place in its frame in mm and rad."""
+    """Mounting of a device: a body of the model, and the pose in its frame in mm and rad."""
 
     body: str = "base"
     x: float = 0.0
@@ -35,18 +35,18 @@ class LaserMount:
 
 
 def mount_on(model: Any, top: int) -> NDArray[np.bool_]:
-    """Which bodies are `top` or stand on it, shape (number of bodies,)."""
+    """Which bodies are `top` or its descendants, shape (number of bodies,)."""
     found = np.zeros(model.nbody, np.bool_)
     found[top] = True
-    for body in range(top + 1, model.nbody):  # bodies come after their parents
+    for body in range(top + 1, model.nbody):  # parents precede their children
         found[body] |= found[model.body_parentid[body]]
     return found
 
 
 class Laser:
-    """The device. `name` names its site in the MuJoCo model.
+    """The device. `name` is the name of its site in the MuJoCo model.
 
-    It does not see `carrier` with all bodies on it: a body, by default the tree of bodies that
+    Rays ignore `carrier` with all its descendants: a body, by default the tree of bodies that
     the laser is mounted in. `level` is a factor on the noise.
     """
 
@@ -72,7 +72,7 @@ class Laser:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """Put the site on the carrier. Raises `SceneError` when there is no such body."""
+        """Add the site to the carrier. Raises `SceneError` if there is no such body."""
         at = self._mount
         carrier = spec.body(at.body)
         if carrier is None:
@@ -82,7 +82,7 @@ class Laser:
         )
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """Find the site again and take the first scan."""
+        """Find the site and take the first scan."""
         self._random = random
         self.find(model, data)
         self._due = self._settings.period
@@ -119,7 +119,7 @@ class Laser:
         return Scan(float(self._data.time), self._angles, found)
 
     def _cast(self) -> NDArray[np.float64]:
-        """Distance of every ray in m; infinite where it hits nothing."""
+        """Distance of every ray in m; infinite without a hit."""
         count = self._settings.measures
         rotation = self._data.site_xmat[self._site].reshape(3, 3)
         rays = self._rays @ rotation.T
@@ -146,7 +146,7 @@ class Laser:
         return np.where(distances < 0, np.inf, distances)
 
     def _behind(self, ray: NDArray[np.float64], reached: float) -> float:
-        """Distance [m] of the first surface after the parts of the carrier on one ray; -1: none."""
+        """Distance [m] of the first surface behind the carrier on one ray; -1: none."""
         origin = self._data.site_xpos[self._site]
         geom = np.empty(1, np.int32)
         for _ in range(_OWN_SURFACES):
@@ -163,7 +163,7 @@ class Laser:
 
     @property
     def settings(self) -> LaserSettings:
-        """How the laser scans."""
+        """Configuration of the laser."""
         return self._settings
 
     def scan(self) -> Scan:

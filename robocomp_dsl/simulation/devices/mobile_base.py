@@ -1,8 +1,8 @@
-"""A simulated base of a scene: it slides over the floor and turns, driven by three velocity motors.
+"""A simulated base of a scene: it slides on the floor and turns, driven by three velocity motors.
 
-In: commands of the Protocol. Out: states. The odometry sums up what the base moves in its own frame
-with a relative error that is drawn once (`drift`) and a random walk (`noise`, mm after one metre);
-the corrected pose is the true one unless `correct` has moved it.
+In: commands of the Protocol. Out: states. The odometry integrates the motion in the base frame with
+a relative error that is drawn once (`drift`) and a random walk (`noise`, mm after one metre); the
+corrected pose is the true one unless `correct` has changed it.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.world.noise import NoiseLevel
 
-_INERTIA = (20.0, 20.0, 2.0)  # kg, kg, kg·m²: the base itself, whatever it carries
+_INERTIA = (20.0, 20.0, 2.0)  # kg, kg, kg·m²: the base without its load
 _GAIN = (1000.0, 1000.0, 100.0)  # N per m/s: 20 ms to a new speed
 _STALL = (400.0, 400.0, 100.0)  # N, N, N·m
 _ACCELERATION = (2.0, 2.0, 6.0)  # m/s², m/s², rad/s²
-_STILL = (1e-3, 1e-3, 1e-3)  # m/s, m/s, rad/s, below which the base counts as standing
+_STILL = (1e-3, 1e-3, 1e-3)  # m/s, m/s, rad/s: slower counts as standing
 _DRIFT = 0.004
 
 
@@ -60,7 +60,7 @@ class MobileBase:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """Motors and inertia for the joints that the scene has put there."""
+        """Add motors and inertia to the joints of the scene."""
         for i, joint in enumerate(spec.body(self._at).joints):
             joint.armature = _INERTIA[i]
             motor = spec.add_actuator(
@@ -75,7 +75,7 @@ class MobileBase:
             motor.forcerange = [-_STALL[i], _STALL[i]]
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """At rest at the start, with the errors of its odometry drawn."""
+        """Start at rest, and draw the odometry errors."""
         self._random = random
         self._errors = random.standard_normal(3).tolist()
         self.find(model, data)
@@ -93,13 +93,13 @@ class MobileBase:
         self._truth.find(model, data, self._body)
 
     def update_frame(self, frame: str) -> None:  # noqa: ARG002 - it has one frame
-        """It was moved externally, which the wheels do not measure."""
+        """The base was moved externally, which the wheels do not measure."""
         self._last = self._now()
 
     def before_step(self, dt: float) -> None:
-        """Bring the motors nearer to the commanded speeds."""
+        """Ramp the motors to the commanded speeds."""
         speed = self._speed
-        for i, goal in enumerate(self._goal):  # numbers, not arrays: three of them at every step
+        for i, goal in enumerate(self._goal):  # scalars are faster than arrays of three
             most = _ACCELERATION[i] * dt
             speed[i] += min(max(goal - speed[i], -most), most)
         side, ahead, turn = speed
@@ -111,13 +111,13 @@ class MobileBase:
         control[about] = turn
 
     def after_step(self, dt: float) -> None:  # noqa: ARG002  the Protocol's, not needed here
-        """Sum up the odometry."""
+        """Integrate the odometry."""
         now, before = self._now(), self._last
         if now == before:
             return
         self._last = now
         x, z, turn = now[0] - before[0], now[1] - before[1], now[2] - before[2]
-        alpha = before[2] + turn / 2  # of the middle of the step
+        alpha = before[2] + turn / 2  # at the middle of the step
         sine, cosine = math.sin(alpha), math.cos(alpha)
         side, ahead, turn = self._state(x * cosine - z * sine, x * sine + z * cosine, turn)
         known = self._odometry
@@ -147,7 +147,7 @@ class MobileBase:
 
     @property
     def limits(self) -> BaseLimits:
-        """How fast it may go."""
+        """The speed limits."""
         return self._limits
 
     def true_pose(self) -> Pose:
@@ -155,11 +155,11 @@ class MobileBase:
         return axes.pose(self._data.xpos[self._body], self._data.xmat[self._body])
 
     def full_pose(self) -> FullPose:
-        """Where it really is, and how it moves."""
+        """Its true pose and motion."""
         return self._truth.measure()
 
     def set_full_pose(self, matrix: Matrix) -> None:
-        """The full pose goes on from `matrix`, shape (4, 4), in mm."""
+        """Set the full pose to `matrix`, shape (4, 4), in mm."""
         self._truth.set(matrix)
 
     def state(self) -> MobileBaseState:
@@ -183,15 +183,15 @@ class MobileBase:
         self._goal[:] = side * MM, adv * MM, rot
 
     def stop(self) -> None:
-        """Stop as fast as the motors can."""
+        """Stop as fast as possible."""
         self._goal[:] = self._speed[:] = 0.0, 0.0, 0.0
 
     def set_odometry(self, pose: Pose) -> None:
-        """The odometry goes on from `pose`. Raises `CommandRefused`."""
+        """Set the odometry to `pose`. Raises `CommandRefused`."""
         require_finite(x=pose.x, z=pose.z, alpha=pose.alpha)
         self._odometry = Pose(pose.x, pose.z, wrap_angle(pose.alpha))
 
     def correct(self, pose: Pose) -> None:
-        """The corrected pose goes on from `pose`. Raises `CommandRefused`."""
+        """Set the corrected pose to `pose`. Raises `CommandRefused`."""
         require_finite(x=pose.x, z=pose.z, alpha=pose.alpha)
         self._correction = pose.then(self.true_pose().inverse())

@@ -1,4 +1,4 @@
-"""A range finder of a model file: how far the next thing is along the z axis of its site."""
+"""A range finder of a model file: the distance of an object along the z axis of its site."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PERIOD = 0.05
 class RangeFinder:
     """The sensor `sensor` of the file as the device `name`; `noise` and `farthest` are in mm.
 
-    `farthest` is its reading where nothing is.
+    `farthest` is its reading without an object.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class RangeFinder:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """It is in the file."""
+        """Nothing to add: the file has the sensor."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find the sensor, and draw its first error."""
@@ -48,7 +48,7 @@ class RangeFinder:
         self._robot = int(model.body_rootid[model.site_bodyid[self._site]])
 
     def after_step(self, dt: float) -> None:
-        """Draw another error when it is due."""
+        """Draw a new error when it is due."""
         if self._noise and self._data.time >= self._due - dt / 2:
             self._due += _PERIOD
             self._error = float(self._random.standard_normal())
@@ -56,9 +56,9 @@ class RangeFinder:
     # -- as a device --------------------------------------------------------------------------
 
     def distance(self) -> float:
-        """To the next thing after the latest step, in mm."""
+        """Distance of the nearest object after the latest step, in mm."""
         seen = float(self._data.sensordata[self._at]) / MM
-        if seen < 0:  # as MuJoCo has it where nothing is
+        if seen < 0:  # MuJoCo's value without an object
             return self._farthest
         seen += self._noise * self._level.factor * self._error
         return min(max(seen, 0.0), self._farthest)

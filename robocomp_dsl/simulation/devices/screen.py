@@ -1,7 +1,7 @@
-"""A simulated screen: a texture on a plane that changes while the world goes on.
+"""A simulated screen: a texture on a plane that changes at run time.
 
-In: images. Out: what cameras of the world see on the plane. The texture has the proportions of the
-plane, and images are stretched to it.
+In: images. Out: what cameras of the world see on the plane. The texture has the aspect ratio of the
+plane; images are stretched to it.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from robocomp_dsl.simulation.view.picture import SCREEN
 
 _LONG = 512
 _SHORT = 16
-"""Pixels of the longer and, at least, of the shorter side."""
+"""Pixels of the longer side, and the minimum of the shorter side."""
 
 
 def add_screen(spec: Any, name: str, width: float, height: float, shown: Image) -> str:
-    """The material of a screen of the given proportions that shows an image at first."""
+    """The material of a screen with this aspect ratio and initial image."""
     longer = max(width, height)
     size = [max(round(_LONG * side / longer), _SHORT) for side in (width, height)]
     texture = spec.add_texture(
@@ -46,7 +46,7 @@ class Screen:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """Nothing to add: the plane has its texture."""
+        """Nothing to add: the plane already has its texture."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
         """Find the texture."""
@@ -60,10 +60,10 @@ class Screen:
             self.show(self._shown)
 
     def before_step(self, dt: float) -> None:
-        """Nothing to drive."""
+        """No motors."""
 
     def after_step(self, dt: float) -> None:
-        """Nothing to sum up."""
+        """No sensors."""
 
     # -- as a device --------------------------------------------------------------------------
 
@@ -78,7 +78,7 @@ class Screen:
 
 
 def _stretched(image: Image, width: int, height: int) -> Image:
-    """The nearest pixels of `image`, rows from below as MuJoCo has them."""
+    """The nearest pixels of `image`, rows from the bottom as in MuJoCo."""
     rows = np.arange(height)[::-1] * image.shape[0] // height
     columns = np.arange(width) * image.shape[1] // width
     return np.ascontiguousarray(image[rows][:, columns])

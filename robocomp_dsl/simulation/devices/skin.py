@@ -1,8 +1,8 @@
 """Artificial skin on a simulated robot: taxel forces whose sum is the force of the contacts.
 
-In: MuJoCo's contacts at every physics step, averaged over one frame. Out: `SkinFrame`, some 50
-times a second. MuJoCo's own touch sensors cannot do this: they count a force once for every site
-that it passes, or not at all.
+In: MuJoCo's contacts at every physics step, averaged over one frame. Out: `SkinFrame`, about 50
+times a second. MuJoCo's own touch sensors are unsuitable: they count a force for every site that it
+passes, or for none.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ class Subscribers(list[Callable[[SkinFrame], None]]):
 
 
 class SimulatedSkin:
-    """A part of a `World`. `frame` is the last one; `subscribe` adds a callback for new ones.
+    """A part of a `World`. `frame` is the latest frame; `subscribe` adds a callback for new ones.
 
-    `geometry` is that of the frames; `mounts` are its limbs as MuJoCo counts, where that is
-    not the same.
+    `geometry` is the geometry of the frames; `mounts` are its limbs in MuJoCo's axes, if these
+    differ.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class SimulatedSkin:
         """Nothing to add: the skin has no body of its own."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """Find the limbs' bodies; raises `SceneError` for one that is not there."""
+        """Find the limbs' bodies; raises `SceneError` for missing ones."""
         self.electronics = SkinElectronics(self.geometry, self.settings.imperfections, random)
         self.find(model, data)
 
@@ -94,7 +94,7 @@ class SimulatedSkin:
         )
 
     def configure(self, settings: SkinSettings) -> None:
-        """Be like this from now on."""
+        """Change the settings."""
         sigma, self.settings = self.settings.sigma, settings
         if settings.sigma != sigma:
             self.kernel = self._kernel()
@@ -105,9 +105,9 @@ class SimulatedSkin:
         self._subscribers.append(on_frame)
 
     def calibrate(self, seconds: float = 5.0) -> None:
-        """Take the baseline from the frames of the next `seconds`; nothing may touch the skin.
+        """Measure the baseline during the next `seconds`; the skin must not be touched meanwhile.
 
-        Raises `CommandRefused` where nothing is compensated.
+        Raises `CommandRefused` if compensation is off.
         """
         require_finite(seconds=seconds)
         if not 0.0 < seconds <= LONGEST_CALIBRATION:
@@ -118,7 +118,7 @@ class SimulatedSkin:
         self.electronics.calibrate(seconds)
 
     def contacts(self) -> list[SkinContact]:
-        """The touches of the last frame."""
+        """The touches of the latest frame."""
         frame = self.frame
         if frame is None:
             return []
@@ -129,7 +129,7 @@ class SimulatedSkin:
         return touches(self.geometry, self.neighbours, frame.force, frame.shear)
 
     def after_step(self, dt: float) -> None:
-        """Take in the contacts of this step, and tell a frame when its time has come."""
+        """Add the contacts of this step, and emit a frame when it is due."""
         self._recorder.record(self._data)
         self._steps += 1
         self._elapsed += dt
@@ -157,7 +157,7 @@ class SimulatedSkin:
         )
 
     def _contact_forces(self, steps: int) -> tuple[Floats, Floats | None, float]:
-        """Mean forces of so many steps: of each taxel into the limb and along it, and of none."""
+        """Mean forces over so many steps: normal and shear per taxel, and off-skin force."""
         n, both = self.geometry.size, self.settings.shear
         taken = self._recorder.take()
         if taken is None:
@@ -175,7 +175,7 @@ class SimulatedSkin:
         )
 
     def _measured(self, force: Floats, dt: float) -> tuple[Floats, Raw | None]:
-        """The sensor values of the true forces: newtons, and raw values if asked for."""
+        """The sensor values of the true forces: newtons, and raw values if enabled."""
         settings, noise, electronics = self.settings, self._level.factor, self.electronics
         if settings.compensation is None:
             raw = electronics.raw(force, dt, noise) if settings.raw else None

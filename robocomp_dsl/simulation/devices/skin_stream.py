@@ -1,8 +1,8 @@
-"""The skin of a world that may be reset, restored and rebuilt: one device through all of it.
+"""The skin of a world across resets, restored states and rebuilds.
 
-In: the simulated skin of the world as it is now. Out: its geometry, whose version goes up when
-taxels change, and its frames, whose numbers only grow. Frames are heard of after the world's turn,
-so that a subscriber may call the world.
+In: the simulated skin of the current world. Out: its geometry, whose version increases when taxels
+change, and its frames, whose numbers always increase. Subscribers are called after the lock is
+released, so that they may call the world.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 log = logging.getLogger("robocomp.simulation")
 
 MAX_QUEUED = 64
-"""Frames that wait to be heard of; older ones are let go of."""
+"""Frames queued for subscribers; older ones are dropped."""
 
 
 class SkinStream:
-    """A `SkinDevice`. All but `tell` and `subscribe` in the world's turn."""
+    """A `SkinDevice`. All methods but `tell` and `subscribe` need the lock of the world."""
 
     def __init__(self) -> None:
         self.geometry: SkinGeometry = geometry_of((), version=0)
@@ -36,7 +36,7 @@ class SkinStream:
         self._subscribers: list[Callable[[SkinFrame], None]] = []
 
     def follow(self, skin: SimulatedSkin | None) -> None:
-        """Go on with this skin; None: there is none any more."""
+        """Continue with this skin; None: the skin was removed."""
         former, self._skin = self._skin, skin
         if skin is former:
             return
@@ -64,7 +64,7 @@ class SkinStream:
         return found
 
     def touches(self, frame: SkinFrame) -> Touches:
-        """See `SkinDevice`. Raises `DeviceGone` where the taxels have changed since."""
+        """See `SkinDevice`. Raises `DeviceGone` if the taxels have changed meanwhile."""
         skin = self._require_skin()
         if skin.geometry.version != frame.geometry:
             raise DeviceGone(f"the taxels have changed since frame {frame.sequence}")
@@ -75,12 +75,12 @@ class SkinStream:
         self._require_skin().calibrate(seconds)
 
     def configure(self, settings: SkinSettings) -> None:
-        """Other settings from now on."""
+        """Change the settings."""
         if self._skin is not None:
             self._skin.configure(settings)
 
     def subscribe(self, on_frame: Callable[[SkinFrame], None]) -> None:
-        """See `SkinDevice`: `on_frame` is called by `tell`."""
+        """See `SkinDevice`: `tell` calls `on_frame`."""
         self._subscribers.append(on_frame)
 
     def dispatch(self) -> None:

@@ -1,7 +1,7 @@
 """A simulated touch sensor: the contact forces on the shapes in its frame.
 
-In: the frame and, if it measures along one direction only, the normal. Out: a force in N between
-the bounds; of a bumper 1 when it is pressed, else 0.
+In: the frame, and the normal for a sensor with a single direction. Out: a force in N within the
+bounds; for a bumper 1 when pressed, else 0.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _PRESSED = 1e-3  # N
 
 @dataclass(frozen=True, slots=True)
 class TouchSettings:
-    """`normal` points out of the sensor, all zero: in all directions; bounds are in N."""
+    """`normal` points out of the sensor; all zero: all directions. Bounds are in N."""
 
     normal: Triple = (0.0, 0.0, 0.0)
     low: float = 0.0
@@ -74,7 +74,7 @@ class TouchSensor:
         for i in np.flatnonzero(own[:, 0] != own[:, 1]):
             mujoco.mj_contactForce(self._model, data, int(i), wrench)
             frame = data.contact.frame[i].reshape(3, 3)
-            # the first axis leads from the first geom to the second, which is pushed along it
+            # the contact's first axis points from the first geom to the second
             total += (frame.T @ wrench[:3]) * (-1.0 if own[i, 0] else 1.0)
         if self._normal is None:
             return float(np.linalg.norm(total))

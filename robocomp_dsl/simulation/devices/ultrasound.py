@@ -1,4 +1,4 @@
-"""A simulated ultrasonic range finder: the nearest of a fan of rays, noise upon it."""
+"""A simulated ultrasonic range finder: the shortest of a fan of rays, with noise."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Ultrasound(Laser):
         self._echo: tuple[object, float] = (None, settings.max_range)
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
-        """Find its place and listen once."""
+        """Find its site and take the first measurement."""
         super().bind(model, data, random)
         self._measure_echo()
 
     def after_step(self, dt: float) -> None:
-        """Listen when it is due."""
+        """Measure when it is due."""
         super().after_step(dt)
         if self._echo[0] is not self._scan:
             self._measure_echo()
@@ -44,11 +44,11 @@ class Ultrasound(Laser):
         self._echo = (self._scan, min(max(nearest, low), high))
 
     def distance(self) -> float:
-        """The nearest thing in its cone, in mm."""
+        """The distance of the nearest object in its cone, in mm."""
         return self._echo[1]
 
     def mounted(self) -> Pose:
-        """Where it sits on the robot and where it looks."""
+        """Its mounting pose on the robot."""
         data, body = self._data, int(self._model.body(self._carrier).id)
         robot = axes.pose(data.xpos[body], data.xmat[body])
         own = axes.pose(data.site_xpos[self._site], data.site_xmat[self._site])

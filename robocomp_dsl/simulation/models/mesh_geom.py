@@ -1,7 +1,7 @@
-"""A mesh file as a geom of MuJoCo, or a box as a placeholder.
+"""A mesh file as a geom of MuJoCo, or a placeholder box.
 
-In: a body of an `MjSpec`, a file and a scale. Out: settings of a geom, with a finding where it is
-not the mesh. Points are taken as the file has them: m, z up, as URDF and MJCF do.
+In: a body of an `MjSpec`, a file and a scale. Out: settings of a geom, with a finding if it is a
+placeholder. Points are in the axes of the file: m, z up, as in URDF and MJCF.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.formats.mesh_file import MeshError, Surface, read_surface
 from robocomp_dsl.hardware.kinematics.rotations import Matrix
 
@@ -30,7 +31,7 @@ class MeshCache:
     """The meshes of a spec: each file and scale is read and added once."""
 
     spec: Any
-    findings: list[ModelFinding]
+    findings: list[Finding]
     _made: dict[tuple[Path, tuple[float, ...]], dict[str, Any]] = field(default_factory=dict)
 
     def geom(self, path: Path, scale: tuple[float, ...], subject: str, line: int) -> dict[str, Any]:
@@ -47,7 +48,7 @@ class MeshCache:
             size = [abs(part) * UNKNOWN / 2 for part in scale]
             edge = f"a box of {' x '.join(f'{2 * part:.3g}' for part in size)} m"
             message = f"the mesh `{path}` of `{subject}` is {edge}: {error}"
-            self.findings.append(ModelFinding("mesh", subject, message, line))
+            self.findings.append(model_finding("mesh", subject, message, line))
             return _box(size, np.zeros(3)) | {"rgba": _PLACEHOLDER}
         points = surface.points * scale
         low, high = points.min(axis=0), points.max(axis=0)
@@ -57,7 +58,7 @@ class MeshCache:
             message = (
                 f"the mesh `{path.name}` of `{subject}` is its bounding box; convert it to .obj"
             )
-            self.findings.append(ModelFinding("mesh", subject, message, line))
+            self.findings.append(model_finding("mesh", subject, message, line))
         return _box(((high - low) / 2).tolist(), (low + high) / 2)
 
     def _mesh(
@@ -79,7 +80,7 @@ def _box(half: list[float], centre: Matrix) -> dict[str, Any]:
 
 
 def is_flat(points: Matrix) -> bool:
-    """Whether the points, shape (n, 3), lie in a plane, of which MuJoCo makes no mesh."""
+    """Whether the points, shape (n, 3), are coplanar; MuJoCo rejects such meshes."""
     if len(points) < 4:
         return True
     spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)

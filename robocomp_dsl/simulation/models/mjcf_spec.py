@@ -1,7 +1,7 @@
 """Reads MJCF files, and replaces missing meshes and textures.
 
 In: the path of an MJCF file. Out: its `MjSpec`, in which meshes that MuJoCo cannot read are boxes
-and textures that are not there are left out, with findings.
+and missing textures are dropped, with findings.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError, model_finding
 from robocomp_dsl.hardware.description.model_paths import resolve
 from robocomp_dsl.hardware.formats.mesh_file import MeshError, read_surface
 from robocomp_dsl.simulation.models.mesh_geom import MeshCache, is_flat
@@ -23,20 +24,20 @@ _ITS_OWN = {".obj", ".msh"}
 _LINE = re.compile(r"line(?: number=|\s+)(\d+)", re.IGNORECASE)
 
 
-def build_mjcf(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[ModelFinding]]:
+def build_mjcf(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
     """The model in the file at `path`. Raises `ModelFileError`."""
     try:
         spec = mujoco.MjSpec.from_file(str(path))
     except (ValueError, mujoco.FatalError) as error:
         raise error_with_line(error) from None
-    findings: list[ModelFinding] = []
+    findings: list[Finding] = []
     _replace_meshes(spec, path, packages, findings)
     _drop_textures(spec, path, packages, findings)
     return spec, findings
 
 
 def error_with_line(error: Exception) -> ModelFileError:
-    """The error of MuJoCo about a file, with its line."""
+    """MuJoCo's error about a file, with its line."""
     message = str(error)
     line = _LINE.search(message)
     words = " ".join(message.replace("XML Error:", "").removeprefix("Error:").split())
@@ -44,7 +45,7 @@ def error_with_line(error: Exception) -> ModelFileError:
 
 
 def _replace_meshes(
-    spec: Any, path: Path, packages: Sequence[Path], findings: list[ModelFinding]
+    spec: Any, path: Path, packages: Sequence[Path], findings: list[Finding]
 ) -> None:
     shelf = MeshCache(spec, findings)
     boxes: dict[str, tuple[Any, dict[str, Any]]] = {}
@@ -76,7 +77,7 @@ def _replace_meshes(
 
 
 def _mesh_source(mesh: Any, file: Path) -> bool:
-    """Give a mesh the points of an STL file; MuJoCo reads only the binary form, and small ones."""
+    """Set the points of a mesh from an STL file; MuJoCo reads only small binary STL files."""
     try:
         surface = read_surface(file)
     except MeshError:
@@ -91,7 +92,7 @@ def _mesh_source(mesh: Any, file: Path) -> bool:
 
 
 def _drop_textures(
-    spec: Any, path: Path, packages: Sequence[Path], findings: list[ModelFinding]
+    spec: Any, path: Path, packages: Sequence[Path], findings: list[Finding]
 ) -> None:
     gone: set[str] = set()
     for texture in list(spec.textures):
@@ -103,7 +104,7 @@ def _drop_textures(
         if missing:
             name = texture.name or Path(missing[0]).stem
             message = f"the texture `{name}` is left out: `{missing[0]}` is not there"
-            findings.append(ModelFinding("texture", name, message, _line(texture)))
+            findings.append(model_finding("texture", name, message, _line(texture)))
             gone.add(name)
             spec.delete(texture)
     for material in spec.materials:

@@ -1,7 +1,7 @@
-"""A model file as a text that can stand in another folder.
+"""A model file as a text that is independent of its folder.
 
-In: the path of a file in MJCF or URDF. Out: its text, in which the files that it includes are
-written out and all others have absolute paths.
+In: the path of a file in MJCF or URDF. Out: its text, with included files inserted and absolute
+paths of all others.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from xml.sax.saxutils import quoteattr, unescape
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import root_tag
 from robocomp_dsl.hardware.description.model_paths import resolve
+from robocomp_dsl.regular_file import read_bytes
 
 _TAGS = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|<[^<>]*>", re.DOTALL)
 _NAME = re.compile(r"</?\s*([\w.:-]+)")
@@ -26,7 +27,7 @@ _WHOLE = re.compile(r"\A.*?<\s*(mujocoinclude|mujoco)\b[^>]*>(.*)</\s*\1\s*>.*\Z
 
 
 def copy_model(path: Path, packages: Sequence[Path] = ()) -> str:
-    """The text that means the same anywhere. Raises `ModelFileError`, `OSError`."""
+    """The relocatable text. Raises `ModelFileError`, `OSError`."""
     text = _read(path)
     kind = root_tag(text.encode())
     if kind == "mujoco":
@@ -49,7 +50,7 @@ def copy_model(path: Path, packages: Sequence[Path] = ()) -> str:
 
 
 def _read(path: Path) -> str:
-    data = path.read_bytes()
+    data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -77,7 +78,7 @@ def _included(text: str, main: Path, here: Path, above: tuple[Path, ...]) -> str
 
 
 def _folders(text: str) -> dict[str, str]:
-    """Where MJCF looks for meshes and textures."""
+    """The folders of MJCF's meshes and textures."""
     found: dict[str, str] = {}
     for tag in _TAGS.findall(text):
         if _tag(tag) == "compiler":

@@ -5,8 +5,7 @@ In: the compiled model, and the joints on its boards. Out: a device for each
     <custom> <text name="cartesian_LArm" data="l_hand torso"/> </custom>
 
 which names a board, the body or site that its joints move, and the body in which poses are
-expressed (without one: the world). Joints that are named behind are left as they are, as those of
-fingers.
+expressed (default: the world). Joints named after these are not moved, such as those of fingers.
 """
 
 from __future__ import annotations
@@ -16,7 +15,8 @@ from typing import Any
 
 import mujoco
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_texts import texts_of
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms
@@ -27,7 +27,7 @@ Data = dict[str, Any]
 
 
 def end_effectors_of(
-    model: Any, seen: ModelTransforms, devices: Sequence[Data], findings: list[ModelFinding]
+    model: Any, seen: ModelTransforms, devices: Sequence[Data], findings: list[Finding]
 ) -> list[Data]:
     """A device for every end effector; invalid ones are findings."""
     devices_found: list[Data] = []
@@ -37,7 +37,7 @@ def end_effectors_of(
         try:
             devices_found.append(_end_effector(model, seen, devices, name, words))
         except _InvalidEndEffector as why:
-            findings.append(ModelFinding("joint", "", f"`{name}` {why}: it is left out"))
+            findings.append(model_finding("joint", "", f"`{name}` {why}: it is left out"))
     return devices_found
 
 

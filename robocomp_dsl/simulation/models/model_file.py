@@ -1,7 +1,7 @@
-"""A model file, URDF or MJCF, as something that can be simulated.
+"""Loads a model file, URDF or MJCF, as a compiled MuJoCo model.
 
-In: a path and folders of packages. Out: the compiled model with its spec and findings on all that
-is not as described; `ModelFileError` when there is no model, with the lines that are to blame.
+In: a path and folders of packages. Out: the compiled model with its spec, and findings on
+deviations from the file; `ModelFileError` with the relevant lines if no model can be built.
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import ModelFileError, model_finding
 from robocomp_dsl.hardware.description.model_kind import root_tag
 from robocomp_dsl.hardware.formats.urdf import read_urdf
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.mjcf_spec import build_mjcf, error_with_line
 from robocomp_dsl.simulation.models.urdf_spec import build_urdf
 from robocomp_dsl.simulation.world.arena import reserve_arena
@@ -29,11 +31,11 @@ _LIGHTEST = 1e-3
 
 @dataclass(slots=True)
 class LoadedModel:
-    """`spec` is that of `model`."""
+    """`spec` is the specification of `model`."""
 
     spec: Any
     model: Any
-    findings: list[ModelFinding]
+    findings: list[Finding]
 
 
 def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
@@ -42,9 +44,9 @@ def load_model(path: Path, packages: Sequence[Path] = ()) -> LoadedModel:
     return LoadedModel(spec, compiled(spec, findings), findings)
 
 
-def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[ModelFinding]]:
-    """What is in the file at `path`, not compiled yet. Raises `ModelFileError`, `OSError`."""
-    data = path.read_bytes()
+def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Finding]]:
+    """The uncompiled model in the file at `path`. Raises `ModelFileError`, `OSError`."""
+    data = read_bytes(path)
     match root_tag(data):
         case "robot":
             return build_urdf(read_urdf(data), path, packages)
@@ -57,8 +59,8 @@ def read_spec(path: Path, packages: Sequence[Path] = ()) -> tuple[Any, list[Mode
             raise ModelFileError(f"{message}, a model begins with `<robot>` or `<mujoco>`")
 
 
-def compiled(spec: Any, findings: list[ModelFinding]) -> Any:
-    """The model of `spec`; what moves without mass gets some. Raises `ModelFileError`."""
+def compiled(spec: Any, findings: list[Finding]) -> Any:
+    """The model of `spec`; moving parts without mass get some. Raises `ModelFileError`."""
     reserve_arena(spec, len(spec.bodies))
     try:
         model = _compile(spec, findings)
@@ -80,11 +82,11 @@ _NUMBERS = {
     "site": ("pos", "quat"),
     "cam": ("pos", "quat", "fovy"),
 }
-"""What MuJoCo takes as it is, also where it is no number."""
+"""Attributes that MuJoCo does not check for finite values."""
 
 
 def _require_finite(model: Any) -> None:
-    """Raises `ModelFileError` for what is not made of finite numbers."""
+    """Raises `ModelFileError` for attributes that are not finite."""
     for kind, names in _NUMBERS.items():
         for name in names:
             numbers = getattr(model, f"{kind}_{name}")
@@ -101,20 +103,20 @@ def _require_finite(model: Any) -> None:
 _KINDS = {"body": "body", "jnt": "joint", "geom": "geom", "site": "site", "cam": "camera"}
 
 
-def _compile(spec: Any, findings: list[ModelFinding]) -> Any:
+def _compile(spec: Any, findings: list[Finding]) -> Any:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             model = spec.compile()
         except (ValueError, mujoco.FatalError) as error:
             raise error_with_line(error) from None
-    findings += [ModelFinding("file", "", str(warning.message)) for warning in caught]
+    findings += [model_finding("file", "", str(warning.message)) for warning in caught]
     return model
 
 
-def _light(model: Any) -> list[ModelFinding]:
+def _light(model: Any) -> list[Finding]:
     return [
-        ModelFinding("mass", name, f"`{name}` moves and has no mass: it gets {_LIGHTEST:g} kg")
+        model_finding("mass", name, f"`{name}` moves and has no mass: it gets {_LIGHTEST:g} kg")
         for i in range(1, model.nbody)
         if model.body_jntnum[i] and model.body_mass[i] <= _LIGHTEST
         for name in [model.body(i).name or f"body{i}"]

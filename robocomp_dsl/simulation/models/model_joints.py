@@ -1,8 +1,8 @@
 """The joints of a model file that have motors, as devices of a scene.
 
 In: the compiled model. Out: a device for each, with its limits in MuJoCo's units. A joint that
-follows another by an equality has no motor; neither has one without an actuator where others of
-the file have some: it swings freely, as the file means it.
+follows another by an equality has no motor; if any joint of the file has an actuator, joints
+without one have no motor either and swing freely.
 
     <custom>
       <tuple name="LArm"> <element objtype="joint" objname="LElbowRoll"/> </tuple>
@@ -10,8 +10,8 @@ the file have some: it swings freely, as the file means it.
       <numeric name="coupling_LArm" data="1"/>
     </custom>
 
-makes a control board `LArm`, sets the highest speed of a joint in rad/s or m/s, and how the motors
-of a board turn with its n joints: n · n numbers, row by row.
+defines a control board `LArm`, the maximum speed of a joint in rad/s or m/s, and the coupling of
+the motors of a board with its n joints: n · n numbers, row by row.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_motors import (
     JointActuator,
@@ -34,8 +35,8 @@ from robocomp_dsl.simulation.models.model_motors import (
     motors_of,
     others,
 )
-from robocomp_dsl.simulation.models.model_start import StartSpec
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms
+from robocomp_dsl.simulation.models.start_spec import StartSpec
 from robocomp_dsl.simulation.scene.scene_joints import SPEED
 
 _KINDS = {mujoco.mjtJoint.mjJNT_HINGE: "joint", mujoco.mjtJoint.mjJNT_SLIDE: "prismaticjoint"}
@@ -46,7 +47,7 @@ Data = dict[str, Any]
 
 
 def joints_of(model: Any, seen: ModelTransforms, started: StartSpec) -> list[Data]:
-    """A device for every joint, those without a motor under kinds that nothing is served as."""
+    """A device for every joint; joints without a motor have kinds that no interface serves."""
     frames = {model_joint.name: model_joint.frame for model_joint in seen.joints}
     motors = motors_of(model)
     tied = followers(model)
@@ -74,12 +75,12 @@ def joints_of(model: Any, seen: ModelTransforms, started: StartSpec) -> list[Dat
         device_kind = (
             f"too light for their motors at this step, they get more `armature`: {_few(each)}"
         )
-        findings.append(ModelFinding("joint", light[0][0], device_kind))
+        findings.append(model_finding("joint", light[0][0], device_kind))
     if left := [f"`{name}`" for name in others(model)]:
         device_kind = (
             "not on one joint, so on no control board; they keep the commands of the start"
         )
-        findings.append(ModelFinding("joint", "", f"{device_kind}: {_few(left)}"))
+        findings.append(model_finding("joint", "", f"{device_kind}: {_few(left)}"))
     return devices
 
 
@@ -108,8 +109,8 @@ def _settings(
     return settings
 
 
-def _boards(model: Any, findings: list[ModelFinding]) -> dict[int, str]:
-    """The board of joints that are in a tuple, in its order; the first one of a joint counts."""
+def _boards(model: Any, findings: list[Finding]) -> dict[int, str]:
+    """The board of joints in a tuple, in its order; a joint belongs to its first tuple."""
     found: dict[int, str] = {}
     for i in range(model.ntuple):
         first, size = int(model.tuple_adr[i]), int(model.tuple_size[i])
@@ -122,11 +123,11 @@ def _boards(model: Any, findings: list[ModelFinding]) -> dict[int, str]:
                 message = (
                     f"`{model.joint(joint).name}` is in `{name}` and stays on the board `{board}`"
                 )
-                findings.append(ModelFinding("joint", model.joint(joint).name, message))
+                findings.append(model_finding("joint", model.joint(joint).name, message))
     return found
 
 
-def couplings_of(model: Any, devices: Sequence[Data], findings: list[ModelFinding]) -> Data:
+def couplings_of(model: Any, devices: Sequence[Data], findings: list[Finding]) -> Data:
     """The coupling matrix of each board in the file, as a list of numbers."""
     boards = Counter(device["settings"]["board"] for device in devices if device["kind"] in JOINTS)
     found: Data = {}
@@ -140,12 +141,12 @@ def couplings_of(model: Any, devices: Sequence[Data], findings: list[ModelFindin
             found[board] = numbers.tolist()
             continue
         message = f"`{name}` is no {n} x {n} matrix that can be turned round: it is left out"
-        findings.append(ModelFinding("joint", "", message))
+        findings.append(model_finding("joint", "", message))
     return found
 
 
-def _speed(model: Any, joint: str, findings: list[ModelFinding]) -> float:
-    """The highest speed in the file; 0 if there is none."""
+def _speed(model: Any, joint: str, findings: list[Finding]) -> float:
+    """The maximum speed in the file; 0 if there is none."""
     name = f"speed_{joint}"
     at = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
     if at < 0:
@@ -154,12 +155,12 @@ def _speed(model: Any, joint: str, findings: list[ModelFinding]) -> float:
     if 0 < speed < math.inf:
         return speed
     findings.append(
-        ModelFinding("joint", joint, f"`{name}` is {speed:g}, no speed: the usual is taken")
+        model_finding("joint", joint, f"`{name}` is {speed:g}, no speed: the usual is taken")
     )
     return 0.0
 
 
 def _few(names: list[str]) -> str:
-    """The first of many."""
+    """The first of several devices."""
     more = f" and {len(names) - _MOST_NAMED} more" if len(names) > _MOST_NAMED else ""
     return ", ".join(names[:_MOST_NAMED]) + more

@@ -1,8 +1,8 @@
-"""Which motors of a model file act on a joint, how strong they are, and how slow they must be.
+"""The motors of each joint in a model file, their maximum force, and their minimum inertia.
 
-In: the compiled model. Out: the motors by joint, the largest torque [N·m] or force [N] of a joint,
-and the inertia that its motor has. A tendon that is nothing but joints of which all but one follow
-that one, as both fingers of a gripper do, moves one joint: its motor is one of that joint.
+In: the compiled model. Out: the motors by joint, the maximum torque [N·m] or force [N] of a joint,
+and the inertia of its motor. If all joints of a tendon but one follow that one, as the fingers of
+a gripper do, the tendon's motor belongs to that joint.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ _ON_JOINTS = {int(mujoco.mjtTrn.mjTRN_JOINT), int(mujoco.mjtTrn.mjTRN_JOINTINPAR
 _ON_TENDON = int(mujoco.mjtTrn.mjTRN_TENDON)
 _PLAIN = (mujoco.mjtGain.mjGAIN_FIXED, mujoco.mjtBias.mjBIAS_NONE)
 _STRONG = 2.0
-"""A joint of unknown force holds so many times the weight that it may carry."""
+"""Default force of a joint, as a multiple of the weight that it may carry."""
 
 _SLOWEST = 0.001
 _SLOWNESS = 1.0
-"""Least inertia [kg m²] of a joint for each N·m, and for each N·m and second of a step: controllers
-with a damping of half their torque per rad/s are stable then."""
+"""Minimum inertia [kg m²] of a joint per N·m, and per N·m and second of a step: controllers with a
+damping of half their torque per rad/s are then stable."""
 
 
 @dataclass(frozen=True, slots=True)
 class JointActuator:
-    """A motor, and what its force is gain at the joint."""
+    """A motor, and the ratio of its force at the joint."""
 
     motor: int
     gain: float = 1.0
 
 
 def motors_of(model: Any) -> dict[int, list[JointActuator]]:
-    """The actuators that act on a joint, by joint; those of tendons where it has no other."""
+    """The actuators of each joint; those of tendons only if it has no other."""
     found: dict[int, list[JointActuator]] = {}
     for motor in range(model.nu):
         if int(model.actuator_trntype[motor]) in _ON_JOINTS:
@@ -52,7 +52,7 @@ def motors_of(model: Any) -> dict[int, list[JointActuator]]:
 
 
 def through_tendons(model: Any) -> dict[str, str]:
-    """The joints that motors of tendons move, by the names of the motors."""
+    """The joints moved by motors of tendons, by motor names."""
     return {
         model.actuator(motor.motor).name: model.joint(joint).name
         for joint, motors in motors_of(model).items()
@@ -62,13 +62,13 @@ def through_tendons(model: Any) -> dict[str, str]:
 
 
 def others(model: Any) -> list[str]:
-    """The actuators that act on something else than a joint."""
+    """The actuators that act on other elements than joints."""
     known = {actuator.motor for motors in motors_of(model).values() for actuator in motors}
     return [model.actuator(motor).name for motor in range(model.nu) if motor not in known]
 
 
 def followers(model: Any) -> dict[int, tuple[int, float]]:
-    """Joints that are tied to another one: to which, and how fast they go with it."""
+    """Coupled joints: their leader, and the ratio of their speeds."""
     return {
         int(model.eq_obj1id[i]): (int(model.eq_obj2id[i]), float(model.eq_data[i, 1]))
         for i in range(model.neq)
@@ -79,7 +79,7 @@ def followers(model: Any) -> dict[int, tuple[int, float]]:
 
 
 def _of_tendon(model: Any, tendon: int) -> tuple[int, float]:
-    """The joint that a tendon moves, and its length per motion of it; 0: not one alone."""
+    """The joint that a tendon moves, and its length per motion of it; 0: not a single joint."""
     first = int(model.tendon_adr[tendon])
     parts = range(first, first + int(model.tendon_num[tendon]))
     if any(int(model.wrap_type[i]) != int(mujoco.mjtWrap.mjWRAP_JOINT) for i in parts):
@@ -94,7 +94,7 @@ def _of_tendon(model: Any, tendon: int) -> tuple[int, float]:
 
 
 def force_of(model: Any, joint: int, kind: str, motors: list[JointActuator]) -> float:
-    """The force in the file, or else the default that holds the weight it carries."""
+    """The force in the file, or the default that holds the weight it carries."""
     known = [most for motor in motors if (most := _most(model, motor)) < math.inf]
     force = max(known, default=math.inf)
     if model.jnt_actfrclimited[joint]:
@@ -105,7 +105,7 @@ def force_of(model: Any, joint: int, kind: str, motors: list[JointActuator]) -> 
 
 
 def _most(model: Any, acting: JointActuator) -> float:
-    """The largest force of an actuator at its joint."""
+    """The maximum force of an actuator at its joint."""
     found, motor = math.inf, acting.motor
     kind = (
         mujoco.mjtGain(model.actuator_gaintype[motor]),
@@ -120,14 +120,14 @@ def _most(model: Any, acting: JointActuator) -> float:
 
 
 def _weight(model: Any, joint: int, kind: str) -> float:
-    """The most that gravity pulls at a joint: all that it carries, stretched out."""
+    """The maximum gravity load of a joint, with all that it carries stretched out."""
     body = int(model.jnt_bodyid[joint])
     mass = float(model.body_subtreemass[body]) * float(np.linalg.norm(model.opt.gravity))
     return mass if kind == "slide" else mass * _reach(model, body)
 
 
 def _reach(model: Any, body: int) -> float:
-    """How far the masses that a body carries may be from it [m]."""
+    """Maximum distance of the masses that a body carries [m]."""
     far = {body: 0.0}
     for below in range(body + 1, model.nbody):
         above = int(model.body_parentid[below])
@@ -137,9 +137,9 @@ def _reach(model: Any, body: int) -> float:
 
 
 def armature_of(model: Any, joint: int, force: float) -> tuple[float, bool]:
-    """The motor's inertia, with what a controller of that force needs to be stable.
+    """The motor's inertia, increased to what a controller of that force needs to be stable.
 
-    And whether it differs from the file; a file without armature leaves it open.
+    Also returns whether it differs from the file; a file without armature leaves it open.
     """
     dof = int(model.jnt_dofadr[joint])
     there = float(model.dof_armature[dof])

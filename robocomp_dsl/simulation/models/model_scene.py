@@ -1,7 +1,7 @@
 """A model file as scene data: its content, and the devices that can be served.
 
-In: the path of a file in MJCF or URDF. Out: the data for `hardware.scene.Scene`, as JSON holds
-them, and findings. The frames are those of `model_transforms`: bodies, joints and marks; the
+In: the path of a file in MJCF or URDF. Out: the data for `hardware.description.scene.Scene` in JSON
+types, and findings. The frames are those of `model_to_transforms`: bodies, joints and marks; the
 devices are joints with motors, cameras, inertial units, touch sensors and range finders.
 """
 
@@ -12,35 +12,35 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.scene import ROOT
 from robocomp_dsl.simulation.models.model_end_effectors import end_effectors_of
 from robocomp_dsl.simulation.models.model_file import compiled
 from robocomp_dsl.simulation.models.model_joints import couplings_of, joints_of
 from robocomp_dsl.simulation.models.model_motors import others, through_tendons
 from robocomp_dsl.simulation.models.model_sensors import sensors_of
-from robocomp_dsl.simulation.models.model_start import StartSpec, begin
 from robocomp_dsl.simulation.models.model_to_transforms import ModelTransforms, model_transforms
 from robocomp_dsl.simulation.models.model_transmissions import transmissions_of
+from robocomp_dsl.simulation.models.start_spec import StartSpec, load_spec
 
 Data = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
 class ModelDescription:
-    """`scene` holds `file` as the name of its model; `step` is the length of a step in s."""
+    """`scene` contains `file` as the name of its model; `step` is the physics time step in s."""
 
     scene: Data
-    findings: list[ModelFinding]
+    findings: list[Finding]
     step: float
 
 
 def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> ModelDescription:
-    """The scene of the model at `path`, which will be called `file`.
+    """The scene of the model at `path`, which is stored under the name `file`.
 
     Raises `ModelFileError`, `OSError`.
     """
-    started = begin(path, packages)
+    started = load_spec(path, packages)
     model = compiled(started.spec, started.findings)
     seen = model_transforms(model)
     devices = joints_of(model, seen, started)
@@ -59,7 +59,7 @@ def describe(path: Path, file: str, packages: Sequence[Path] = ()) -> ModelDescr
     }
     findings = [
         device for device in started.findings if device.kind != "overlap"
-    ]  # it may start elsewhere
+    ]  # its start may differ
     return ModelDescription(scene, findings, float(model.opt.timestep))
 
 
@@ -82,7 +82,7 @@ def _names(seen: ModelTransforms) -> list[str]:
 
 
 def _frames(seen: ModelTransforms) -> list[Data]:
-    """All frames of the model, each after its parent; the root is the world's own."""
+    """All frames of the model, parents first; the root is the world's own."""
     joints = {joint.frame for joint in seen.joints}
     bodies = set(seen.bodies)
     frames: list[Data] = [{"id": ROOT, "parent": ""}]

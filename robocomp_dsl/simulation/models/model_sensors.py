@@ -1,8 +1,8 @@
 """Cameras, inertial units, touch sensors and range finders of a model file, as devices of a scene.
 
-In: the compiled model. Out: a device for each. A gyroscope and an accelerometer at one site are an
-inertial unit, called as the site; a camera whose `output` has a depth is one with depth; a range
-finder with more than one distance is not served.
+In: the compiled model. Out: a device for each. A gyroscope and an accelerometer at one site form an
+inertial unit, named after the site; a camera whose `output` includes depth is a depth camera; a
+range finder with more than one distance is not served.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ Data = dict[str, Any]
 _SENSOR = mujoco.mjtSensor
 _FORCE, _TURN = int(_SENSOR.mjSENS_ACCELEROMETER), int(_SENSOR.mjSENS_GYRO)
 _FARTHEST = 1e6
-"""Reading of a range finder without a cutoff where nothing is [mm]."""
+"""Reading without an object, for a range finder without a cutoff [mm]."""
 
 _DEPTH = mujoco.mjtCamOutBit.mjCAMOUT_DEPTH | mujoco.mjtCamOutBit.mjCAMOUT_DIST
 
 
 def sensors_of(model: Any, seen: ModelTransforms, taken: set[str]) -> list[Data]:
-    """All of them; their ids are not in `taken`, but for that of their own site."""
+    """All sensors; their ids are not in `taken`, except that of their own site."""
     cameras = [_camera(model, seen, i, taken) for i in range(model.ncam)]
     units = [_unit(model, seen, site, kinds, taken) for site, kinds in _units(model).items()]
     felt = np.flatnonzero(model.sensor_type == int(_SENSOR.mjSENS_TOUCH))
@@ -40,7 +40,7 @@ def sensors_of(model: Any, seen: ModelTransforms, taken: set[str]) -> list[Data]
 def _camera(model: Any, seen: ModelTransforms, i: int, taken: set[str]) -> Data:
     usual = CameraSettings()
     width, height = (int(size) for size in model.cam_resolution[i])
-    if width * height <= 1:  # as MuJoCo has it where the file says nothing
+    if width * height <= 1:  # MuJoCo's default
         width, height = usual.width, usual.height
     angle = np.radians(float(model.cam_fovy[i]))
     name = model.camera(i).name
@@ -111,7 +111,7 @@ def _range(model: Any, seen: ModelTransforms, i: int, taken: set[str]) -> Data:
 
 
 def _claim(name: str, own: str, taken: set[str]) -> str:
-    """A free id, or that of the frame that the device is anyway."""
+    """A free id, or the id of the device's own frame."""
     free, number = name, 2
     while free in taken and free != own:
         free, number = f"{name}#{number}", number + 1

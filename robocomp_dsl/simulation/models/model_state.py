@@ -1,4 +1,4 @@
-"""The state in which a compiled model starts."""
+"""The initial state of a compiled model."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import mujoco
 
 
 def initial_data(model: Any, start: Mapping[str, float]) -> Any:
-    """An `MjData` of `model` at its first key frame, if it has one, with its joints as in `start`.
+    """An `MjData` of `model` at its first key frame, if any, with its joints as in `start`.
 
-    `start` maps names of hinges and slides to positions in rad or m; the others keep theirs.
+    `start` maps names of hinges and slides to positions in rad or m; other joints are unchanged.
     """
     data = mujoco.MjData(model)
     if model.nkey:

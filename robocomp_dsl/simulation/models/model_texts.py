@@ -1,4 +1,4 @@
-"""The texts of a model file's `<custom>`, in words by their names."""
+"""The `<custom>` texts of a model file, as words by name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import mujoco
 
 
 def texts_of(model: Any) -> dict[str, list[str]]:
-    """All of them, in their order."""
+    """All texts, in file order."""
     found: dict[str, list[str]] = {}
     for i in range(model.ntext):
         first, size = int(model.text_adr[i]), int(model.text_size[i])

@@ -1,8 +1,8 @@
-"""A compiled MuJoCo model as a tree of frames, whatever file it came from.
+"""Converts a compiled MuJoCo model to a tree of frames.
 
-In: an `MjModel`. Out: frames in RoboComp's axes and mm for `TransformTree`, and what carries joint
-positions over. A joint about any axis through any point becomes a fixed frame whose z is that axis,
-a joint about z, and the way back, so that the tree knows only its own few kinds of frames.
+In: an `MjModel`. Out: frames in RoboComp's axes and mm for `TransformTree`, and the mapping of
+joint positions. A joint about any axis through any point becomes a fixed frame whose z is the axis,
+a joint about z, and the inverse frame, so that the tree needs only a few kinds of frames.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _SINGLE = {_JOINT.mjJNT_HINGE: "hinge", _JOINT.mjJNT_SLIDE: "slide"}
 class ModelJoint:
     """A joint of the model and the frame that moves with it.
 
-    `address` is its first place in `qpos`, `zero` the value there at which the frame has not moved.
+    `address` is its first index in `qpos`, `zero` the value there in the initial pose.
     """
 
     name: str
@@ -41,9 +41,9 @@ class ModelJoint:
 
 @dataclass(slots=True)
 class ModelTransforms:
-    """`tree` with the model's bodies; `bodies[i]` is the frame of body i, `joints` what moves.
+    """`tree` with the model's bodies; `bodies[i]` is the frame of body i, `joints` are the joints.
 
-    `sites[i]` is the frame of site i, empty for one without a name.
+    `sites[i]` is the frame of site i, empty for an unnamed one.
     """
 
     tree: TransformTree
@@ -52,7 +52,7 @@ class ModelTransforms:
     sites: tuple[str, ...] = ()
 
     def follow(self, qpos: Sequence[float] | NDArray[np.float64]) -> None:
-        """Move all joints to `qpos`, shape (nq,), as MuJoCo counts it; not finite: refused."""
+        """Set all joints to MuJoCo's `qpos`, shape (nq,); rejects values that are not finite."""
         for joint in self.joints:
             at = joint.address
             if joint.kind in _SINGLE:
@@ -75,7 +75,7 @@ class _Builder:
     joints: list[ModelJoint] = field(default_factory=list)
 
     def all(self) -> ModelTransforms:
-        # bodies get their names first: users ask for them
+        # bodies are named first, because users refer to them
         bodies = [ROOT, *(self._free(self._body_name(i)) for i in range(1, self.model.nbody))]
         for i in range(1, self.model.nbody):
             self._body(i, bodies[i], bodies[self.model.body_parentid[i]])
@@ -159,7 +159,7 @@ def _turned_to(z: Matrix) -> Matrix:
 
 
 def _pose(position: Matrix, quaternion: Matrix) -> Matrix:
-    """A pose of MuJoCo's as a matrix of RoboComp's, in mm."""
+    """A MuJoCo pose as a RoboComp matrix, in mm."""
     turned = np.zeros(9)
     unit = np.array(quaternion, dtype=float)
     mujoco.mju_normalize4(unit)
@@ -168,7 +168,7 @@ def _pose(position: Matrix, quaternion: Matrix) -> Matrix:
 
 
 def _loose(joint: ModelJoint, qpos: Sequence[float] | NDArray[np.float64]) -> list[float]:
-    """The pose of a ball or of a free body from its numbers in `qpos`."""
+    """The pose of a ball joint or free body from its numbers in `qpos`."""
     free = joint.kind == _JOINT.mjJNT_FREE
     numbers = np.array(qpos[joint.address : joint.address + (7 if free else 4)], dtype=float)
     require_finite(**{f"{joint.frame}[{i}]": float(number) for i, number in enumerate(numbers)})

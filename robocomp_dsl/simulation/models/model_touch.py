@@ -17,7 +17,7 @@ class ModelTouch:
     # -- as a part of the world ---------------------------------------------------------------
 
     def build(self, spec: Any) -> None:
-        """It is in the file."""
+        """Nothing to add: the file has the sensor."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:  # noqa: ARG002
         """Find the sensor."""

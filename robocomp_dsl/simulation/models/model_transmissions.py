@@ -1,7 +1,7 @@
-"""Boards of a model file that command other joints than it has: eyes by version and vergence.
+"""Boards of a model file whose joints differ from the model's: eyes by version and vergence.
 
-In: the compiled model, the joints on its boards. Out: the same devices under the names that a board
-has for them, and the matrices between the two:
+In: the compiled model, the joints on its boards. Out: the same devices under the board's joint
+names, and the matrices between the two:
 
     <custom>
       <text name="joints_head" data="eyes_tilt eyes_version eyes_vergence"/>
@@ -9,8 +9,8 @@ has for them, and the matrices between the two:
       <numeric name="range_eyes_version" data="-0.5 0.5"/>
     </custom>
 
-names the n joints of a board in the order of its tuple; the joints of the model are at the matrix,
-n · n numbers row by row, times the joints of the board. `range` are limits in rad.
+gives the names of the n joints of a board in the order of its tuple; the model's joint angles are
+the matrix, n · n numbers row by row, times the board's joint angles. `range` are limits in rad.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.scene import JOINTS
 from robocomp_dsl.simulation.models.model_texts import texts_of
 
@@ -30,8 +31,8 @@ PREFIX = "joints_"
 Data = dict[str, Any]
 
 
-def transmissions_of(model: Any, devices: Sequence[Data], findings: list[ModelFinding]) -> Data:
-    """The transmission matrix of each board in the file; its joints get their names."""
+def transmissions_of(model: Any, devices: Sequence[Data], findings: list[Finding]) -> Data:
+    """The transmission matrix of each board in the file; also renames its joints."""
     found: Data = {}
     for text, names in texts_of(model).items():
         if not text.startswith(PREFIX):
@@ -40,7 +41,7 @@ def transmissions_of(model: Any, devices: Sequence[Data], findings: list[ModelFi
         here = [d for d in devices if d["kind"] in JOINTS and d["settings"]["board"] == board]
         matrix = _numbers(model, f"transmission_{board}")
         if why := _wrong(here, devices, names, matrix):
-            findings.append(ModelFinding("joint", "", f"`{text}` {why}: it is left out"))
+            findings.append(model_finding("joint", "", f"`{text}` {why}: it is left out"))
             continue
         found[board] = matrix.tolist()
         for device, name in zip(here, names, strict=True):
@@ -50,7 +51,7 @@ def transmissions_of(model: Any, devices: Sequence[Data], findings: list[ModelFi
 
 
 def _rename(model: Any, device: Data, name: str) -> None:
-    """A joint of the board; the model's own keeps its motor."""
+    """A joint of the board; the motor belongs to the model's joint."""
     settings = device["settings"]
     settings["joint"], device["id"] = device["id"], name
     settings.pop("low", None)
@@ -66,7 +67,7 @@ def _wrong(
     names: Sequence[str],
     matrix: np.ndarray[Any, np.dtype[np.float64]],
 ) -> str:
-    """Why names and matrix are none of this board; nothing when they are."""
+    """Why names and matrix do not fit this board; empty if they do."""
     n = len(here)
     if not n:
         return "names joints of a board that is not there"
@@ -81,6 +82,6 @@ def _wrong(
 
 
 def _numbers(model: Any, name: str) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """A list of numbers of the file, empty where it has none."""
+    """A list of numbers of the file, empty if it has none."""
     at = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
     return np.array(model.numeric(name).data if at >= 0 else [], float)

@@ -1,8 +1,8 @@
-"""A robot of URDF as a MuJoCo model: a body for every link, a joint for all that moves.
+"""A URDF robot as a MuJoCo model: a body for every link, a joint for every moving one.
 
 In: a `Robot`. Out: an `MjSpec` whose bodies and joints have the names of the file, and findings.
-Visual and collision shapes are separate geoms; the latter are in group 3, which viewers hide,
-where a link has something to be seen.
+Visual and collision shapes are separate geoms; collision shapes of links with visual shapes are in
+group 3, which viewers hide.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.hardware.description.model_paths import resolve
 from robocomp_dsl.hardware.formats.urdf import (
     UrdfInertia,
@@ -30,7 +31,7 @@ from robocomp_dsl.hardware.kinematics.rotations import Matrix
 from robocomp_dsl.simulation.models.mesh_geom import MeshCache
 
 WORLD = "world"
-"""A link of this name is the world itself."""
+"""A link with this name is the world itself."""
 
 _GEOM, _JOINT = mujoco.mjtGeom, mujoco.mjtJoint
 _HIDDEN = 3
@@ -39,7 +40,7 @@ _LIGHT = 1e-3
 
 def build_urdf(
     robot: UrdfRobot, path: Path, packages: Sequence[Path] = ()
-) -> tuple[Any, list[ModelFinding]]:
+) -> tuple[Any, list[Finding]]:
     """The model of `robot`, whose file is at `path`."""
     spec = mujoco.MjSpec()
     spec.modelname = robot.name
@@ -59,7 +60,7 @@ class _Builder:
     spec: Any
     path: Path
     packages: Sequence[Path]
-    findings: list[ModelFinding]
+    findings: list[Finding]
     meshes: MeshCache
     bodies: dict[str, Any] = field(default_factory=dict)
 
@@ -87,14 +88,14 @@ class _Builder:
         if inertia is None:
             if moves:
                 message = f"`{link.name}` moves and has no mass: it gets {_LIGHT:g} kg"
-                self.findings.append(ModelFinding("mass", link.name, message, link.line))
+                self.findings.append(model_finding("mass", link.name, message, link.line))
             inertia = UrdfInertia(_LIGHT, (_LIGHT * 1e-3,) * 3 + (0.0,) * 3, UrdfPose())
         tensor, fits = _about_link(inertia)
         if not fits:
             message = (
                 f"the inertia of `{link.name}` is none that a body can have: a ball's is taken"
             )
-            self.findings.append(ModelFinding("mass", link.name, message, link.line))
+            self.findings.append(model_finding("mass", link.name, message, link.line))
             tensor = np.eye(3) * 0.4 * inertia.mass * 0.05**2
         body.explicitinertial = True
         body.mass = inertia.mass
@@ -183,7 +184,7 @@ def quaternion(turn: Matrix) -> Matrix:
 
 
 def _about_link(inertia: UrdfInertia) -> tuple[Matrix, bool]:
-    """The tensor along the link's axes, and whether a rigid body can have it."""
+    """The tensor along the link's axes, and whether it is physically possible."""
     xx, yy, zz, xy, xz, yz = inertia.tensor
     turn = turned(inertia.pose)
     tensor = turn @ np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]) @ turn.T

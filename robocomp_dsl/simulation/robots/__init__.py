@@ -1,5 +1,5 @@
-"""Simulated humanoids, built of boxes, balls and capsules from published numbers.
+"""Simulated humanoids, built of boxes, balls and capsules from published data.
 
-`links` holds the nouns, `nao` and `icub` the robots as data, `build` makes a MuJoCo model of them,
-`descriptions/` their generic arms and skins. Lengths in m, masses in kg, angles in rad.
+`links` defines the data types, `nao` and `icub` the robots as data, `build` makes MuJoCo models,
+`descriptions/` has their generic arms and skins. Lengths in m, masses in kg, angles in rad.
 """

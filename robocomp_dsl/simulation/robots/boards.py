@@ -1,7 +1,7 @@
-"""The control boards of the robots: which joints each drives, its motors and their coupling.
+"""The control boards of the robots: the joints, motors and coupling of each.
 
-In: a robot and a board's name. Out: `BoardSpec` and how the simulated joints follow the board's.
-Which joints share motors follows the iCub's boards; the figures of motors and couplings are ours.
+In: a robot and a board's name. Out: `BoardSpec`, and the transmission from the board's to the
+simulated joints. Shared motors follow the iCub's boards; motor and coupling figures are our own.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class RobotBoard:
 
 
 def shared_limits(transmission: Floats, limits: Floats) -> Floats:
-    """Torques (n,) that all joints of a board may ask for at once.
+    """Torques (n,) that all joints of a board may use simultaneously.
 
     `limits` (n,) are those of the robot's joints, which follow the board's by `transmission`.
     """
@@ -66,14 +66,14 @@ def shared_limits(transmission: Floats, limits: Floats) -> Floats:
 
 
 def board_names(robot: RobotModel) -> tuple[str, ...]:
-    """The boards that `robot` has."""
+    """The names of the boards of `robot`."""
     if robot.name.startswith("icub"):
         return ("torso", "head", "left_arm", "right_arm")
     return ("Head", "LArm", "RArm", "LLeg", "RLeg")
 
 
 def robot_board(robot: RobotModel, name: str) -> RobotBoard:
-    """The board `name` of `robot`; `KeyError` for one that it does not have."""
+    """The board `name` of `robot`; raises `KeyError` for an unknown name."""
     if name not in board_names(robot):
         raise KeyError(name)
     if robot.name.startswith("icub"):
@@ -86,7 +86,7 @@ def robot_board(robot: RobotModel, name: str) -> RobotBoard:
 
 
 def whole_robot(robot: RobotModel) -> RobotBoard:
-    """All boards of `robot` as one: a step of 30 joints costs hardly more than one of 6."""
+    """All boards of `robot` as one: a step of 30 joints costs little more than one of 6."""
     boards = [robot_board(robot, name) for name in board_names(robot)]
     spec = BoardSpec(
         tuple(joint for board in boards for joint in board.spec.joints),
@@ -116,7 +116,7 @@ def _icub(robot: RobotModel, name: str) -> RobotBoard:
 
 
 def _icub_head(robot: RobotModel) -> RobotBoard:
-    """Neck as it is; the eyes are commanded by tilt, version and vergence."""
+    """Neck unchanged; the eyes are commanded by tilt, version and vergence."""
     joints = robot.joints
     real = ("neck_pitch", "neck_roll", "neck_yaw", "eyes_tilt", "l_eye_pan", "r_eye_pan")
     specs = [_joint(joints[joint]) for joint in real[:4]]
@@ -132,7 +132,7 @@ def _icub_head(robot: RobotModel) -> RobotBoard:
 
 
 def _plain(joints: list[Joint], block: Floats | None = None) -> RobotBoard:
-    """Joints as they are; `block` couples the first of them."""
+    """Joints unchanged; `block` couples the first of them."""
     coupling = np.eye(len(joints))
     if block is not None:
         coupling[: len(block), : len(block)] = block
@@ -146,13 +146,13 @@ def _joint(joint: Joint) -> JointSpec:
 
 
 def _motor(joint: Joint) -> MotorSpec:
-    """A motor fit for its joint.
+    """A motor sized for its joint.
 
-    Without load it turns the joint twice as fast as it may, and it stalls at three times the
-    largest torque. A fault comes at six times the current of that torque, since a differential may
+    Without load it turns the joint at twice its maximum speed, and it stalls at three times the
+    maximum torque. A fault occurs at six times the current of that torque, since a differential may
     load one motor with the torques of three joints.
     """
-    per_amp = SUPPLY / (2.0 * joint.speed)  # joint torque per ampere: what back EMF allows
+    per_amp = SUPPLY / (2.0 * joint.speed)  # joint torque per ampere, limited by back EMF
     current = joint.effort / per_amp
     return MotorSpec(
         joint.name,

@@ -1,7 +1,7 @@
-"""Make a MuJoCo model of a robot.
+"""Build a MuJoCo model of a robot.
 
 In: `RobotModel`. Out: bodies, joints, motors and sites in an `MjSpec`. A motor has the name of its
-joint and takes a torque [N m]; a site marks each named point; every geom has the name of its body.
+joint and takes a torque [N m]; each named point is a site; every geom has the name of its body.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ def new_world(timestep: float = 0.001) -> Any:
 
 
 def add_robot(spec: Any, robot: RobotModel, *, prefix: str = "", free: bool = False) -> None:
-    """Put the robot into `spec`, its root fixed in the world, or `free` to fall.
+    """Add the robot to `spec`, with its root fixed in the world or `free`.
 
-    `prefix` goes before every name. `spec` must count angles in radians.
+    `prefix` precedes every name. The angles of `spec` must be in radians.
     """
     if spec.compiler.degree:
         raise ValueError("a robot needs a world that counts angles in radians")
@@ -59,7 +59,7 @@ def add_robot(spec: Any, robot: RobotModel, *, prefix: str = "", free: bool = Fa
 
 
 def set_pose(model: Any, data: Any, robot: RobotModel, prefix: str = "", **angles: float) -> None:
-    """Put the robot's joints to its start pose, changed by `angles`, at rest."""
+    """Set the robot's joints to its start pose, changed by `angles`, at rest."""
     for name in robot.joints:
         joint = robot.joints[name]
         requested = angles.get(name, robot.start.get(name, 0.0))
@@ -113,10 +113,10 @@ def _add_shape(body: Any, shape: Shape, name: str) -> None:
 
 
 def _drive(spec: Any, joint: Joint, prefix: str) -> None:
-    """A torque motor, or the tie to the joint whose motor it shares."""
+    """A torque motor, or the coupling to the joint whose motor it shares."""
     if joint.leader:
         follow = np.zeros(mujoco.mjNEQDATA)
-        follow[1] = 1.0  # the follower's angle is this often the leader's
+        follow[1] = 1.0  # the ratio of the follower's angle to the leader's
         spec.add_equality(
             type=mujoco.mjtEq.mjEQ_JOINT,
             objtype=mujoco.mjtObj.mjOBJ_JOINT,
@@ -135,7 +135,7 @@ def _drive(spec: Any, joint: Joint, prefix: str) -> None:
 
 
 def quaternion(pose: Floats) -> Floats:
-    """The turn of a pose as MuJoCo's (w, x, y, z)."""
+    """The rotation of a pose as MuJoCo's (w, x, y, z)."""
     quat = np.zeros(4)
     mujoco.mju_mat2Quat(quat, pose[:3, :3].ravel())
     return quat

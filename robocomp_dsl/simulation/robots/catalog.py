@@ -1,6 +1,6 @@
 """The robots that ship with the project: their bodies, and their generic arms and skins.
 
-In: a name. Out: `RobotModel` of links, or the tactile description, compared with that robot.
+In: a name. Out: `RobotModel` of links, or the tactile description, checked against that robot.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def description_file(name: str) -> Path:
 
 
 def description(name: str) -> model.RobotDescription:
-    """Generic arms and skin of the robot `name`; `KeyError` for a name that is not here.
+    """Generic arms and skin of the robot `name`; raises `KeyError` for an unknown name.
 
     Raises `DescriptionError` when the file does not fit the robot.
     """
@@ -40,6 +40,6 @@ def description(name: str) -> model.RobotDescription:
 
 
 def facts(body: RobotModel) -> RobotStructure:
-    """The facts that a description is checked against."""
+    """The robot's data that a description is checked against."""
     joints = {name: (joint.low, joint.high) for name, joint in body.joints.items()}
     return RobotStructure(joints, frozenset(link.name for link in body.links))

@@ -1,10 +1,10 @@
 """The robots as worlds in MuJoCo's own format, for `rcgen simulator`: `python -m …robots.export`.
 
-In: robots that ship. Out: an MJCF file for each beside its simulator in `components/`, and with it
-the description of its touch, for `--tactile`. A world has a floor, the robot with its root held in
-the air, its control boards as tuples, its speed limits as numbers, and two fingers to touch it
-with: balls that are carried along three axes, by a force of 20 N at most, whose joints tell their
-places in the world in m. The start is the key frame `start`.
+In: the shipped robots. Out: for each an MJCF file beside its simulator in `components/`, and its
+tactile description for `--tactile`. A world has a floor, the robot with its root fixed above it,
+its control boards as tuples, its speed limits as numbers, and two fingers that can touch it: balls
+on three prismatic joints with at most 20 N, whose joint positions are world coordinates in m. The
+initial state is the key frame `start`.
 """
 
 from __future__ import annotations
@@ -40,11 +40,10 @@ _NOTE = "<!-- Written by `python -m robocomp_dsl.simulation.robots.export`; do n
 
 @dataclass(frozen=True, slots=True)
 class RobotWorld:
-    """A robot in its world: where the fingers wait [m], cameras at points, a body with an IMU.
+    """A robot in its world: initial positions of the fingers [m], cameras, a body with an IMU.
 
-    `cameras` has name, point of the robot and vertical angle [degrees]; `hands` a board, and
-    for a Cartesian controller: the tip, the base body, and joints
-    that are left as they are.
+    `cameras` has name, point of the robot and vertical angle [degrees]; `hands` has a board, and
+    for a Cartesian controller the tip, the base body, and the joints that are not moved.
     """
 
     file: str
@@ -116,7 +115,7 @@ def _add_floor(spec: Any) -> None:
 
 
 def _add_finger(spec: Any, finger: str, parked: Vector) -> None:
-    """Three slides in one body; each counts from 0 in the middle of the world."""
+    """Three slides in one body; the origin of each is the middle of the world."""
     body = spec.worldbody.add_body(name=finger, pos=parked, gravcomp=1.0)
     for i, axis in enumerate("xyz"):
         name = f"{finger}_{axis}"
@@ -163,7 +162,7 @@ def _add_boards(spec: Any, robot: RobotModel) -> None:
 
 
 def _add_matrix(spec: Any, name: str, matrix: Floats) -> bool:
-    """Row by row, unless it changes nothing; whether it does."""
+    """Add the matrix row by row, unless it is the identity; returns whether it was added."""
     if np.allclose(matrix, np.eye(len(matrix))):
         return False
     numbers = np.round(matrix.ravel(), 12) + 0.0
@@ -195,7 +194,7 @@ def _add_sensors(spec: Any, robot: RobotModel, world: RobotWorld) -> None:
 
 
 def _start(model: Any, robot: RobotModel) -> Floats:
-    """Positions of all joints, (nq,): the start pose, and the fingers where they wait."""
+    """Positions of all joints, (nq,): the start pose, and the initial fingers."""
     qpos: Floats = model.qpos0.copy()
     for name, joint in robot.joints.items():
         qpos[model.joint(name).qposadr[0]] = robot.start.get(joint.leader or name, 0.0)

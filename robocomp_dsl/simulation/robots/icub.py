@@ -3,8 +3,8 @@
 Root frame: x backward, y right, z up, at the waist. The chain is the Denavit-Hartenberg table of
 iKin (1.0 <= v < 3.0 for arms, 2.0 <= v < 3.0 for the head), link = Rz(q + offset) Tz(d) Tx(a)
 Rx(alpha); a link's body is the frame before its row, so that its joint turns about z. Limits: the
-board files of a real robot. Masses: the robot's CAD model. Ours: torque and speed limits (none are
-published), shapes where not measured, moments of inertia (those of the shapes).
+board files of a real robot. Masses: the robot's CAD model. Own choices: torque and speed limits
+(none are published), shapes where not measured, moments of inertia (those of the shapes).
 """
 
 from __future__ import annotations
@@ -33,12 +33,12 @@ from robocomp_dsl.tactile.arm.chain import link as transform
 H0 = np.array([[0.0, -1, 0, 0], [0, 0, -1, 0], [1, 0, 0, 0], [0, 0, 0, 1]])
 Z = (0.0, 0.0, 1.0)
 SPEED = 2.0
-"""Largest speed of every joint [rad/s]; the board files say 1000 deg/s, which is no real limit."""
+"""Maximum speed of every joint [rad/s]; the board files say 1000 deg/s, which is no real limit."""
 
 
 @dataclass(frozen=True, slots=True)
 class Dh:
-    """One row, angles in degrees, with the joint's name, limits and torque and its body's mass."""
+    """One row, angles in degrees, with the joint's name, limits and torque, and its body's mass."""
 
     body: str
     joint: str
@@ -83,7 +83,7 @@ RIGHT_ARM = (
     Dh("wrist", "wrist_pitch", 0, 0, 90, 90, -80, 25, 4, 0.0362615, 0.02, 0.005),
     Dh("hand", "wrist_yaw", 0.0625, 0.02598, 0, 180, -20, 25, 4, 0.248289, 0.035, 0.005),
 )
-# the left table has other signs in a, d, alpha and offset; the rest is the same
+# the left table has other signs in a, d, alpha and offset; the rest is identical
 LEFT_SIGNS = (
     (0, 0.10774, -90, 90),
     (0, 0, 90, -90),
@@ -140,7 +140,7 @@ def _root() -> Link:
 
 
 def _trunk() -> tuple[Link, ...]:
-    """Torso bodies; the chest's shape is given in the root frame of the zero pose."""
+    """Torso bodies; the chest's shape is expressed in the root frame of the zero pose."""
     first = _link(TORSO[0], "root_link", H0)
     second = _link(TORSO[1], "torso_1", TORSO[0].fixed)
     at = H0 @ TORSO[0].fixed @ TORSO[1].fixed
@@ -179,7 +179,7 @@ def _arm(side: str) -> tuple[Link, ...]:
 
 
 def _arm_shape(row: Dh) -> Shape | None:
-    """Capsules along the limbs, a box for hand and fingers; nothing for the small bodies."""
+    """Capsules along the limbs, a box for hand and fingers; none for the small bodies."""
     if row.body == "upper_arm":  # 0.09 long, ends at the elbow
         elbow = row.fixed[:3, 3]
         start = elbow * (1 - 0.09 / np.linalg.norm(elbow))

@@ -1,7 +1,7 @@
 """A robot as a tree of links: joints, masses, shapes and marked points. Data only.
 
-Frames are those of the zero pose: a link's frame sits at its joint, `pose` (4 x 4) is where that is
-in the parent's frame.
+Frames are those of the zero pose: a link's frame is at its joint; `pose` (4 x 4) is its pose in
+the parent's frame.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Joint:
-    """A hinge: axis in the link's frame, limits [rad], largest speed [rad/s] and torque [N m].
+    """A hinge: axis in the link's frame, limits [rad], maximum speed [rad/s] and torque [N m].
 
-    `leader` is the joint that this one follows one to one: they share a motor.
+    `leader` is the joint that this one follows with ratio 1: they share a motor.
     """
 
     name: str
@@ -67,11 +67,11 @@ class Link:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RobotModel:
-    """Links in an order in which parents come first.
+    """Links, parents first.
 
     `neighbours` are pairs that may overlap and never collide, besides parents and their children;
-    `start` are joint angles of a pose in which nothing touches; others are 0. `height` is that of
-    the root above the floor and `heading` its turn about z, so that the robot looks along +x.
+    `start` are joint angles of a pose without contacts; other joints are 0. `height` is the height
+    of the root above the floor, `heading` its rotation about z, so that the robot looks along +x.
     """
 
     name: str
@@ -88,19 +88,19 @@ class RobotModel:
 
     @property
     def motors(self) -> tuple[Joint, ...]:
-        """Joints that have a motor of their own."""
+        """Joints that have their own motor."""
         return tuple(joint for joint in self.joints.values() if not joint.leader)
 
 
 def shift(x: float, y: float, z: float) -> Floats:
-    """A pose without turn."""
+    """A pose without rotation."""
     pose = np.eye(4)
     pose[:3, 3] = (x, y, z)
     return pose
 
 
 def turned(pose: Floats, axis: int, angle: float) -> Floats:
-    """`pose` turned by `angle` about its own axis 0, 1 or 2."""
+    """`pose` rotated by `angle` about its own axis 0, 1 or 2."""
     turn = np.eye(4)
     i, j = (axis + 1) % 3, (axis + 2) % 3
     turn[i, i] = turn[j, j] = np.cos(angle)
@@ -110,7 +110,7 @@ def turned(pose: Floats, axis: int, angle: float) -> Floats:
 
 
 def box(size: Vector, centre: Vector, tilt: float = 0.0) -> Shape:
-    """A box of full `size`, turned by `tilt` about x."""
+    """A box of full `size`, rotated by `tilt` about x."""
     return Shape("box", tuple(s / 2 for s in size), turned(shift(*centre), 0, tilt))
 
 
@@ -146,10 +146,10 @@ def solid_box(mass: float, size: Vector, centre: Vector) -> Mass:
 
 
 def mirrored(links: tuple[Link, ...], rename: dict[str, str]) -> Iterator[Link]:
-    """The same links on the other side of the x-z plane, `rename`d by prefix.
+    """The links mirrored at the x-z plane, with prefixes from `rename`.
 
-    An axis along y keeps its sense; one along x or z turns round only in the limits of its joint,
-    as the robots' makers do it: the caller gives such limits.
+    An axis along y keeps its direction; an axis along x or z is reversed by the limits of its
+    joint, as the robots' makers do: the caller passes such limits.
     """
     flip = np.diag([1.0, -1.0, 1.0, 1.0])
     for link in links:

@@ -3,7 +3,7 @@
 Frames: x ahead, y left, z up, all parallel to the torso's at zero, where the arms point ahead.
 Sources: the published URDF of V4 and V5, the vendor's documentation 1.14 to 2.5 for limits and
 lengths, and B-Human's simulated H21 for its lower arm and for the boxes. Armature and damping are
-ours. H21 is a V4, H25 a V5.
+own choices. H21 is a V4, H25 a V5.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ LIMB = 0.028
 
 _SIDES = {"L": "R", "l_": "r_"}
 
-# joints whose limits change sides: name of the left one, limits of the right one
+# joints with mirrored limits: name of the left one, limits of the right one
 _RIGHT_LIMITS = {
     "LShoulderRoll": (-1.32645, 0.314159),
     "LElbowRoll": (0.0349066, 1.54462),
@@ -53,7 +53,7 @@ def nao_h25() -> RobotModel:
 
 
 def nao_h21() -> RobotModel:
-    """The RoboCup edition, V4: 21 motors, a lower arm of one piece."""
+    """The RoboCup edition, V4: 21 motors, with a one-piece lower arm."""
     shoulder = Mass(0.07504, (-0.00165, -0.02663, 0.00014), (1.83025e-5, 1.39005e-5, 2.01862e-5))
     hips = {"LHip": 0.13053, "LTibia": 0.29142, "l_ankle": 0.16184, "Neck": 0.06442}
     return _robot("nao_h21", (*_upper_arm(shoulder), *_h21_forearm()), hips)
@@ -148,7 +148,7 @@ def _h25_forearm() -> tuple[Link, ...]:
     forearm = Mass(0.07761, (0.02556, 0.00281, 0.00076), (2.46746e-5, 3.83837e-5, 3.59708e-5))
     palm = Mass(0.18533, (0.03434, -0.00088, 0.00308), (6.86477e-5, 1.35756e-4, 1.33228e-4))
     finger = Mass(2e-6, (0.0, 0.0, 0.0), (1e-9, 1e-9, 1e-9))
-    # ours: under the skin there is neither gap nor step; the published boxes are 47 and 50 mm wide
+    # own choice: no gap or step under the skin; the published boxes are 47 and 50 mm wide
     elbow_end = capsule(LIMB, (0.026, 0, 0), (0.084, 0, 0))
     wrist_end = capsule(LIMB, (0.028, 0, 0), (0.052, 0, 0))
     point = {"l_hand": shift(0, 0, 0)}
@@ -186,7 +186,7 @@ def _leg(masses: dict[str, float]) -> tuple[Link, ...]:
 
 
 def _right(left: tuple[Link, ...]) -> tuple[Link, ...]:
-    """The other side: the maker keeps axes and swaps the limits that the mirror would turn."""
+    """The other side: the maker keeps the axes and swaps the mirrored limits."""
     links = []
     for left_link, link in zip(left, mirrored(left, _SIDES), strict=True):
         joint = left_link.joint

@@ -1,1 +1,1 @@
-"""From a scene to a MuJoCo model."""
+"""Converts a scene to a MuJoCo model."""

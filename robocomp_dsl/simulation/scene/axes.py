@@ -1,8 +1,8 @@
-"""Between RoboComp's frame and MuJoCo's.
+"""Conversion between RoboComp's frame and MuJoCo's.
 
 RoboComp: mm, x right, y up, z ahead (left-handed; angles turn accordingly). MuJoCo: m, z up,
-right-handed. Ours puts MuJoCo's x to the right and its y ahead, so that the two differ by an
-exchange of y and z: a mirror, which keeps rotations rotations but turns them the other way.
+right-handed. We choose MuJoCo's x to the right and y ahead, so the conversion exchanges y and z: a
+mirror, which maps rotations to rotations in the opposite direction.
 """
 
 from __future__ import annotations
@@ -21,16 +21,16 @@ MM = 1e-3
 Array = NDArray[np.float64]
 
 EXCHANGED = np.array([0, 2, 1, 6, 8, 7, 3, 5, 4])
-"""Where the 9 numbers of a rotation of RoboComp are in one of MuJoCo."""
+"""Indices of the 9 numbers of a RoboComp rotation in a MuJoCo rotation."""
 
 
 def point(x: float, y: float, z: float) -> list[float]:
-    """A point of RoboComp's (mm) in MuJoCo's frame (m)."""
+    """A RoboComp point (mm) in MuJoCo's frame (m)."""
     return [x * MM, z * MM, y * MM]
 
 
 def points(points: Array) -> Array:
-    """As `point`, shape (n, 3)."""
+    """As `point`, for shape (n, 3)."""
     return points[:, [0, 2, 1]] * MM
 
 
@@ -40,12 +40,12 @@ def direction(vector: Sequence[float]) -> list[float]:
 
 
 def turn_axis(axis: Sequence[float] | Array) -> list[float]:
-    """The axis about which a positive angle turns in MuJoCo as about `given` in RoboComp."""
+    """The axis with the same rotation in MuJoCo as `axis` in RoboComp."""
     return [-float(axis[0]), -float(axis[2]), -float(axis[1])]
 
 
 def quaternion(rotation: Array) -> list[float]:
-    """The quaternion (w, x, y, z) of a rotation of RoboComp, shape (3, 3).
+    """The quaternion (w, x, y, z) of a RoboComp rotation, shape (3, 3).
 
     Shepperd's method: divides by the largest of the four.
     """
@@ -79,7 +79,7 @@ def pose(position: NDArray[Any], rotation: NDArray[Any]) -> Pose:
 
 
 def matrix(position: NDArray[Any], rotation: NDArray[Any]) -> Array:
-    """The same body as a matrix of RoboComp's, shape (4, 4), in mm."""
+    """The pose of a MuJoCo body as a RoboComp matrix, shape (4, 4), in mm."""
     converted = np.eye(4)
     converted[:3, :3] = np.reshape(rotation, (3, 3))[[0, 2, 1]][:, [0, 2, 1]]
     converted[:3, 3] = np.asarray(position)[[0, 2, 1]] / MM
@@ -87,7 +87,7 @@ def matrix(position: NDArray[Any], rotation: NDArray[Any]) -> Array:
 
 
 def body(pose: Array) -> Array:
-    """A body of RoboComp, shape (4, 4) in mm, as MuJoCo has it, in m; `matrix` is the way back."""
+    """A RoboComp pose, shape (4, 4) in mm, as MuJoCo pose in m; the inverse of `matrix`."""
     converted = np.eye(4)
     converted[:3, :3] = pose[:3, :3][[0, 2, 1]][:, [0, 2, 1]]
     converted[:3, 3] = pose[[0, 2, 1], 3] * MM
@@ -95,5 +95,5 @@ def body(pose: Array) -> Array:
 
 
 def floor(pose: Array) -> Array:
-    """Points of MuJoCo, shape (n, 3) in m, as (x, z) in mm, shape (n, 2)."""
+    """MuJoCo points, shape (n, 3) in m, as (x, z) in mm, shape (n, 2)."""
     return pose[:, :2] / MM

@@ -1,7 +1,7 @@
 """The floor plan of a world: outlines of all static bodies, and distances to them.
 
-In: a compiled MuJoCo model. Out: convex polygons in mm (x, z), for pictures and for measuring how
-near a path came to anything.
+In: a compiled MuJoCo model. Out: convex polygons in mm (x, z), for pictures and for distances of
+paths to obstacles.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ _GEOM = mujoco.mjtGeom
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outline:
-    """One thing from above: its name and its corners in order, shape (n, 2), mm."""
+    """One outline from above: its name and its corners in order, shape (n, 2), mm."""
 
     name: str
     corners: NDArray[np.float64]
 
 
 def outlines(model: Any) -> tuple[Outline, ...]:
-    """Outlines of the fixed geoms of `model`, floors (planes) left out."""
+    """Outlines of the fixed geoms of `model` without floors (planes)."""
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     found = []
@@ -45,7 +45,7 @@ def outlines(model: Any) -> tuple[Outline, ...]:
 
 
 def _surface(model: Any, geom: int) -> NDArray[np.float64]:
-    """Points in the frame of a geom whose convex hull from above is that of the geom, (n, 3)."""
+    """Points in the frame of a geom with the same convex hull from above, (n, 3)."""
     size = np.asarray(model.geom_size[geom], dtype=np.float64)
     match model.geom_type[geom]:
         case _GEOM.mjGEOM_CYLINDER:
@@ -102,10 +102,10 @@ def _chain(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 def clearance(
     points: NDArray[np.float64], things: Sequence[Outline]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """How far each of `points` (n, 2) is from the nearest of `things`.
+    """Distance of each of `points` (n, 2) to the nearest of `things`.
 
-    Returns the distances in mm, shape (n,), and the nearest places on the outlines, shape (n, 2);
-    infinite and NaN where there are no things.
+    Returns the distances in mm, shape (n,), and the nearest points of the outlines, shape (n, 2);
+    infinite and NaN without outlines.
     """
     best = np.full(len(points), np.inf)
     nearest = np.full((len(points), 2), np.nan)

@@ -1,8 +1,8 @@
-"""A room in a small YAML file: walls, boxes and pillars on a floor, and where the robot starts.
+"""A room in a small YAML file: walls, boxes and pillars on a floor, and the robot's start pose.
 
 In: the file, lengths in mm and angles in rad, seen from above with x to the right and z ahead.
-Out: a `Room`, and from it the `MjSpec` of the empty room. An unknown key, a wrong type or a length
-that makes no sense is a `ConfigError` with its line, as in every configuration file.
+Out: a `Room`, and from it the `MjSpec` of the empty room. An unknown key, a wrong type or an
+invalid length is a `ConfigError` with its line, as in every configuration file.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.parameters import Group, Parameter, ParameterGroup, Sc
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 
-_FAR = 1e6  # mm: no room is larger
+_FAR = 1e6  # mm: maximum size of a room
 _TIME_STEP = 0.002  # s
 
 
@@ -118,7 +118,7 @@ _SCHEMA: Schema = (
 
 @dataclass(frozen=True, slots=True)
 class Room:
-    """The walls, boxes and pillars of a room, and where the robot starts."""
+    """The walls, boxes and pillars of a room, and the robot's start pose."""
 
     walls: tuple[Wall, ...] = ()
     boxes: tuple[RoomBox, ...] = ()
@@ -127,7 +127,7 @@ class Room:
 
     @classmethod
     def read(cls, path: Path) -> Room:
-        """The room in the file at `path`. Raises `ConfigError` with everything that is wrong."""
+        """The room in the file at `path`. Raises `ConfigError` with all problems."""
         found = load_values(_SCHEMA, path, ())
         return cls(
             tuple(Wall(**entry) for entry in found["walls"]),
@@ -137,7 +137,7 @@ class Room:
         )
 
     def spec(self) -> Any:
-        """The room as an `MjSpec` with a floor, ready for devices to be added."""
+        """The room as an `MjSpec` with a floor, to which devices can be added."""
         spec = mujoco.MjSpec()
         spec.option.timestep = _TIME_STEP
         # wheels must roll, not creep sideways (MuJoCo documentation, "Preventing slip")
@@ -161,7 +161,7 @@ class Room:
 
 def _add_wall(floor: Any, name: str, wall: Wall) -> None:
     along_x, along_z = wall.x2 - wall.x1, wall.z2 - wall.z1
-    # longer by its thickness, so that walls that meet in a corner close it
+    # extended by its thickness, so that walls close their common corner
     length = math.hypot(along_x, along_z) + wall.thickness
     middle_x, middle_z = (wall.x1 + wall.x2) / 2, (wall.z1 + wall.z2) / 2
     alpha = math.atan2(along_x, along_z)

@@ -1,4 +1,4 @@
-"""Which simulated device each kind of a scene becomes: one table.
+"""Table of the simulated device for each kind of a scene.
 
 In: a device of a scene. Out: the part of the world that simulates it.
 """
@@ -37,14 +37,14 @@ from robocomp_dsl.simulation.world.noise import NoiseLevel
 
 @dataclass(frozen=True, slots=True)
 class DeviceContext:
-    """What the devices of a scene share: its frames, the noise level and the board."""
+    """Shared by the devices of a scene: its frames, the noise level and the board."""
 
     frames: Mapping[str, Frame]
     noise: NoiseLevel
     board: JointBoard | None = None
 
     def carrier(self, frame: str) -> str:
-        """The nearest frame from `frame` upwards that moves by itself; else `frame`."""
+        """The nearest moving frame from `frame` upwards; else `frame`."""
         at = frame
         while at and at != ROOT:
             holder = self.frames[at]
@@ -203,9 +203,9 @@ SINGLE: Mapping[str, Callable[[DeviceContext, Device], Any]] = {
 def build_devices(
     scene: Scene, noise: NoiseLevel, existing: Mapping[str, Any] = MappingProxyType({})
 ) -> dict[str, Any]:
-    """The parts by the ids of their devices; all joints have one board between them.
+    """The parts by the ids of their devices; all joints share one board.
 
-    A part in `kept` is used again, the board only where it has the same joints.
+    A part in `kept` is reused, the board only if it has the same joints.
     """
     joints, board = driven(scene), None
     if joints:

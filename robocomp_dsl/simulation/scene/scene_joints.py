@@ -1,9 +1,9 @@
-"""The joints of a scene on a control board: each gets a motor that is fit for it.
+"""The joints of a scene on a control board, with motors sized for them.
 
-In: joints, of frames of the scene or of the model file that it begins with. Out: a part of the
-world; its joints hold their positions from the start. What a description leaves open (force, speed)
-is chosen here. Frames of a scene weigh nothing (MuJoCo compensates it), so that motors need not
-hold them; what a model file weighs is held.
+In: joints of frames of the scene or of its model file. Out: a part of the world; its joints hold
+their positions from the start. Forces and speeds that a description leaves open are chosen here.
+Frames of a scene are weightless (MuJoCo compensates gravity), so motors need not hold them; the
+weight of a model file's bodies is held by feedforward torques.
 """
 
 from __future__ import annotations
@@ -26,21 +26,21 @@ from robocomp_dsl.simulation.robots.boards import GEAR, SUPPLY, RobotBoard, shar
 from robocomp_dsl.simulation.scene.axes import MM
 
 FORCE = {"hinge": 50.0, "slide": 500.0}
-"""Largest torque [N·m] or force [N] where none is given."""
+"""Default maximum torque [N·m] or force [N]."""
 
 SPEED = {"hinge": math.tau, "slide": 1.0}
-"""Largest speed [rad/s, m/s] where none is given."""
+"""Default maximum speed [rad/s, m/s]."""
 
 _INERTIA = 0.005
-"""Of a motor per unit of its force: slow against the controller, which is set by the force, too."""
+"""Motor inertia per unit of force: slow compared to the controller, which scales with it, too."""
 
 
 @dataclass(frozen=True, slots=True)
 class DrivenJoint:
     """A joint and its motor in rad, N·m, m, N; the motor has the inertia `armature`.
 
-    Joints of one `group` are served together. `joint` is the joint of the model that has the motor,
-    if a board commands it by another one: `force`, `home` and `armature` are its own.
+    Joints of one `group` are served together. `joint` is the model's joint with the motor, if the
+    board commands it by another one: `force`, `home` and `armature` are its own.
     """
 
     name: str
@@ -70,10 +70,10 @@ def driven(scene: Scene) -> list[DrivenJoint]:
 
 
 class JointBoard(SimulatedBoard):
-    """The board of `joints`; `homes` (n,) is where each rests [rad, m], `groups` by their names.
+    """The board of `joints`; `homes` (n,) are their rest positions [rad, m], `groups` by names.
 
     Joints of a group share motors as in `model.couplings`, and move those of the model as in
-    `model.transmissions`; only what a model weighs is held.
+    `model.transmissions`; only the weight of a model's bodies is held.
     """
 
     def __init__(self, joints: Sequence[DrivenJoint], model: Model | None = None) -> None:
@@ -102,7 +102,7 @@ class JointBoard(SimulatedBoard):
         return self.board.spec.names
 
     def build(self, spec: Any) -> None:
-        """A motor for each, in the place of those that a model file gives it."""
+        """Add a motor for each joint; it replaces those of the model file."""
         modelled: dict[str, list[Any]] = {}
         for motor in spec.actuators:
             if motor.name in self._pulled:
@@ -123,7 +123,7 @@ class JointBoard(SimulatedBoard):
         self.board.set_modes(joints, [Mode.POSITION] * len(joints))
 
     def update_frame(self, frame: str) -> None:
-        """A joint was moved externally: it stays there."""
+        """A joint was moved externally: it holds the new position."""
         joint = self.board.select.indices([frame])
         now, speed = self._measure()
         self.board.position, self.board.velocity = now + self.board.offset, speed
@@ -135,7 +135,7 @@ _ON_JOINTS = (mujoco.mjtTrn.mjTRN_JOINT, mujoco.mjtTrn.mjTRN_JOINTINPARENT)
 
 
 def _motor_of(spec: Any, joint: str, modelled: list[Any], taken: set[str]) -> str:
-    """The name of the one motor of a joint, which takes a torque; others of it do nothing."""
+    """The name of a joint's only motor, which takes a torque; its other motors are disabled."""
     for motor in modelled:
         motor.set_to_motor()
         motor.forcelimited = motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_FALSE
@@ -164,7 +164,7 @@ def _is_given(device: Device) -> bool:
 
 
 def _of_device(device: Device) -> DrivenJoint:
-    """A joint of a model file: all is said in its settings, in MuJoCo's units."""
+    """A joint of a model file: its settings are complete, in MuJoCo's units."""
     words = ("board", "joint")
     settings = {name: float(value) for name, value in device.settings.items() if name not in words}
     return DrivenJoint(
@@ -184,7 +184,7 @@ def _of_device(device: Device) -> DrivenJoint:
 def _of_frame(frame: Frame, motion: Motion) -> DrivenJoint:
     unit = MM if motion.kind == "slide" else 1.0
     low, high = -math.inf, math.inf
-    if motion.low < motion.high:  # else they do not leave a way between them
+    if motion.low < motion.high:  # otherwise their range would be empty
         low, high = motion.low * unit, motion.high * unit
     speed, force = motion.velocity * unit, motion.force
     if not 0 < speed < math.inf:
@@ -201,11 +201,11 @@ def _joint(joint: DrivenJoint, torque: float) -> JointSpec:
 
 
 def _motor(joint: DrivenJoint) -> MotorSpec:
-    """It turns the joint twice as fast as it may and stalls at three times the largest torque.
+    """A motor that turns the joint at twice its speed limit and stalls at three times its torque.
 
-    A fault comes at six times the current of that torque.
+    A fault occurs at six times the current of that torque.
     """
-    per_amp = SUPPLY / (2.0 * joint.speed)  # joint torque per ampere: what back EMF allows
+    per_amp = SUPPLY / (2.0 * joint.speed)  # joint torque per ampere, limited by back EMF
     current = joint.force / per_amp
     gear = joint.gear * GEAR
     return MotorSpec(

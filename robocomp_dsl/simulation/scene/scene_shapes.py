@@ -1,7 +1,7 @@
 """The shapes of a scene as geoms of MuJoCo.
 
-In: a body of an `MjSpec` and a shape. Out: a geom on the body, massless, and a note where it is not
-as described.
+In: a body of an `MjSpec` and a shape. Out: a geom on the body, massless, and a note on deviations
+from the description.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.scene.textures import add_material
 
-_THINNEST = 1e-6  # m: MuJoCo has no geoms without thickness
-_SMALLEST = 1e-5  # m: MuJoCo makes no meshes of almost no area
+_THINNEST = 1e-6  # m: MuJoCo geoms need a thickness
+_SMALLEST = 1e-5  # m: MuJoCo rejects meshes of almost no area
 _LARGEST = 1e6  # m
 _GREY = (0.7, 0.7, 0.7, 1.0)
 _PLACEHOLDER = (0.9, 0.4, 0.2, 0.4)
@@ -34,10 +34,10 @@ _UPRIGHT = rotation(math.pi / 2, 0.0, 0.0)
 
 
 def add_box(spec: Any, body: Any, box: Box, notes: list[str]) -> None:
-    """Put a box on `body`."""
+    """Add a box to `body`."""
     x, thick, y = _sized(box.size, box.id, notes)
     material = _material(spec, box, (x, y), notes)
-    if material:  # MuJoCo lays pictures on along the third axis of a box
+    if material:  # MuJoCo maps pictures along the third axis of a box
         turned = rotation_to_normal(box.normal) @ _UPRIGHT
         geom = {"size": [x, y, thick], "quat": axes.quaternion(turned), "material": material}
     else:
@@ -76,7 +76,7 @@ def _material(spec: Any, box: Box, size: tuple[float, float], notes: list[str]) 
 
 
 def rotation_to_normal(normal: Triple) -> Matrix:
-    """The rotation that lays a plane's thickness along `normal`, by the shortest way from -z.
+    """The rotation of a plane's thickness to `normal`, by the shortest rotation from -z.
 
     RoboComp's viewer turns z to the normal in its own frame, whose z is backwards.
     """
@@ -84,7 +84,7 @@ def rotation_to_normal(normal: Triple) -> Matrix:
     if not 0 < length < math.inf:
         return np.eye(3)
     x, y, z = (part / length for part in normal)
-    if z > 1 - 1e-12:  # the other way round: half a turn about y
+    if z > 1 - 1e-12:  # opposite direction: half a turn about y
         return np.diag([-1.0, 1.0, -1.0])
     # Rodrigues' formula for -z turned to (x, y, z); the axis is their product, the cosine is -z
     skew = np.array([[0, 0, -x], [0, 0, -y], [x, y, 0.0]])
@@ -93,7 +93,7 @@ def rotation_to_normal(normal: Triple) -> Matrix:
 
 
 def add_mesh(spec: Any, body: Any, mesh: Mesh, notes: list[str]) -> None:
-    """Put a mesh on `body`, or a placeholder box if it cannot be read."""
+    """Add a mesh to `body`, or a placeholder box if it cannot be read."""
     placed = {
         "name": mesh.id,
         "pos": axes.point(*mesh.place),
@@ -142,7 +142,7 @@ def _scaled(surface: Surface, scale: Triple) -> Matrix:
 
 
 def _outside(surface: Surface, scale: Triple) -> Any:
-    """Faces whose outside is right again: the exchange of two axes mirrors them, a scale may."""
+    """Faces with the correct orientation: exchanging two axes mirrors them, as may a scale."""
     return surface.faces if math.prod(scale) < 0 else surface.faces[:, ::-1]
 
 
@@ -153,7 +153,7 @@ def _sized(size: Triple, name: str, notes: list[str]) -> list[float]:
 
 
 def _half(size: Triple) -> list[float]:
-    """Half of a size in m along MuJoCo's axes, and never nothing."""
+    """Half of a size in m along MuJoCo's axes, greater than 0."""
     x, y, z = np.clip(np.nan_to_num(np.abs(size)) * MM / 2, _THINNEST, _LARGEST).tolist()
     return [x, z, y]
 

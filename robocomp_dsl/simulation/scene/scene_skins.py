@@ -1,6 +1,6 @@
-"""The skins of a scene as one part of the world: they tell their frames together.
+"""The skins of a scene as one part of the world, with common frames.
 
-In: a scene. Out: `SimulatedSkin` on the bodies that the scene's frames have become.
+In: a scene. Out: `SimulatedSkin` on the bodies of the scene's frames.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from robocomp_dsl.simulation.world.noise import NoiseLevel
 from robocomp_dsl.tactile.skin.geometry import LimbFrame
 
 _AXES = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
-"""From RoboComp's axes to MuJoCo's: they differ by an exchange of y and z."""
+"""From RoboComp's axes to MuJoCo's: y and z are exchanged."""
 
 
 def build_skins(
     scene: Scene, level: NoiseLevel, settings: SkinSettings, existing: Mapping[str, Any]
 ) -> dict[str, SimulatedSkin]:
-    """The part by the ids of the skins. The one in `kept` is used again if no taxel has changed."""
+    """The part by the ids of the skins. The one in `kept` is reused if no taxel has changed."""
     if not scene.skins:
         return {}
     geometry = geometry_of(scene.skins)
@@ -41,13 +41,13 @@ def build_skins(
 def _mount(limb: LimbFrame, scene: Scene) -> Mount:
     """The limb in MuJoCo's axes, with all bodies fixed to its frame.
 
-    On a body of a model file it is in these axes already, and lists what it covers.
+    The limb of a model file's body is in these axes already, and lists what it covers.
     """
     if any(holder.id == limb.body and holder.model_part for holder in scene.frames):
         return Mount(limb.name, body_name(limb.body), limb.origin, limb.axes, limb.covers)
     taken = {holder.body for skin in scene.skins for holder in skin.limbs}
     held = {limb.body}
-    for frame in scene.frames:  # parents come first
+    for frame in scene.frames:  # parents precede their children
         moves = frame.motion or frame.drives or (frame.physics and frame.parent == ROOT)
         if frame.parent in held and not moves and frame.id not in taken:
             held.add(frame.id)

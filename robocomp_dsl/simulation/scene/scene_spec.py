@@ -1,8 +1,8 @@
-"""A scene to a MuJoCo model: a body for every frame, a joint for all that moves, a geom per shape.
+"""A scene as a MuJoCo model: a body per frame, a joint per moving frame, a geom per shape.
 
 In: a `Scene`. Out: an `MjSpec` whose joints and geoms have the scene's ids (bodies: `body_name`),
-and what had to be simplified, in words. Bodies are where `TransformTree` has them: `axes.matrix` of
-`xpos` and `xmat` gives its matrices.
+and notes on simplifications. Poses are those of `TransformTree`: `axes.matrix` of `xpos` and
+`xmat` gives its matrices.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ import numpy as np
 from robocomp_dsl.hardware.description.scene import ROOT, Frame, Model, Motion, Scene, Triple
 from robocomp_dsl.hardware.devices.errors import SceneError
 from robocomp_dsl.hardware.kinematics.rotations import rotation
-from robocomp_dsl.simulation.models.model_start import reload_spec
+from robocomp_dsl.simulation.models.start_spec import reload_spec
 from robocomp_dsl.simulation.scene import axes
 from robocomp_dsl.simulation.scene.axes import MM
 from robocomp_dsl.simulation.scene.scene_shapes import add_box, add_mesh
 from robocomp_dsl.simulation.world.arena import reserve_arena
 
-_LIGHTEST = 1e-3  # kg of a frame that moves and has no mass of its own
+_LIGHTEST = 1e-3  # kg: default mass of a moving frame
 _UNIT: dict[str, Triple] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -57,7 +57,7 @@ def build_spec(scene: Scene) -> tuple[Any, list[str]]:
 class _BuildContext:
     """The specification under construction. Hinge angles are multiplied by `degrees`.
 
-    `taken` are the names that joints have, or will have.
+    `taken` are the names of present and future joints.
     """
 
     bodies: dict[str, Any]
@@ -66,7 +66,7 @@ class _BuildContext:
     taken: set[str]
 
     def free(self, name: str) -> str:
-        """A name for a joint that is like `wanted` and taken from now on."""
+        """Reserve a joint name based on the requested one."""
         while name in self.taken:
             name += "'"
         self.taken.add(name)
@@ -121,7 +121,7 @@ def _add_frame(into: _BuildContext, frame: Frame, notes: list[str]) -> Any:
 def _weigh(body: Any, mass: float) -> None:
     body.explicitinertial = True
     body.mass = mass
-    body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else it takes those of pos
+    body.ipos, body.iquat = [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]  # else those of pos
     body.inertia = [0.4 * mass * 0.05**2] * 3  # a ball of 5 cm; shapes have no mass here
 
 
@@ -129,7 +129,7 @@ def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:
     hinge = motion.kind == "hinge"
     at = "xyz".index(motion.axis)
     if hinge:
-        # Rx·Ry·Rz: the rotations after that of the joint are between it and the body
+        # Rx·Ry·Rz: the rotations after the joint's are between joint and body
         behind = [turn if i > at else 0.0 for i, turn in enumerate(frame.turn)]
         axis = axes.turn_axis(rotation(*behind).T @ _UNIT[motion.axis])
         now, unit = frame.turn[at], degrees
@@ -149,9 +149,9 @@ def _add_joint(body: Any, frame: Frame, motion: Motion, degrees: float) -> None:
 
 
 def _add_wheels(body: Any, frame: Frame, into: _BuildContext) -> None:
-    """A base slides along its first x and z and turns about its y; nothing lets it fall.
+    """A base slides along its initial x and z and turns about its y; it cannot fall.
 
-    The base finds the three by their order in the body; other nodes may have their names.
+    The base finds the three joints by their order in the body; other nodes may have their names.
     """
     for name, axis in (("x", (1.0, 0.0, 0.0)), ("z", (0.0, 0.0, 1.0))):
         body.add_joint(

@@ -1,7 +1,7 @@
-"""Pictures on planes.
+"""Pictures as textures.
 
-In: an `MjSpec` and the path of a picture in any format that Pillow reads. Out: a material that
-shows it, once for each file; or a reason why there is none.
+In: an `MjSpec` and the path of a picture in any format that Pillow reads. Out: a material with the
+picture, one per file; or the reason of a failure.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def add_material(spec: Any, path: Path, tile: float) -> str:
         height=height,
         nchannel=3,
     )
-    texture.data = picture[::-1].tobytes()  # MuJoCo begins below, pictures begin above
+    texture.data = picture[::-1].tobytes()  # MuJoCo's first row is at the bottom
     material = spec.add_material(name=name, texuniform=True, texrepeat=[1 / tile, 1 / tile])
     material.textures[mujoco.mjtTextureRole.mjTEXROLE_RGB] = name
     return name

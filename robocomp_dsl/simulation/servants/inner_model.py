@@ -1,7 +1,7 @@
-"""`InnerModelManager` over a running world: its nodes are read and changed while it goes on.
+"""`InnerModelManager` over a running world: read and change its nodes.
 
-A joint that is added is on the `JointMotor` and `ControlBoard` of the world, whatever its `port`.
-Attributes and point clouds are kept here; the physics knows nothing of them.
+A new joint is on the `JointMotor` and `ControlBoard` of the world, whatever its `port`. Attributes
+and point clouds are stored here; they have no physics.
 """
 
 # ruff: noqa: N802, N803  called as in the interface
@@ -62,7 +62,7 @@ _TYPES = {
 }
 _AXES: dict[str, Axis] = {"x": "x", "y": "y", "z": "z"}
 _FALLING = 1.0
-"""kg of a transform with physics that is added: the interface has no word for it."""
+"""Default mass in kg of a new transform with physics: the interface has no field for it."""
 
 
 class InnerModelServant(Servant):
@@ -94,17 +94,17 @@ class InnerModelServant(Servant):
         found: Scene = self.device().state.scene
         return found
 
-    # -- adding -------------------------------------------------------------------------------
+    # -- add ----------------------------------------------------------------------------------
 
     def addTransform(self, item: str, engine: str, base: str, pose: Any) -> bool:
-        """A frame; with the engine `bullet` and in the root it falls."""
+        """Add a frame; with the engine `bullet` and in the root it is subject to gravity."""
         physics = engine == "bullet"
         place, turn = _pose(pose)
         frame = Frame(item, base, place, turn, physics=physics, mass=_FALLING if physics else 0.0)
         return self._rebuild(add_frame(self._scene, frame))
 
     def addJoint(self, item: str, base: str, j: Any) -> bool:
-        """A hinge."""
+        """Add a hinge."""
         axis = _AXES.get(j.axis or "z")
         if axis is None:
             raise NodeError(NodeErrorCode.VALUES, f"there is no axis `{j.axis}`: x, y or z")
@@ -117,7 +117,7 @@ class InnerModelServant(Servant):
         return self._rebuild(add_frame(self._scene, frame))
 
     def addMesh(self, item: str, base: str, m: Any) -> bool:
-        """A mesh from a file that can be read."""
+        """Add a mesh from a readable file."""
         scale = _scale(m.scaleX, m.scaleY, m.scaleZ)
         place, turn = _pose(m.pose)
         scene = add_mesh(self._scene, Mesh(item, base, m.meshPath, place, turn, scale))
@@ -128,10 +128,10 @@ class InnerModelServant(Servant):
         return self._rebuild(scene)
 
     def addPlane(self, item: str, base: str, plane: Any) -> bool:
-        """A box that collides."""
+        """Add a box that collides."""
         return self._rebuild(add_box(self._scene, _box(Box(item, base, (1, 1, 1)), plane)))
 
-    # -- reading ------------------------------------------------------------------------------
+    # -- read ---------------------------------------------------------------------------------
 
     def getAllNodeInformation(self) -> list[Any]:
         """All nodes, depth first."""
@@ -139,7 +139,7 @@ class InnerModelServant(Servant):
         kinds = {box.id: "Plane" for box in scene.boxes}
         kinds |= {mesh.id: "Mesh" for mesh in scene.meshes}
         kinds |= {frame.id: "Joint" for frame in scene.frames if frame.motion}
-        kinds |= {  # a joint of a model file may be called as another node: its frame is not
+        kinds |= {  # a joint of a model file may share the name of a node, but not its frame
             device.frame if device.kind.endswith("joint") else device.id: _TYPES[device.kind]
             for device in scene.devices
             if device.kind in _TYPES
@@ -158,41 +158,41 @@ class InnerModelServant(Servant):
         ]
 
     def getPose(self, base: str, item: str) -> tuple[bool, Any]:
-        """Where a frame is, seen from another."""
-        matrix = nodes.between(self.device(), base, item)
+        """The pose of a frame in another one."""
+        matrix = nodes.between(self.device().state, base, item)
         return True, self.types.Pose3D(*nodes.pose_of(matrix))
 
     def getPoseFromParent(self, item: str) -> tuple[bool, Any]:
-        """Where a frame is in its parent; the root is in itself."""
+        """The pose of a frame in its parent; that of the root is the identity."""
         return self.getPose(frame_of(self._scene, item).parent or item, item)
 
     def transform(self, base: str, item: str, coordInItem: Any) -> tuple[bool, Any]:
-        """A point of `item`, seen from `base`."""
+        """A point of `item`, expressed in `base`."""
         require_finite(x=coordInItem.x, y=coordInItem.y, z=coordInItem.z)
-        matrix = nodes.between(self.device(), base, item)
+        matrix = nodes.between(self.device().state, base, item)
         point = matrix[:3, :3] @ (coordInItem.x, coordInItem.y, coordInItem.z) + matrix[:3, 3]
         return True, self.types.coord3D(*map(float, point))
 
     def getTransformationMatrix(self, base: str, item: str) -> Any:
         """The transform from `item` to `base`, as the interface declares it."""
-        matrix = nodes.between(self.device(), base, item)
+        matrix = nodes.between(self.device().state, base, item)
         return self.types.Matrix(cols=4, rows=4, data=matrix.ravel().astype(np.float32))
 
     def collide(self, a: str, b: str) -> bool:
         """Whether two subtrees touch."""
-        found: bool = nodes.touching(self.device(), a, b)
+        found: bool = nodes.touching(self.device().state, a, b)
         return found
 
-    # -- changing -----------------------------------------------------------------------------
+    # -- change -------------------------------------------------------------------------------
 
     def setPose(self, base: str, item: str, pose: Any) -> bool:
-        """Put a frame where the pose in `base` is."""
+        """Set the pose of a frame in `base`."""
         place, turn = _pose(pose)
         nodes.place(self.device(), base, item, (*place, *turn))
         return True
 
     def setPoseFromParent(self, item: str, pose: Any) -> bool:
-        """Put a frame where the pose in its parent is."""
+        """Set the pose of a frame in its parent."""
         return self.setPose(frame_of(self._scene, item).parent or item, item, pose)
 
     def setPlane(self, item: str, plane: Any) -> bool:
@@ -204,7 +204,7 @@ class InnerModelServant(Servant):
         return self._rebuild(rescale_node(self._scene, item, _scale(scaleX, scaleY, scaleZ)))
 
     def removeNode(self, item: str) -> bool:
-        """Take a node away, with all below it."""
+        """Remove a node and its subtree."""
         self._rebuild(remove_node(self._scene, item))
         left = parents(self._scene)
         for store in (self._attributes, self.clouds):
@@ -213,7 +213,7 @@ class InnerModelServant(Servant):
         return True
 
     def moveNode(self, src: str, dst: str) -> bool:
-        """Put a node into another frame."""
+        """Move a node to another parent."""
         return self._rebuild(move_node(self._scene, src, dst))
 
     def setPointCloudData(self, id: str, cloud: Any) -> None:
@@ -223,7 +223,7 @@ class InnerModelServant(Servant):
     # -- attributes ---------------------------------------------------------------------------
 
     def addAttribute(self, idNode: str, name: str, type: str, value: str) -> bool:
-        """A new attribute."""
+        """Add an attribute."""
         known = self._attributes_of(idNode)
         if name in known:
             raise NodeError(NodeErrorCode.ATTRIBUTE_EXISTS, f"`{idNode}` has an attribute `{name}`")
@@ -231,7 +231,7 @@ class InnerModelServant(Servant):
         return True
 
     def removeAttribute(self, idNode: str, name: str) -> bool:
-        """Take an attribute away."""
+        """Remove an attribute."""
         del self._attributes_of(idNode)[self._attribute(idNode, name)]
         return True
 
@@ -260,13 +260,13 @@ class InnerModelServant(Servant):
 
 
 def _pose(pose: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Place and turn of a `Pose3D`. Raises `CommandRefused`."""
+    """Position and rotation of a `Pose3D`. Raises `CommandRefused`."""
     require_finite(x=pose.x, y=pose.y, z=pose.z, rx=pose.rx, ry=pose.ry, rz=pose.rz)
     return (pose.x, pose.y, pose.z), (pose.rx, pose.ry, pose.rz)
 
 
 def _scale(x: float, y: float, z: float) -> tuple[float, float, float]:
-    """Raises `NodeError` for a negative one."""
+    """Raises `NodeError` for a negative value."""
     require_finite(scaleX=x, scaleY=y, scaleZ=z)
     if min(x, y, z) < 0:
         raise NodeError(NodeErrorCode.VALUES, "a scale cannot be negative")

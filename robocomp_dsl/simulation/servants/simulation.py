@@ -19,24 +19,24 @@ from robocomp_dsl.hardware.servants.fair_lock import FairLock
 from robocomp_dsl.hardware.servants.servant import Servant
 
 MAX_SNAPSHOTS = 32
-"""Snapshots, and forks, at a time."""
+"""Maximum number of snapshots, and of forks."""
 
 MAX_ADVANCE_S = 600.0
-"""Seconds that one call may let pass in a fork."""
+"""Maximum seconds that one call may advance a fork."""
 
 MAX_STEPS = 100_000
 
 
 @dataclass(frozen=True, slots=True)
 class Fork:
-    """A copy of the world, touched by one thread at a time."""
+    """A copy of the world, used by one thread at a time."""
 
     state: Any
     lock: FairLock = field(default_factory=FairLock)
 
 
 class SimulationServant(Servant):
-    """The device is the simulation; forks run beside it, so that its own time does not wait."""
+    """The device is the simulation; forks run independently of its time."""
 
     NEEDS_LOCK: ClassVar[bool] = False
     FAILURES: ClassVar[tuple[tuple[type[HardwareError], str], ...]] = ((HardwareError, "Refused"),)
@@ -50,7 +50,7 @@ class SimulationServant(Servant):
     # -- time ---------------------------------------------------------------------------------
 
     def getState(self) -> Any:
-        """How it runs."""
+        """State of the simulation."""
         it = self.device()
         with it.lock:
             return self.types.State(
@@ -69,7 +69,7 @@ class SimulationServant(Servant):
         self.device().step_driver.pause()
 
     def resume(self) -> None:
-        """Time goes on."""
+        """Resume time."""
         self.device().step_driver.resume()
 
     def step(self, steps: int) -> float:
@@ -85,57 +85,57 @@ class SimulationServant(Servant):
             return float(it.time)
 
     def reset(self) -> None:
-        """As at the start."""
+        """Reset to the start."""
         with self.device().lock:
             self.device().reset()
 
     def setSeed(self, seed: int) -> None:
-        """The seed of the next reset."""
+        """Set the seed of the next reset."""
         if seed < 0:
             raise CommandRefused(f"`seed` is {seed}, it cannot be negative")
         self.device().seed = seed
 
     def setSpeed(self, speed: float) -> None:
-        """Simulated seconds per second."""
+        """Set the simulated seconds per second."""
         with self.device().lock:
             self.device().set_speed(speed)
 
     def setNoise(self, factor: float) -> None:
-        """A factor on the declared noise."""
+        """Set the factor on the declared noise."""
         with self.device().lock:
             self.device().noise.set(factor)
 
     def setPhysics(self, on: bool) -> None:
-        """Gravity and contacts, or neither."""
+        """Enable or disable gravity and contacts."""
         with self.device().lock:
             self.device().set_physics(on)
 
-    # -- the past -----------------------------------------------------------------------------
+    # -- snapshots ----------------------------------------------------------------------------
 
     def snapshot(self) -> int:
-        """Keep the world."""
+        """Save the state of the world."""
         return self._store(self._snapshots, self._fork())
 
     def restore(self, snapshot: int) -> None:
-        """Go back."""
+        """Restore a saved state."""
         state = self._lookup(self._snapshots, "snapshot", snapshot)
         it = self.device()
         with it.lock:
             it.restore(state.fork(shared=(it.noise, it.lock)))
 
     def forget(self, snapshot: int) -> None:
-        """Keep it no more."""
+        """Delete a saved state."""
         self._lookup(self._snapshots, "snapshot", snapshot)
         del self._snapshots[snapshot]
 
-    # -- possible futures ---------------------------------------------------------------------
+    # -- forks --------------------------------------------------------------------------------
 
     def fork(self) -> int:
         """A fork that advances on request."""
         return self._store(self._forks, Fork(self._fork()))
 
     def advance(self, fork: int, seconds: float) -> float:
-        """Let time pass there."""
+        """Advance a fork."""
         require_finite(seconds=seconds)
         if not 0 <= seconds <= MAX_ADVANCE_S:
             raise CommandRefused(f"`seconds` is {seconds:g}, it must be 0 to {MAX_ADVANCE_S:g}")
@@ -145,7 +145,7 @@ class SimulationServant(Servant):
             return float(it.state.world.time)
 
     def drive(self, fork: int, base: str, side: float, adv: float, rot: float) -> None:
-        """Drive a base there."""
+        """Drive a base of a fork."""
         turns, branch = self._seen(fork)
         with turns:
             found = branch.devices.get(base)
@@ -154,7 +154,7 @@ class SimulationServant(Servant):
             found.set_speed(side, adv, rot)
 
     def move(self, fork: int, joints: Sequence[str], positions: Floats) -> None:
-        """Move joints there."""
+        """Move joints of a fork."""
         turns, branch = self._seen(fork)
         values = numbers("positions", positions, len(joints))
         with turns:
@@ -170,7 +170,7 @@ class SimulationServant(Servant):
                 board.references.move(joint, goal, board.dt, board.limits.speed[joint])
 
     def getPoses(self, fork: int, frames: Sequence[str]) -> Any:
-        """Where frames are."""
+        """Poses of frames."""
         turns, branch = self._seen(fork)
         with turns:
             matrices = [branch.matrix(name) for name in frames]
@@ -178,27 +178,27 @@ class SimulationServant(Servant):
         return self.types.Poses([self.types.Pose(*pose) for pose in poses])
 
     def getJoints(self, fork: int, joints: Sequence[str]) -> Floats:
-        """Positions of joints."""
+        """Joint positions."""
         turns, branch = self._seen(fork)
         with turns:
             return np.array([branch.joint(name) for name in joints], dtype=np.float64)
 
     def release(self, fork: int) -> None:
-        """A fork goes."""
+        """Delete a fork."""
         self._lookup(self._forks, "fork", fork)
         del self._forks[fork]
 
-    # -- to be looked at ----------------------------------------------------------------------
+    # -- viewers ------------------------------------------------------------------------------
 
     def getModel(self) -> Any:
-        """All that is simulated."""
+        """The complete model."""
         it = self.device()
         with it.lock:
             data, revision = self._sight.to_mjb(it.world.model), it.revision
         return self.types.Model(self._sight.VERSION, revision, data)
 
     def getSight(self) -> Any:
-        """Where everything is."""
+        """Poses of all bodies."""
         it = self.device()
         with it.lock:
             seen = self._sight.capture(it.world.model, it.world.data)
@@ -217,7 +217,7 @@ class SimulationServant(Servant):
 
     @property
     def _sight(self) -> Any:
-        # Needs MuJoCo, which servants of real devices in the same table do not.
+        # Needs MuJoCo, unlike servants of real devices in the same table.
         from robocomp_dsl.simulation.world import visual_state  # noqa: PLC0415
 
         return visual_state

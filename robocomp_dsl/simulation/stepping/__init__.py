@@ -1,1 +1,1 @@
-"""What advances a simulated world: real time, or the clock of its deployment."""
+"""Drivers that advance a simulated world: real time, or the clock of its deployment."""

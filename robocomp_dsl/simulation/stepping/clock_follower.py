@@ -1,7 +1,7 @@
 """Advances a world with the clock of a deployment whose clock source is another component.
 
-In: a world and the clock of the component that serves it. Out: a world that catches up with the
-clock in every period of its component.
+In: a world and the clock of its component. Out: a world that catches up with the clock in every
+period of its component.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from robocomp_dsl.simulation.stepping.step_driver import Steppable
 
 
 class ClockFollower(Pausable):
-    """Another component is the clock source; the world catches up in every period."""
+    """Follows a clock source in another component: the world catches up in every period."""
 
     speed = 1.0
 

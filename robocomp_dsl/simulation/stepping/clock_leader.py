@@ -1,7 +1,7 @@
 """Advances a world together with the clock of its deployment, whose source is this component.
 
-In: a world and the clock source of the component that serves it. Out: a world that is always where
-the clock is, at every tick.
+In: a world and the clock source of its component. Out: a world that is at the time of the clock at
+every tick.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class ClockLeader:
         self._clock.resume()
 
     def step(self, seconds: float) -> None:
-        """See `StepDriver`: other components run in the meantime, when their time comes."""
+        """See `StepDriver`; other components run meanwhile, when they are due."""
         if not self._stepping.acquire(blocking=False):
             raise CommandRefused("a step is already in progress")
         try:

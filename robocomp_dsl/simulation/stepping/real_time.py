@@ -1,7 +1,7 @@
 """Advances a world by the wall clock, in a thread of its own.
 
 In: a world and a requested speed. Out: simulated time, and the real-time factor. After a visitor
-has held the lock, maybe with a command, the next step follows immediately: the world may be one
+has held the lock, perhaps with a command, the next step follows immediately: the world may be one
 step ahead.
 """
 
@@ -19,7 +19,7 @@ SLICE_S = 0.002
 """Wall time between two turns of the physics [s]."""
 
 MAX_CATCH_UP_S = 0.1
-"""Largest delay to catch up with [s]; after a longer one the machine was suspended."""
+"""Maximum delay to catch up with [s]; after a longer one the machine was suspended."""
 
 
 class RealTimeDriver(Pausable):

@@ -1,1 +1,1 @@
-"""Models made visible: pictures without a screen, and a scene in the browser."""
+"""Displays models: offscreen pictures, and a 3D view in the browser."""

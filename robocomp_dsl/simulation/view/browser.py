@@ -1,7 +1,7 @@
-"""A model in the browser, on this machine alone.
+"""A model in the browser, on this machine only.
 
-In: a model, its state, a port. Out: a page at 127.0.0.1 that shows them, with all it needs; what is
-changed there changes the state. Needs the extra `view`.
+In: a model, its state, a port. Out: a self-contained page at 127.0.0.1 that shows them; changes on
+the page change the state. Needs the extra `view`.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ DEFAULT_VIEWPOINT = Viewpoint()
 LOOPBACK = "127.0.0.1"
 _DIRECTION = np.array([-0.6, -0.75, 0.5])
 _PICTURES = 30.0  # per second
-_MOST_BEHIND = 0.1  # s that running physics makes up for
+_MOST_BEHIND = 0.1  # s: maximum delay that running physics catches up with
 
 
 class BrowserPage:
     """Open until `close`. `model` and `data` belong to it, or are used under `controls.lock`.
 
     To show another state: set joints in `data`, call `mujoco.mj_kinematics`, and then
-    `refresh`; or `follow` with the poses themselves. `remote` holds a world that runs elsewhere.
+    `refresh`; or pass poses to `follow`. `remote` controls a world in another process.
     """
 
     def __init__(
@@ -54,11 +54,11 @@ class BrowserPage:
     ) -> None:
         self._look, self._remote = look, remote
         self._points: dict[str, tuple[str, Floats, Colours, float]] = {}
-        port = _free(port)  # viser would silently take another one
+        port = _free(port)  # viser would silently use another port
         logging.getLogger("websockets").setLevel(logging.ERROR)
-        rich.get_console().quiet = True  # viser greets with a panel of its own
+        rich.get_console().quiet = True  # viser shows a panel of its own at first
         self._server = viser.ViserServer(host=LOOPBACK, port=port, label=name, verbose=False)
-        # a page could ask for a tunnel to a server elsewhere
+        # a page could request a tunnel to an external server
         self._server.request_share_url = _no_tunnel  # type: ignore[method-assign]
         self.url = f"http://{LOOPBACK}:{self._server.get_port()}"
         self._server.gui.configure_theme(show_logo=False, show_share_button=False)
@@ -67,7 +67,7 @@ class BrowserPage:
         self.show(model, data)
 
     def show(self, model: Any, data: Any) -> None:
-        """Another model, in place of the one before."""
+        """Replace the model."""
         self.model, self.data = model, data
         self._server.scene.reset()
         self._server.gui.reset()
@@ -86,12 +86,12 @@ class BrowserPage:
         camera.position = tuple((middle + away * 0.9 * _DIRECTION).tolist())
 
     def refresh(self) -> None:
-        """Show the state as it is now."""
+        """Show the current state."""
         with self.controls.lock:
             self.update(capture(self.model, self.data))
 
     def update(self, seen: VisualState) -> None:
-        """Show another visual state of the same model."""
+        """Show a visual state of the same model."""
         with self.controls.lock:
             self.data.qpos[:] = seen.positions
             self.stage.update(seen)
@@ -100,9 +100,9 @@ class BrowserPage:
     def show_points(
         self, name: str, body: str, points: Floats, colours: Colours, size: float = 0.004
     ) -> None:
-        """Coloured points on a body, or other colours of those: see `Stage.show_points`.
+        """Show coloured points on a body, or change their colours: see `Stage.show_points`.
 
-        They are there as long as the body is, also in another model.
+        They remain as long as the body exists, also in another model.
         """
         with self.controls.lock:
             self._points[name] = (body, points, colours, size)
@@ -123,14 +123,14 @@ class BrowserPage:
                 self.refresh()
 
     def close(self) -> None:
-        """The page is gone."""
+        """Close the page."""
         self._server.stop()
 
 
 def serve(
     name: str, model: Any, data: Any, look: Viewpoint, port: int, say: Callable[[str], None]
 ) -> None:
-    """Show the model until Ctrl-C. Raises `OSError` when the port is taken."""
+    """Show the model until Ctrl-C. Raises `OSError` if the port is in use."""
     page = BrowserPage(name, model, data, look, port=port)
     say(page.url)
     try:
@@ -140,7 +140,7 @@ def serve(
 
 
 def _no_tunnel(verbose: bool = True) -> None:
-    """Nothing leaves this machine."""
+    """Disable all requests to other machines."""
 
 
 def _free(port: int) -> int:

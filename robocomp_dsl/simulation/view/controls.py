@@ -23,11 +23,11 @@ from robocomp_dsl.simulation.world.visual_state import capture
 
 _MOST_SLIDERS = 80
 _HELD_S = 1.0
-"""A slider that was moved stays for so long before it shows where the joint is."""
+"""Time after a slider was moved until it shows the joint's position again."""
 
 
 class Controls:
-    """`lock` guards `data`; `running` is whether time shall pass."""
+    """`lock` guards `data`; `running`: whether time advances."""
 
     def __init__(
         self,
@@ -54,7 +54,7 @@ class Controls:
         with tabs.add_tab("Nodes"):
             self._nodes()
 
-    # -- what is shown ------------------------------------------------------------------------
+    # -- display ------------------------------------------------------------------------------
 
     def _view(self, look: Viewpoint) -> None:
         stage = self.stage
@@ -99,7 +99,7 @@ class Controls:
             self._quiet = False
 
     def reset(self) -> None:
-        """The joints as at the start, at rest."""
+        """Reset the joints to the start, at rest."""
         if self._remote:
             self._remote.reset()
             return
@@ -114,7 +114,7 @@ class Controls:
         self.tell()
 
     def tell(self) -> None:
-        """Show on the sliders where the joints are."""
+        """Show the joints' positions on the sliders."""
         self._quiet = True
         now = time.monotonic()
         for slider, address in self._sliders:
@@ -200,7 +200,7 @@ class Controls:
             self.gui.add_markdown(tree(self.model, names))
 
     def place(self, body: int, position: Any, quat: Any) -> None:
-        """Put a body elsewhere in its parent; one that is free is moved where it is."""
+        """Set the pose of a body in its parent; a free body is moved by its joint."""
         if self._remote:
             self._remote.place(self.stage.names[body], np.asarray(position), np.asarray(quat))
             return
@@ -212,7 +212,7 @@ class Controls:
         self._changed()
 
     def _stands(self, body: int) -> tuple[Floats, Floats]:
-        """Place and quaternion in the parent, as the model has it; elsewhere: as it is now."""
+        """Position and quaternion in the parent: of the model, or received if it is remote."""
         if self._remote:
             return self.stage.relative[body, :3], self.stage.relative[body, 3:]
         return self.model.body_pos[body], self.model.body_quat[body]

@@ -1,8 +1,8 @@
 """Shows a running simulation on a browser page, refreshed 20 times a second.
 
-In: proxies of `Simulation` and `InnerModelManager`, served by any component. Out: a page
-that follows: switches pause time, sliders move joints, numbers place nodes. When the simulation has
-other nodes or is restarted, the page is rebuilt.
+In: proxies of `Simulation` and `InnerModelManager`, served by any component. Out: a page that
+follows the simulation: switches pause time, sliders move joints, numbers place nodes. When the
+nodes of the simulation change or it restarts, the page is rebuilt.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from collections.abc import Callable
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.simulation.simulation_interface import InnerModelManagerProxy, SimulationProxy
 from robocomp_dsl.simulation.view.browser import DEFAULT_VIEWPOINT, BrowserPage
+from robocomp_dsl.simulation.view.live_state import LiveState, fetch_live_state
 from robocomp_dsl.simulation.view.picture import Viewpoint
 from robocomp_dsl.simulation.view.remote_simulation import RemoteSimulation
-from robocomp_dsl.simulation.view.running import LiveState, fetch_live_state
 
 REFRESH_HZ = 20.0  # per second
 CALL_TIMEOUT_S = 2.0
@@ -25,9 +25,9 @@ log = logging.getLogger("robocomp.view")
 
 
 class LivePage:
-    """Open until `close`; without `nodes` no nodes can be placed.
+    """Open until `close`; without `nodes` nodes cannot be moved.
 
-    Raises as `fetch_live_state` does, and `OSError` when the port is taken.
+    Raises the errors of `fetch_live_state`, and `OSError` if the port is in use.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class LivePage:
             self.page.controls.show_status("  \n".join(filter(None, lines)), running=not it.paused)
 
     def run(self, keep_running: Callable[[], bool] = lambda: True) -> None:
-        """Follow until `keep_running` says no. Raises `UnsupportedSimulation`."""
+        """Follow until `keep_running` returns False. Raises `UnsupportedSimulation`."""
         while keep_running():
             time.sleep(1 / REFRESH_HZ)
             self.refresh()

@@ -1,6 +1,6 @@
 """Describes the nodes of a model, for panels.
 
-In: a model. Out: the tree of its bodies as Markdown, what moves them, turns as people write them.
+In: a model. Out: the tree of its bodies as Markdown, their joints, rotations as Euler angles.
 """
 
 from __future__ import annotations
@@ -41,15 +41,15 @@ def tree(model: Any, names: list[str]) -> str:
 
 
 def moves(model: Any, body: int) -> str:
-    """The kinds of the joints that move a body, in words."""
+    """The kinds of the joints that move a body, as text."""
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     kinds = [kind_of(model, j) for j in range(first, first + count)]
     return ", ".join(kinds) or "fixed"
 
 
 def kind_of(model: Any, joint: int) -> str:
-    """The kind of a joint, in one word."""
-    # a number of numpy is never equal to one of MuJoCo's
+    """The kind of a joint, as one word."""
+    # numpy integers never compare equal to MuJoCo's enumerators
     return _KINDS[int(model.jnt_type[joint])]
 
 

@@ -1,7 +1,7 @@
 """Offscreen OpenGL: by EGL, or else by OSMesa, which renders on the CPU.
 
-In: nothing. Out: a MuJoCo context, or `NoRendering`, which says what to install. The libraries are
-probed before Python's OpenGL is loaded, because that can be loaded for one of the two only.
+In: nothing. Out: a MuJoCo context, or `NoRendering`, whose message says what to install. The
+libraries are probed before Python's OpenGL is loaded, because it can use only one of them.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Pictures of a model, made by MuJoCo without a screen.
+"""Offscreen pictures of a model, rendered by MuJoCo.
 
-In: `MjModel` and `MjData`, a size, where to look from. Out: pixels, or a PNG file.
+In: `MjModel` and `MjData`, a size, a viewpoint. Out: pixels, or a PNG file.
 """
 
 from __future__ import annotations
@@ -27,19 +27,19 @@ _MOST_GEOMS = 200_000
 _FRAME = mujoco.mjtFrame
 _LABEL = mujoco.mjtLabel
 SCREEN = ".screen"
-"""Behind the names of textures that change while they are being looked at."""
+"""Suffix of the names of textures that change at run time."""
 _SKY = 0.4
-"""Of the way to the far plane: the box of the sky is not nearer, scenes are much smaller."""
+"""Share of the far plane's distance: the sky box is not nearer, scenes are much smaller."""
 LARGEST = 8192
-"""Pixels along one side."""
+"""Maximum pixels per side."""
 
 
 @dataclass(frozen=True, slots=True)
 class Viewpoint:
-    """The viewpoint, and what to show besides shapes.
+    """The viewpoint, and the items shown besides shapes.
 
-    `azimuth` and `elevation` are in degrees as MuJoCo counts them; at a `distance` of 1 the ball
-    around all shapes just fits, planes left out. `camera` is the name of one in the model, instead.
+    `azimuth` and `elevation` are in degrees, in MuJoCo's convention; at a `distance` of 1 the ball
+    around all shapes except planes just fits. `camera` names a camera of the model to use instead.
     """
 
     azimuth: float = 120.0
@@ -52,7 +52,7 @@ class Viewpoint:
 
 
 class Renderer:
-    """Draws one model; a context manager. Raises `NoRendering`."""
+    """Renders one model; a context manager. Raises `NoRendering`."""
 
     def __init__(self, model: Any, width: int = 1280, height: int = 960) -> None:
         if not (0 < width <= LARGEST and 0 < height <= LARGEST):
@@ -102,7 +102,7 @@ class Renderer:
         return pixels[::-1]
 
     def _refresh(self) -> None:
-        """Screens that show something else than they did are seen so from now on."""
+        """Update the textures of screens whose image has changed."""
         for texture, known in self._screens.items():
             now = _checksum(self.model, texture)
             if now != known:
@@ -110,7 +110,7 @@ class Renderer:
                 mujoco.mjr_uploadTexture(self.model, self._context, texture)
 
     def depths(self) -> NDArray[np.float32]:
-        """Depth of the last image [m], infinite where nothing is.
+        """Depth of the last image [m], infinite without an object.
 
         Shape (height, width). From window coordinates with 1 at the near plane and 0 at the far
         one, d = n·f / (w·(f - n) + n).
@@ -158,7 +158,7 @@ def _checksum(model: Any, texture: int) -> int:
 
 
 def scene_extent(model: Any, data: Any) -> tuple[Floats, Floats]:
-    """The corners of the box around all shapes but planes; around the frames if there are none."""
+    """The corners of the bounding box of all shapes but planes; of the frames if there are none."""
     if not model.ngeom or (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).all():
         return data.xpos.min(axis=0) - 0.5, data.xpos.max(axis=0) + 0.5
     real = np.flatnonzero(model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE)
@@ -169,7 +169,7 @@ def scene_extent(model: Any, data: Any) -> tuple[Floats, Floats]:
 
 
 def add_lighting(spec: Any) -> None:
-    """Give a model that has no light and no sky both, so that pictures of it are not black."""
+    """Add light and sky to a model that has neither, so that its pictures are not black."""
     if not len(spec.lights):
         spec.visual.headlight.ambient = [0.5, 0.5, 0.5]
         spec.visual.headlight.diffuse = [0.6, 0.6, 0.6]
@@ -204,7 +204,7 @@ def png(pixels: Pixels) -> bytes:
 
 
 def save(path: Path, pixels: Pixels) -> None:
-    """Write a PNG file, whole or not at all. Raises `OSError`."""
+    """Write a PNG file atomically. Raises `OSError`."""
     part = path.with_name(path.name + ".part")
     part.write_bytes(png(pixels))
     part.replace(path)

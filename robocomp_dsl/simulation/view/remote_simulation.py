@@ -1,7 +1,7 @@
-"""A simulation on a world that runs elsewhere: its time, its joints, its nodes.
+"""Controls a simulation in another process: its time, joints and nodes.
 
-In: what is wished on a page, in MuJoCo's numbers. Out: calls of `Simulation` and
-`InnerModelManager`; what does not work out is said, and not raised.
+In: requests of a page, in MuJoCo's units. Out: calls of `Simulation` and `InnerModelManager`;
+failures are reported, not raised.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class SimulationControl(Protocol):
         """Set the requested speed."""
 
     def move(self, joint: str, value: float, turns: bool) -> None:
-        """Move a joint to a position in rad, or m if it is a slide."""
+        """Move a joint to a position in rad, or m for a slide."""
 
     def place(self, body: str, position: Floats, quat: Floats) -> None:
         """Set the pose of a body in its parent: m, (w, x, y, z)."""
@@ -88,7 +88,7 @@ class RemoteSimulation:
         self._try(partial(self._simulation.setSpeed, speed))
 
     def move(self, joint: str, value: float, turns: bool) -> None:
-        """See `SimulationControl`: its motor takes it there."""
+        """See `SimulationControl`: the joint's motor moves it."""
         goal = np.array([value if turns else value / axes.MM])
         self._try(partial(self._simulation.move, 0, [joint], goal))
 
@@ -103,7 +103,7 @@ class RemoteSimulation:
         if self._nodes is None:
             self.error = "nodes cannot be placed from here"
             return
-        # the root of MuJoCo has taken the name `world`
+        # MuJoCo's root body uses the name `world`
         self._try(partial(self._nodes.setPoseFromParent, body.removesuffix("."), pose))
 
     def _try(self, ask: Callable[[], Any]) -> None:
@@ -116,5 +116,5 @@ class RemoteSimulation:
 
 
 def _error_text(error: Exception) -> str:
-    """The text of a declared exception is in `what` or `text`."""
+    """The message of a declared exception is in `what` or `text`."""
     return str(getattr(error, "what", "") or getattr(error, "text", "") or error)

@@ -1,6 +1,6 @@
-"""Geoms of a MuJoCo model as triangles and colours, for viewers that know no primitives.
+"""Geoms of a MuJoCo model as triangles and colours, for viewers without primitives.
 
-In: an `MjModel` and the number of a geom. Out: points in the geom's frame, in m, and faces.
+In: an `MjModel` and the index of a geom. Out: points in the geom's frame, in m, and faces.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ _GEOM = mujoco.mjtGeom
 _AROUND = 24
 _ARC = 8
 _ENDLESS = 50.0
-"""m: extent of a plane that has no end."""
+"""m: displayed extent of an infinite plane."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -29,7 +29,7 @@ class Triangles:
 
 
 def triangles(model: Any, geom: int) -> Triangles | None:  # noqa: PLR0911 - one for each kind
-    """The surface of a geom; None for kinds that have none."""
+    """The surface of a geom; None for kinds without one."""
     size = model.geom_size[geom]
     match int(model.geom_type[geom]):
         case _GEOM.mjGEOM_PLANE:
@@ -58,7 +58,7 @@ def triangles(model: Any, geom: int) -> Triangles | None:  # noqa: PLR0911 - one
 
 
 def colour(model: Any, geom: int) -> tuple[int, int, int, float]:
-    """Red, green, blue 0 to 255, and how opaque it is; of a texture the mean."""
+    """Red, green, blue 0 to 255, and the opacity; the mean colour of a texture."""
     material = int(model.geom_matid[geom])
     rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
     rgb = rgba[:3]
@@ -91,7 +91,7 @@ def _arc(low: float, high: float) -> NDArray[np.float64]:
 
 
 def _lathe(profile: NDArray[np.float64]) -> Triangles:
-    """What (r, z) points sweep that go round z, from below to above."""
+    """The surface of revolution of (r, z) points about z, from bottom to top."""
     turn = np.arange(_AROUND) * (2 * math.pi / _AROUND)
     ring = np.stack((np.cos(turn), np.sin(turn)), axis=1)
     points = [np.column_stack((max(r, 0.0) * ring, np.full(_AROUND, z))) for r, z in profile]

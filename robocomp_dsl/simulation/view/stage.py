@@ -1,7 +1,7 @@
-"""A model as nodes of a viser scene, which follow its state.
+"""A model as nodes of a viser scene that follow its state.
 
-In: a viser server, a model, and its visual state. Out: one node per body under that
-of its parent, so that the viewer's own tree is the model's; shapes, labels, points and contacts.
+In: a viser server, a model, and its visual state. Out: one node per body under its parent's node,
+so that the viewer's tree matches the model; shapes, labels, points and contacts.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 Colours = NDArray[np.uint8]
 
 _INVISIBLE_GROUPS = 3
-"""Groups from this one on are hidden, as MuJoCo's own viewer has it."""
+"""Groups from this index on are hidden, as in MuJoCo's own viewer."""
 
 
 class Stage:
@@ -46,7 +46,7 @@ class Stage:
 
     @property
     def names(self) -> list[str]:
-        """Of the bodies, by number; those without one are numbered."""
+        """Names of the bodies; unnamed ones get their index."""
         return [self.model.body(i).name or f"body{i}" for i in range(self.model.nbody)]
 
     def _frame(self, body: int) -> Any:
@@ -103,7 +103,7 @@ class Stage:
     ) -> None:
         """Points (n, 3) in the frame of a body, in m, with colours (n, 3); they move with it.
 
-        Called again under the same name it changes them. Raises `KeyError` for no such body.
+        A second call with the same name changes them. Raises `KeyError` for an unknown body.
         """
         at = f"{self.paths[self.model.body(body).id]}/{_safe(name)}:points"
         known = self._clouds.get(at)
@@ -121,7 +121,7 @@ class Stage:
             )
 
     def show_contacts(self, on: bool) -> None:
-        """Points that touch, and an arrow along the normal of each."""
+        """Contact points, with an arrow along the normal of each."""
         self._contacts_on = on
         self._touch()
 
@@ -144,9 +144,9 @@ class Stage:
 
 
 def relative_poses(model: Any, poses: Floats) -> Floats:
-    """Place and quaternion (w, x, y, z) of every body in its parent, shape (nbody, 7).
+    """Position and quaternion (w, x, y, z) of every body in its parent, shape (nbody, 7).
 
-    `poses` are those in the world, of the same shape.
+    `poses` are the poses in the world, of the same shape.
     """
     above = poses[model.body_parentid]
     back = above[:, 3:] * (1, -1, -1, -1)
@@ -157,14 +157,14 @@ def relative_poses(model: Any, poses: Floats) -> Floats:
 
 
 def _product(first: Floats, other: Floats) -> Floats:
-    """Hamilton's, of quaternions (w, x, y, z), row by row."""
+    """Hamilton product of quaternions (w, x, y, z), row by row."""
     a, u, b, v = first[:, :1], first[:, 1:], other[:, :1], other[:, 1:]
     real = a * b - (u * v).sum(axis=1, keepdims=True)
     return np.concatenate((real, a * v + b * u + np.cross(u, v)), axis=1)
 
 
 def _paths(model: Any) -> list[str]:
-    """A node's name in viser says where it hangs: `/base/arm/hand`."""
+    """The name of a node in viser contains its path: `/base/arm/hand`."""
     paths = ["/world"]
     for i in range(1, model.nbody):
         name = _safe(model.body(i).name or f"body{i}")

@@ -1,4 +1,4 @@
-"""Memory for models of many bodies."""
+"""Memory for models with many bodies."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Hosts the devices of a deployment on the boards of a simulated world.
 
-In: a simulation. Out: the parts of its board by name, as its ports are called, and the chains of
-joints to a tip.
+In: a simulation. Out: the parts of its board by port name, and the chains of joints to a tip.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ from robocomp_dsl.simulation.world.simulation import Simulation
 _SLICE = 0.01
 
 UNGROUPED = "ControlBoard"
-"""The part of the joints that are in no group."""
+"""The part of the joints without a group."""
 
 
 class SimulatedDeviceHost(DeviceHost):
@@ -42,7 +41,7 @@ class SimulatedDeviceHost(DeviceHost):
         )
 
     def stop(self, advance: Callable[[], object] | None = None) -> None:
-        """Park and close all; a world on a deployment clock advances meanwhile."""
+        """Park and close all devices; a world on a deployment clock advances meanwhile."""
         super().stop(advance or (self._advance if self._simulation.on_deployment_clock else None))
 
     def _advance(self) -> None:
@@ -51,7 +50,7 @@ class SimulatedDeviceHost(DeviceHost):
 
 
 def board_parts(simulation: Simulation) -> dict[str, BoardPart]:
-    """Groups of joints as they are served, by the names of their ports."""
+    """Groups of joints by the names of their ports."""
     found = (device for device in simulation.devices.values() if isinstance(device, JointBoard))
     board = next(found, None)
     if board is None:
@@ -80,7 +79,7 @@ def _chain(
 
 
 def _known(model: Any, name: str) -> str:
-    """The MuJoCo name of a body or site: that of the model file, or of a frame of the scene."""
+    """The MuJoCo name of a body or site of the model file, or of a frame of the scene."""
     called = body_name(name)
     body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, called) if name else -1
     return called if body >= 0 else name

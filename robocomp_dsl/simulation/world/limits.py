@@ -1,7 +1,7 @@
 """Clamps the numbers of a scene to values that can be simulated.
 
-In: a scene. Out: the scene with clamped numbers, and a note on each. 0 stays where it means the
-default, and infinity where it means no limit.
+In: a scene. Out: the scene with clamped numbers, and a note on each. 0 is unchanged if it means the
+default, and infinity if it means no limit.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ SHAPES: Mapping[str, ValueRange] = {
     "normal": _FAR,
     "mass": ValueRange(0, 1e6),
 }
-"""The fields of frames, boxes and meshes; their sizes have limits where they are built."""
+"""The fields of frames, boxes and meshes; other limits of their sizes apply when they are built."""
 
 MOTIONS: Mapping[str, ValueRange] = {
     "low": _WAY,

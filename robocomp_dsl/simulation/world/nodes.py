@@ -1,20 +1,20 @@
-"""The nodes of a running world: where they are, and changes of them, physics going on.
+"""The nodes of a running world: their poses, and changes at run time.
 
-In: a simulation, whose turn it is. Out: poses in RoboComp's frame, another scene. A frame without a
-joint is changed in the model directly; for everything else the world is rebuilt with its state
-(some ms, more with many meshes). Every function may raise `NodeError`.
+In: a simulation whose lock is held. Out: poses in RoboComp's frame, or a changed scene. A frame
+without a joint is changed in the model directly; for all other changes the world is rebuilt with
+its state (some ms, more with many meshes). Every function may raise `NodeError`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import mujoco
 import numpy as np
 
-from robocomp_dsl.hardware.description.scene import ROOT, Frame
+from robocomp_dsl.hardware.description.scene import ROOT, Frame, Scene
 from robocomp_dsl.hardware.description.scene_edit import (
     NodeError,
     NodeErrorCode,
@@ -25,19 +25,28 @@ from robocomp_dsl.hardware.description.scene_edit import (
 from robocomp_dsl.hardware.devices.errors import require_finite
 from robocomp_dsl.hardware.kinematics.rotations import Matrix, angles, inverse, pose_rows
 from robocomp_dsl.simulation.scene import axes
-
-if TYPE_CHECKING:
-    from robocomp_dsl.simulation.world.simulation import Simulation
+from robocomp_dsl.simulation.world.state import SimulationState
 
 NAMES = ("x", "y", "z", "rx", "ry", "rz")
 
 
-def between(simulation: Simulation, base: str, item: str) -> Matrix:
+class ChangeableWorld(Protocol):
+    """A simulation, as far as changes of its nodes need it."""
+
+    state: SimulationState
+
+    def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
+        """Switch to another scene; what is in both keeps its state, except `forget`."""
+
+    def switch_to(self, branch: SimulationState) -> None:
+        """Continue from another state."""
+
+
+def between(state: SimulationState, base: str, item: str) -> Matrix:
     """The transform of points from the frame `item` to the frame `base`, shape (4, 4), mm."""
-    branch = simulation.state
     for name in (base, item):
-        frame_of(branch.scene, name)
-    relative: Matrix = inverse(branch.matrix(base)) @ branch.matrix(item)
+        frame_of(state.scene, name)
+    relative: Matrix = inverse(state.matrix(base)) @ state.matrix(item)
     return relative
 
 
@@ -54,15 +63,18 @@ def matrix_of(pose: Sequence[float]) -> Matrix:
     return matrix
 
 
-def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -> None:
-    """Put the frame `item` where `pose` in `base` is."""
-    frame = frame_of(simulation.state.scene, item)
+def place(simulation: ChangeableWorld, base: str, item: str, pose: Sequence[float]) -> None:
+    """Set the pose of the frame `item` in `base`."""
+    state = simulation.state
+    frame = frame_of(state.scene, item)
     if frame.id == ROOT:
         raise NodeError(NodeErrorCode.WRONG_NODE, "the root stays where it is")
     if frame.model_part:
-        _place_given(simulation, frame, between(simulation, ROOT, base) @ matrix_of(pose))
+        _place_given(
+            simulation.state, frame, between(simulation.state, ROOT, base) @ matrix_of(pose)
+        )
         return
-    in_parent = between(simulation, frame.parent, base) @ matrix_of(pose)
+    in_parent = between(simulation.state, frame.parent, base) @ matrix_of(pose)
     parent = pose_of(in_parent)
     x, y, z, rx, ry, rz = parent
     changed = replace(frame, place=(x, y, z), turn=(rx, ry, rz))
@@ -72,12 +84,11 @@ def place(simulation: Simulation, base: str, item: str, pose: Sequence[float]) -
         _place_body(simulation, changed, in_parent)
 
 
-def _place_given(simulation: Simulation, frame: Frame, in_root: Matrix) -> None:
-    """Move a body of a model file: `mocap` bodies, and free ones."""
+def _place_given(branch: SimulationState, frame: Frame, in_root: Matrix) -> None:
+    """Move a body of a model file: `mocap` or free bodies."""
     if frame.model_part == "joint":
         message = f"`{frame.id}` is a joint of the model file: JointMotor and ControlBoard move it"
         raise NodeError(NodeErrorCode.WRONG_NODE, message)
-    branch = simulation.state
     model, data = branch.world.model, branch.world.data
     position = axes.point(*in_root[:3, 3].tolist())
     turned = axes.quaternion(in_root[:3, :3])
@@ -96,13 +107,13 @@ def _place_given(simulation: Simulation, frame: Frame, in_root: Matrix) -> None:
     mujoco.mj_forward(model, data)
 
 
-def _place_joint(simulation: Simulation, frame: Frame) -> None:
+def _place_joint(simulation: ChangeableWorld, frame: Frame) -> None:
     """Reset the joint to the angle of its pose."""
     simulation.rebuild(replace_frame(simulation.state.scene, frame), forget=(frame.id,))
     simulation.state.devices[frame.id].update_frame(frame.id)
 
 
-def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None:
+def _place_body(simulation: ChangeableWorld, frame: Frame, in_parent: Matrix) -> None:
     branch = simulation.state
     model, data = branch.world.model, branch.world.data
     body = branch.body(frame.id)
@@ -123,11 +134,10 @@ def _place_body(simulation: Simulation, frame: Frame, in_parent: Matrix) -> None
     simulation.switch_to(branch)
 
 
-def touching(simulation: Simulation, first: str, other: str) -> bool:
-    """Whether a shape at or below one node touches or enters one at or below the other."""
-    left, right = (_geoms(simulation, node) for node in (first, other))
-    world = simulation.state.world
-    model, data = world.model, world.data
+def touching(state: SimulationState, first: str, other: str) -> bool:
+    """Whether a shape in one subtree touches or penetrates one in the other."""
+    left, right = (_geoms(state, node) for node in (first, other))
+    model, data = state.world.model, state.world.data
     if not len(left) or not len(right):
         return False
     apart = np.linalg.norm(data.geom_xpos[left][:, None] - data.geom_xpos[right][None], axis=2)
@@ -139,12 +149,11 @@ def touching(simulation: Simulation, first: str, other: str) -> bool:
     return False
 
 
-def _geoms(simulation: Simulation, id: str) -> Any:
-    below = subtree(simulation.state.scene, id)
-    branch = simulation.state
-    model = branch.world.model
-    held = (body for body in branch.scene.frames if body.model_part in {"", "body"})
-    bodies = {branch.body(body.id) for body in held if body.id in below}
+def _geoms(state: SimulationState, id: str) -> Any:
+    below = subtree(state.scene, id)
+    model = state.world.model
+    frames = (frame for frame in state.scene.frames if frame.model_part in {"", "body"})
+    bodies = {state.body(frame.id) for frame in frames if frame.id in below}
     chosen = [
         geom
         for geom in range(model.ngeom)

@@ -13,7 +13,7 @@ class NoiseLevel:
         self.set(factor)
 
     def set(self, factor: float) -> None:
-        """Change it. Raises `CommandRefused` for a negative one and for NaN."""
+        """Set the level. Raises `CommandRefused` for negative values and NaN."""
         require_finite(noise=factor)
         if factor < 0:
             raise CommandRefused(f"`noise` is {factor:g}, it cannot be negative")

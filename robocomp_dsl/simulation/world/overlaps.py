@@ -1,7 +1,7 @@
 """Finds bodies that overlap.
 
-In: a compiled model, or a world in some state. Out: findings, the deepest first. Contacts are what
-MuJoCo makes of the shapes: pairs that it excludes (a body and its parent) are not reported.
+In: a compiled model, or a world in some state. Out: findings, the deepest first. Based on MuJoCo's
+contacts: pairs that it excludes (a body and its parent) are not reported.
 """
 
 from __future__ import annotations
@@ -10,15 +10,16 @@ from typing import Any
 
 import mujoco
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
+from robocomp_dsl.hardware.description.findings import model_finding
 from robocomp_dsl.simulation.models.mjcf_spec import error_with_line
 
 _MOST = 10
 _LEAST = 1e-4
-"""m: less is normal contact."""
+"""m: smaller overlaps are normal contacts."""
 
 
-def overlaps(model: Any) -> list[ModelFinding]:
+def overlaps(model: Any) -> list[Finding]:
     """Bodies that overlap at the start, at most ten pairs. Raises `ModelFileError`.
 
     The start is the first key frame, if there is one.
@@ -33,7 +34,7 @@ def overlaps(model: Any) -> list[ModelFinding]:
     return current_overlaps(model, data)
 
 
-def current_overlaps(model: Any, data: Any) -> list[ModelFinding]:
+def current_overlaps(model: Any, data: Any) -> list[Finding]:
     """Bodies that overlap in the state `data`, at most ten pairs."""
     deepest: dict[tuple[str, str], float] = {}
     for contact in data.contact:
@@ -42,14 +43,16 @@ def current_overlaps(model: Any, data: Any) -> list[ModelFinding]:
         deepest[first, other] = min(deepest.get((first, other), 0.0), float(contact.dist))
     ordered = sorted(deepest.items(), key=lambda item: item[1])
     return [
-        ModelFinding("overlap", first, f"`{first}` and `{other}` overlap by {-depth * 1000:.3g} mm")
+        model_finding(
+            "overlap", first, f"`{first}` and `{other}` overlap by {-depth * 1000:.3g} mm"
+        )
         for (first, other), depth in ordered[:_MOST]
         if depth < -_LEAST
     ]
 
 
 def _name(model: Any, geom: int) -> str:
-    """The name of the body; for the world itself the name of the shape."""
+    """The name of the body, or of the shape if it belongs to the world."""
     body = int(model.geom_bodyid[geom])
     name = model.body(body).name if body else model.geom(geom).name or "world"
     return name.removesuffix(".") or f"body{body}"

@@ -1,7 +1,7 @@
 """A running simulation of a scene, in real time or on the clock of its deployment.
 
 In: a scene and options. Out: `devices` to serve, guarded by `lock`: hold it to access the world
-while it runs. A world that has diverged is reset or stopped, as the options say.
+while it runs. A world that has diverged is reset or stopped, depending on the options.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
-from robocomp_dsl.hardware.description.findings import ModelFinding
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import (
     CommandRefused,
@@ -49,7 +49,7 @@ _MAX_EARLY_FAILURES = 3
 """Consecutive early failures before the simulation stops."""
 
 WORLD = ""
-"""The world itself among the devices."""
+"""Id of the world itself among the devices."""
 
 log = logging.getLogger("robocomp.simulation")
 
@@ -58,9 +58,9 @@ log = logging.getLogger("robocomp.simulation")
 class SimulationOptions:
     """How a world runs.
 
-    `step` of the physics in s; `speed` in simulated seconds per second, 0: as fast as possible;
-    `noise` is a factor on what the devices declare; `skin` is how all skin in it is set up;
-    `reference_timeout` is the time-out of streamed joint references [s], 0: none.
+    `step`: physics time step in s; `speed`: simulated seconds per second, 0: as fast as possible;
+    `noise`: factor on the declared noise of devices; `skin`: settings of all skin;
+    `reference_timeout`: time-out of streamed joint references [s], 0: none.
     """
 
     seed: int = 1
@@ -73,7 +73,7 @@ class SimulationOptions:
 
 
 class Simulation:
-    """Not running until `start`; the content of `devices` changes with the scene."""
+    """Stopped until `start`; the content of `devices` changes with the scene."""
 
     def __init__(self, scene: Scene, options: SimulationOptions = SimulationOptions()) -> None:
         self._scene = scene
@@ -96,7 +96,7 @@ class Simulation:
 
     @classmethod
     def read(cls, path: Path, options: SimulationOptions = SimulationOptions()) -> Simulation:
-        """The scene in a JSON file that `rcgen simulator` wrote. Raises `SceneError`."""
+        """The scene in a JSON file written by `rcgen simulator`. Raises `SceneError`."""
         return cls(Scene.of_data(read_data(path)["scene"], path.parent), options)
 
     # -- while the caller holds the lock ------------------------------------------------------
@@ -118,7 +118,7 @@ class Simulation:
 
     @property
     def world(self) -> World:
-        """The physics as it is now."""
+        """The current physics."""
         return self.state.world
 
     @property
@@ -128,7 +128,7 @@ class Simulation:
 
     @property
     def dt(self) -> float:
-        """Length of one step of the physics in s."""
+        """Physics time step in s."""
         return self.world.step
 
     @property
@@ -147,13 +147,13 @@ class Simulation:
         self.devices[WORLD] = self
         self._follow_skin(branch)
         for device in branch.devices.values():
-            if hasattr(device, "lock"):  # it reads the world in its own thread
+            if hasattr(device, "lock"):  # its thread reads the world
                 device.lock = self.lock
         self.set_reference_timeout(self._reference_timeout)
         self.failure = ""
 
     def _close_devices(self, besides: Mapping[str, Any]) -> None:
-        """Free the resources of all devices but those that `besides` lists."""
+        """Free the resources of all devices except those in `besides`."""
         used = {id(device) for device in besides.values()}
         for device in self.devices.values():
             if hasattr(device, "close") and id(device) not in used:
@@ -180,7 +180,7 @@ class Simulation:
         self.skin.configure(settings)
 
     def rebuild(self, scene: Scene, forget: Collection[str] = ()) -> None:
-        """Switch to another scene; what is in both keeps its state. Raises `SceneError`."""
+        """Switch to another scene; parts in both keep their state. Raises `SceneError`."""
         state = self._build(scene, self.state.devices, self.world, forget)
         self.revision += 1
         failure = self.failure
@@ -205,7 +205,7 @@ class Simulation:
             world = World(
                 spec, unique, seed=self.seed, before=before, forget=forget, start=scene.model
             )
-        except ValueError as error:  # MuJoCo refuses a body
+        except ValueError as error:  # MuJoCo rejects a body
             raise SceneError(f"MuJoCo cannot build the world: {error}") from None
         return SimulationState(scene, world, parts)
 
@@ -214,12 +214,12 @@ class Simulation:
         return self.state.fork(shared=(self.noise, self.lock))
 
     def set_physics(self, on: bool) -> None:
-        """Gravity and contacts, or neither."""
+        """Enable or disable gravity and contacts."""
         self.physics = on
         self.state.set_physics(on)
 
     def set_speed(self, speed: float) -> None:
-        """Simulated seconds per second; 0: as fast as possible. Raises `CommandRefused`."""
+        """Set the simulated seconds per second; 0: as fast as possible. Raises `CommandRefused`."""
         require_finite(speed=speed)
         if speed < 0:
             raise CommandRefused(f"`speed` is {speed:g}, it cannot be negative")
@@ -228,7 +228,7 @@ class Simulation:
     def advance(self, seconds: float) -> None:
         """Advance time. A world that diverges is reset or stopped, as configured.
 
-        One that diverges early after every reset is stopped, too.
+        One that diverges early after every reset is stopped.
         """
         self.raise_if_failed()
         try:
@@ -246,7 +246,7 @@ class Simulation:
         if self.failure:
             raise Diverged(self.failure)
 
-    def overlaps(self) -> list[ModelFinding]:
+    def overlaps(self) -> list[Finding]:
         """Bodies that overlap now, the deepest first."""
         return current_overlaps(self.world.model, self.world.data)
 
@@ -260,7 +260,7 @@ class Simulation:
     def serve(
         self, ports: Iterable[ServedPort], chosen: dict[str, list[str]]
     ) -> dict[str, DevicePort]:
-        """The ports of a component, answered by the devices that `chosen` lists for each."""
+        """The ports of a component, served by the devices that `chosen` lists for each."""
         servants = {**SERVANTS, **WORLD_SERVANTS}
         return serve(
             servants, ports, chosen, self.devices, self.lock, lambda: self.on_deployment_clock

@@ -1,7 +1,7 @@
 """The complete state of a simulation, for snapshots and forks.
 
-In: a state. Out: an independent copy, from the physics to the random generators, that shares only
-the objects in `shared`.
+In: a state. Out: an independent copy, including the physics and the random generators; only the
+objects in `shared` are shared.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from robocomp_dsl.simulation.world.world import World
 
 @dataclass(slots=True)
 class SimulationState:
-    """`devices` by their ids are parts of `world`, which was built from `scene`."""
+    """`devices` by id are parts of `world`, which was built from `scene`."""
 
     scene: Scene
     world: World
@@ -90,7 +90,7 @@ class SimulationState:
         return axes.matrix(data.xpos[body], data.xmat[body])
 
     def set_physics(self, on: bool) -> None:
-        """Gravity and contacts, or neither."""
+        """Enable or disable gravity and contacts."""
         off = mujoco.mjtDisableBit.mjDSBL_GRAVITY | mujoco.mjtDisableBit.mjDSBL_CONTACT
         flags = self.world.model.opt.disableflags
         self.world.model.opt.disableflags = flags & ~off if on else flags | off

@@ -1,7 +1,7 @@
 """The visual state of a world for remote viewers: the model once, then all poses.
 
-In: a model and its state; at the viewer the received bytes and numbers. Out: the same. Numbers are
-MuJoCo's: m, z up, quaternions w x y z.
+In: a model and its state; in the viewer the received bytes and numbers. Out: the same. Values are
+in MuJoCo's units: m, z up, quaternions w x y z.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 VERSION: str = mujoco.mj_versionString()
-"""Models can only be read by the same version of MuJoCo."""
+"""MuJoCo version; only the same version can read a model."""
 
 MOST_CONTACTS = 500
 
@@ -33,7 +33,7 @@ class VisualState:
 
 
 def capture(model: Any, data: Any) -> VisualState:
-    """The visual state of `data`; copies."""
+    """A copy of the visual state of `data`."""
     poses = np.empty((model.nbody, 7))
     poses[:, :3], poses[:, 3:] = data.xpos, data.xquat
     contacts = np.empty((min(data.ncon, MOST_CONTACTS), 6))

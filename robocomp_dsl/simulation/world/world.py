@@ -1,8 +1,8 @@
 """A simulated world: physics, time and the devices in it.
 
-In: a scene as `MjSpec` and devices that put their bodies into it. Out: `advance(seconds)`, after
-which the devices have new states. The same scene, devices, seed and commands give the same numbers,
-bit for bit.
+In: a scene as `MjSpec`, and devices that add their bodies to it. Out: `advance(seconds)`, after
+which the devices have new states. The same scene, devices, seed and commands give bit-identical
+numbers.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ _BAD = tuple(
 class WorldPart(Protocol):
     """A device in a world: first `build`, then `bind`.
 
-    A device that acts at every step has `before_step(dt)`, which drives its motors for
-    the next `dt` seconds, or `after_step(dt)`, which reads its sensors when these have passed.
+    A device that acts at every step has `before_step(dt)`, which drives its motors for the next
+    `dt` seconds, or `after_step(dt)`, which reads its sensors after these.
     """
 
     def build(self, spec: Any) -> None:
-        """Put bodies, joints and motors into `spec` (an `MjSpec`)."""
+        """Add bodies, joints and motors to `spec` (an `MjSpec`)."""
 
     def bind(self, model: Any, data: Any, random: np.random.Generator) -> None:
         """Find its elements in the compiled `MjModel` and `MjData`, at rest at time 0."""
@@ -45,11 +45,11 @@ class WorldPart(Protocol):
 class World:
     """Bodies under physics. Not thread-safe: one thread, or one lock, drives it.
 
-    `step` is the length of one step of the physics in s.
+    `step` is the physics time step in s.
 
-    `start` sets the initial state. A world that replaces another one (`before`) takes over its time
-    and the state of all joints of the same name except those in `forget`; parts of both are bound
-    again by `find`.
+    `start` sets the initial state. A world that replaces another one (`before`) continues its time
+    and the state of all joints of the same name except those in `forget`; devices of both worlds
+    are rebound by `find`.
     """
 
     def __init__(
@@ -86,7 +86,7 @@ class World:
             if part in previous:
                 previous[previous.index(part)].find(self.model, self.data)
                 continue
-            # a stream of its own for each, so that one device's noise does not shift another's
+            # separate random generators, so that devices do not affect each other's noise
             part.bind(self.model, self.data, np.random.default_rng([seed, i]))
 
     @property
@@ -96,13 +96,13 @@ class World:
 
     @property
     def advanced_to(self) -> float:
-        """The time to which it was advanced [s]: `time`, and a remainder below one step."""
+        """The time to which it was advanced [s]: `time` plus a remainder below one step."""
         return self.time + self._pending
 
     def advance(self, seconds: float) -> None:
         """Advance by `seconds`; a remainder below one step is kept for the next call.
 
-        Raises `Diverged` when the state holds a number that is not finite.
+        Raises `Diverged` if the state contains a number that is not finite.
         """
         self._pending += seconds
         dt = self.step
@@ -134,14 +134,14 @@ class World:
             model.opt.disableflags = flags
 
     def _set_start(self, start: Model) -> None:
-        """Joints and motors as the first key frame of a model file has them."""
+        """The initial joints and motors of a model file's first key frame."""
         for joint, places in start.start.items():
             self.data.joint(joint).qpos[:] = places
         for motor, command in start.held.items():
             self.data.actuator(motor).ctrl = command
 
     def _take_over(self, before: World, forget: Collection[str]) -> None:
-        """Positions, speeds and forces of joints that are in both worlds."""
+        """Copy positions, speeds and forces of joints that are in both worlds."""
         self.data.time, self._pending = before.data.time, before._pending
         self.model.opt.disableflags = before.model.opt.disableflags
         old, new = before.model, self.model

@@ -18,7 +18,7 @@ from lark.lexer import PatternStr, TerminalDef
 from lark.parsers.lalr_analysis import Shift
 
 from robocomp_dsl.resources import GRAMMARS
-from robocomp_dsl.syntax.grammar.tables import END, fingerprint
+from robocomp_dsl.syntax.grammar.grammar_file import END, fingerprint
 
 LANGUAGES = ("idsl", "cdsl", "pdsl", "ddsl", "smdsl")
 XML = "innermodel"

@@ -11,7 +11,8 @@ from collections.abc import Generator, Iterator
 
 from robocomp_dsl.source import Source
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
-from robocomp_dsl.syntax.grammar.tables import END, Tables
+from robocomp_dsl.syntax.grammar.grammar_file import END
+from robocomp_dsl.syntax.grammar.tables import Tables
 
 _COMMENTS = frozenset(("DOC_BLOCK", "DOC_LINE", "BLOCK_COMMENT", "LINE_COMMENT"))
 _DOCS = frozenset(("DOC_BLOCK", "DOC_LINE"))

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.syntax.codes import file as codes
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
-from robocomp_dsl.syntax.grammar.tables import END, Tables, name_action
+from robocomp_dsl.syntax.grammar.tables import Tables, name_action
 from robocomp_dsl.syntax.languages.builder import Builder
 
 if TYPE_CHECKING:

@@ -12,13 +12,10 @@ import json
 import re
 from functools import cache
 from typing import Any, NamedTuple
-from zlib import crc32
 
 from robocomp_dsl.record import Record
 from robocomp_dsl.resources import GRAMMARS
-
-SHARED = GRAMMARS / "terminals.lark"
-END = "$END"
+from robocomp_dsl.syntax.grammar.grammar_file import fingerprint
 
 
 class Pick(NamedTuple):
@@ -80,12 +77,6 @@ def name_action(row: dict[str, int], keyword: str) -> int | None:
     if action is not None and keyword.endswith("_TYPE") and action >= 0 <= row.get("_SEMI", -1):
         return None
     return action
-
-
-def fingerprint(language: str) -> int:
-    """Checksum of the grammar files of `language`."""
-    grammar = GRAMMARS / f"{language}.lark"
-    return crc32(grammar.read_bytes(), crc32(SHARED.read_bytes()))
 
 
 @cache

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Container, Iterable, Iterator
 
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import END
 
 MAX_SKIPPED_TOKENS = 100_000
 """Tokens that are skipped before the rest of the file is skipped."""

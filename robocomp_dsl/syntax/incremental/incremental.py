@@ -17,9 +17,9 @@ from robocomp_dsl.diagnostics import Diagnostic
 from robocomp_dsl.record import Record
 from robocomp_dsl.source import Source, TextRegion
 from robocomp_dsl.syntax.file_diagnostics import FileDiagnostics
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
 from robocomp_dsl.syntax.grammar.lr_state import ParserState
-from robocomp_dsl.syntax.grammar.tables import END
 from robocomp_dsl.syntax.incremental.text_delta import StaleReference, TextDelta
 
 MAX_STACK_DEPTH = 6

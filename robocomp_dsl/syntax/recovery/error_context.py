@@ -9,8 +9,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from robocomp_dsl.record import ValueRecord
 from robocomp_dsl.source import Source
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import END, Tables, name_action
+from robocomp_dsl.syntax.grammar.tables import Tables, name_action
 
 WINDOW = 5
 """A repair after which this many tokens are accepted is considered correct."""

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 from robocomp_dsl.diagnostics import Note
 from robocomp_dsl.syntax.codes import syntax as codes
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import END
 from robocomp_dsl.syntax.recovery import repair_identifiers as words
 from robocomp_dsl.syntax.recovery import repair_punctuation as signs
 from robocomp_dsl.syntax.recovery.error_context import WINDOW, ErrorContext, quote_token

@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping
 
 from robocomp_dsl.diagnostics import nearest
 from robocomp_dsl.syntax.codes import syntax as codes
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import END
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 from robocomp_dsl.syntax.recovery.repair_punctuation import IDENTIFIER

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 from robocomp_dsl.syntax.codes import legacy as legacy_codes
 from robocomp_dsl.syntax.codes import syntax as syntax_codes
+from robocomp_dsl.syntax.grammar.grammar_file import END
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import END
 from robocomp_dsl.syntax.recovery.error_context import ErrorContext, quote_token
 from robocomp_dsl.syntax.recovery.repair import Repair
 

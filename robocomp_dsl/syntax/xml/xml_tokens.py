@@ -14,8 +14,8 @@ from functools import cache
 from typing import NamedTuple
 
 from robocomp_dsl.resources import GRAMMARS
+from robocomp_dsl.syntax.grammar.grammar_file import fingerprint
 from robocomp_dsl.syntax.grammar.lexer import Token
-from robocomp_dsl.syntax.grammar.tables import fingerprint
 
 LANGUAGE = "innermodel"
 TAG_PARTS = frozenset(("ATTRIBUTE", "OPEN_VALUE", "BARE_VALUE", "NO_VALUE", "JUNK"))

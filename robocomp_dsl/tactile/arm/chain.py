@@ -1,4 +1,4 @@
-"""Denavit-Hartenberg chains: where the joints put the hand, and how it moves with them.
+"""Denavit-Hartenberg chains: forward kinematics and Jacobians.
 
 In: rows (a, d, alpha, offset) of the form Rz(q + offset) Tz(d) Tx(a) Rx(alpha), a base and a tool.
 Out: 4 x 4 poses in the frame of the base, and Jacobians (6, n): three rows of velocity [m/s per
@@ -28,9 +28,9 @@ class DhLink:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _FixedTransforms:
-    """A chain with everything fixed taken together: `before` (4, 4), then per moving row.
+    """A chain with fixed transforms multiplied: `before` (4, 4), then one entry per moving row.
 
-    `joints` (m,) and `offsets` (m,) turn it, `behind` (m, 4, 4) leads to the next.
+    `joints` (m,) and `offsets` (m,) rotate it, `behind` (m, 4, 4) leads to the next row.
     """
 
     joints: Ints
@@ -63,24 +63,24 @@ class Chain:
         return self.pose_and_jacobian(angles)[1]
 
     def pose_and_jacobian(self, angles: Floats) -> tuple[Floats, Floats]:
-        """Pose of the tool and Jacobian at once."""
+        """Pose of the tool and Jacobian, computed together."""
         frames, used = self._frames(angles), self._steps.joints
         x, y, z = frames[:-1, :3, 2].T
         along, up, out = (frames[-1, :3, 3] - frames[:-1, :3, 3]).T
         jacobian = np.zeros((6, self.size))
-        # the axis of each joint, crossed with the way from it to the tool
+        # the axis of each joint, crossed with the vector from it to the tool
         jacobian[:3, used] = (y * out - z * up, z * along - x * out, x * up - y * along)
         jacobian[3:, used] = x, y, z
         return frames[-1], jacobian
 
     def is_out_of_reach(self, point: Floats) -> bool:
-        """Whether the tool would not get to `point` (3,) even with all links in one line."""
+        """Whether `point` (3,) is out of reach even with all links stretched out."""
         steps = self._steps
         longest = float(np.linalg.norm(steps.behind[:, :3, 3], axis=1).sum())
         return float(np.linalg.norm(point - steps.before[:3, 3])) > longest
 
     def _frames(self, angles: Floats) -> Floats:
-        """Poses in which the moving rows begin, and that of the tool last."""
+        """Poses of the starts of the moving rows, and of the tool."""
         steps = self._steps
         turns = angles[steps.joints] + steps.offsets
         c, s = np.cos(turns)[:, None], np.sin(turns)[:, None]
@@ -95,7 +95,7 @@ class Chain:
 
     @cached_property
     def _steps(self) -> _FixedTransforms:
-        """What does not change with the angles, worked out once."""
+        """Values that are independent of the angles, computed once."""
         before, behind = self.base, list[Floats]()
         for row in self.rows:
             matrix = link(row.a, row.d, row.alpha, row.offset if row.joint is None else 0.0)
@@ -134,9 +134,9 @@ def link(a: float, d: float, alpha: float, turn: float) -> Floats:
 def generic_chain(chain: Chain, gamma: Floats, sigma: Floats, available: Bools) -> Chain:
     """The same arm, driven by generic angles: device = (generic - sigma) / gamma, |gamma| = 1.
 
-    A negative gamma turns the joint's axis round: the half turn about x that this takes is put
-    into the twist of the row before and into the row itself. A joint that the device lacks stays
-    fixed at its row's offset, since its generic angle is always sigma.
+    A negative gamma reverses the joint's axis: the required half turn about x is added to the twist
+    of the previous row and to the row itself. A joint that the device lacks stays fixed at its
+    row's offset, since its generic angle is always sigma.
     """
     if not np.allclose(np.abs(gamma), 1.0):
         raise ValueError("a generic chain needs |gamma| = 1: device angles in radians")
@@ -157,7 +157,7 @@ def generic_chain(chain: Chain, gamma: Floats, sigma: Floats, available: Bools) 
 
 
 def _half_turn(rows: list[DhLink], base: Floats) -> Floats:
-    """Put a half turn about x behind the last row, or behind the base; returns the base."""
+    """Append a half turn about x to the last row, or to the base; returns the base."""
     if not rows:
         return base @ link(0.0, 0.0, np.pi, 0.0)
     last = rows[-1]

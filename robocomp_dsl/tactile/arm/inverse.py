@@ -1,7 +1,7 @@
 """Inverse kinematics by damped least squares, within joint limits: the solver of all arms.
 
 In: a chain, joint limits, a goal (a position, optionally with an orientation) and a start posture.
-Out: joint angles, and how far from the goal they leave the tip.
+Out: joint angles, and the remaining error of the tip.
 
 The damping is proportional to the squared error (Sugihara, "Solvability-unconcerned inverse
 kinematics by the Levenberg-Marquardt method", IEEE Trans. Robotics 27(5), 2011). The solver is
@@ -21,7 +21,7 @@ from robocomp_dsl.tactile.errors import Unreachable
 _STARTS = 16
 _LEAST_DAMPING = 1e-6
 _WEAK = 0.01
-"""A joint motion that moves the tip by less, per rad, in units of `lever`, counts as free."""
+"""A joint motion that moves the tip by less, per rad, in units of `lever`, counts as null space."""
 
 _PULL = 0.1
 """Share of the distance to the rest posture that the first step covers."""
@@ -37,12 +37,12 @@ class Kinematics(Protocol):
         """Pose of the tip (4, 4) at `angles` (n,), and the Jacobian (6, n), rotation below."""
 
     def is_out_of_reach(self, point: Floats) -> bool:
-        """Whether the tip cannot get to `point` (3,) even with all links in one line."""
+        """Whether `point` (3,) is out of reach even with all links stretched out."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerance:
-    """When a goal counts as reached: `position` [length], `rotation` [rad].
+    """Tolerance of a goal: `position` [length], `rotation` [rad].
 
     `iterations` limits the steps from each start posture.
     """
@@ -69,14 +69,14 @@ class Goal:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Solution:
-    """Joint angles `q` (n,), and how far from the goal they leave the tip [length, rad]."""
+    """Joint angles `q` (n,), and the remaining error of the tip [length, rad]."""
 
     q: Floats
     distance: float
     angle: float
 
     def within(self, distance: float, angle: float) -> bool:
-        """Whether the goal is reached to `distance` [length] and `angle` [rad]."""
+        """Whether the goal is reached within `distance` [length] and `angle` [rad]."""
         return self.distance <= distance and self.angle <= angle
 
 
@@ -84,8 +84,8 @@ class Solution:
 class Solver:
     """Inverse kinematics of `chain`; `low` and `high` (n,) [rad] bound its joints.
 
-    An error of 1 rad counts as much as one of `lever` [length]. Freedom that the goal leaves draws
-    the joints to the posture `rest` (n,); without one they stay near the start.
+    An error of 1 rad counts as much as one of `lever` [length]. In the null space of the goal the
+    joints move towards the posture `rest` (n,); without it they stay near the start.
     """
 
     chain: Kinematics
@@ -107,13 +107,13 @@ class Solver:
         raise Unreachable(message, distance=best.distance, angle=best.angle)
 
     def nearest(self, goal: Goal, start: Floats) -> Solution:
-        """The first solution within the tolerance, or else the nearest one.
+        """The first solution within the tolerance, or else the best one.
 
-        Other start postures are tried where the descent from `start` ends in a local minimum.
+        Other start postures are tried if the descent from `start` ends in a local minimum.
         """
         starts = self._starts(start)
         if self.chain.is_out_of_reach(goal.position):
-            starts = starts[:1]  # only the remaining distance is of interest
+            starts = starts[:1]  # only the remaining error matters
         best: Solution | None = None
         for first in starts:
             solution = self._descend(goal, first)
@@ -169,9 +169,9 @@ def damped_step(
 ) -> Floats:
     """One step of damped least squares, (n,), that reduces `error` (m,) by `jacobian` (m, n).
 
-    `pull` (n,) moves the joints as far as `error` leaves them free. A joint that would pass one of
-    its `limits`, the lowest and the highest step (n,), is brought to the limit, and the other
-    joints compensate.
+    `pull` (n,) moves the joints within the null space of `error`. A joint that would pass one of
+    its `limits`, the lowest and the highest step (n,), moves to the limit, and the other joints
+    compensate.
     """
     low, high = limits
     clipped, free = np.zeros(len(pull)), np.ones(len(pull), bool)

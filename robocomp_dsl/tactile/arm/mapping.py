@@ -2,7 +2,7 @@
 
 In: gamma, sigma and limits per generic index. Out: readings, commands, displacements, speeds,
 torques and limits, converted between both sides. A generic value is gamma * device + sigma;
-displacements leave sigma out, speeds divide by |gamma|, torques follow from equal power.
+displacements omit sigma, speeds divide by |gamma|, torques follow from equal power.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class DeviceCommand:
     """Values for the device: one per present joint, in generic order.
 
     `clipped` and `dropped` have one entry per generic index: the value was clipped to its limits;
-    the value was addressed to a degree of freedom that the robot lacks.
+    the value was for a degree of freedom that the robot lacks.
     """
 
     values: Floats
@@ -68,7 +68,7 @@ class PartMapping:
         return generic
 
     def read_speed(self, device: Floats) -> Floats:
-        """Generic velocities (n,) of device velocities (m,); zero where there is no joint."""
+        """Generic velocities (n,) of device velocities (m,); zero for missing joints."""
         self._require(device, len(self.present))
         generic = np.zeros(self.size)
         generic[self.present] = self.gamma[self.present] * device
@@ -83,7 +83,7 @@ class PartMapping:
         return DeviceCommand(limited[self.present], changed, self._dropped(generic - self.sigma))
 
     def displacement(self, generic: Floats) -> DeviceCommand:
-        """Device displacements for generic displacements (n,): no sigma, nothing to clip."""
+        """Device displacements for generic displacements (n,): without sigma and clipping."""
         self._require(generic, self.size)
         moved = (generic / self.gamma)[self.present]
         return DeviceCommand(moved, np.zeros(self.size, bool), self._dropped(generic))
@@ -99,13 +99,13 @@ class PartMapping:
         return self.displacement(generic)
 
     def torque(self, generic: Floats) -> DeviceCommand:
-        """Device torques [N m] that do the same work as generic torques [N m] (n,)."""
+        """Device torques [N m] with the same power as generic torques [N m] (n,)."""
         self._require(generic, self.size)
         torque = (generic * self.gamma_si)[self.present]
         return DeviceCommand(torque, np.zeros(self.size, bool), self._dropped(generic))
 
     def read_torque(self, device: Floats) -> Floats:
-        """Generic torques (n,) of device torques (m,); zero where there is no joint."""
+        """Generic torques (n,) of device torques (m,); zero for missing joints."""
         self._require(device, len(self.present))
         generic = np.zeros(self.size)
         generic[self.present] = device / self.gamma_si[self.present]
@@ -135,7 +135,7 @@ class PartMapping:
         return limit
 
     def _dropped(self, effect: Floats) -> Bools:
-        """Indices without a joint that the command addresses."""
+        """Missing joints that the command addresses."""
         dropped: Bools = ~self.available & (effect != 0.0)
         return dropped
 

@@ -12,6 +12,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
+from robocomp_dsl.finding import Finding, Location
 from robocomp_dsl.tactile.description.model import (
     FixedJoint,
     GenericPart,
@@ -20,8 +21,8 @@ from robocomp_dsl.tactile.description.model import (
     RobotDescription,
     Servo,
 )
-from robocomp_dsl.tactile.description.yaml_reader import UNITS, Place, YamlReader, degrees_hint
-from robocomp_dsl.tactile.errors import Fault, Finding
+from robocomp_dsl.tactile.description.yaml_reader import UNITS, degrees_hint
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
 MAX_SURFACE_DISTANCE = 0.015
 """Largest distance of a taxel from its limb's cone [m]."""
@@ -29,7 +30,7 @@ MAX_SURFACE_DISTANCE = 0.015
 MAX_ANGLE = 2 * np.pi
 """Largest angle of an arm's joint from the generic zero [rad]."""
 
-ReportFinding = Callable[[Fault, Place, str, str], None]
+ReportFinding = Callable[[Fault, Location, str, str], None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +41,9 @@ class RobotStructure:
     bodies: frozenset[str]
 
 
-def check(robot: RobotDescription, reading: YamlReader) -> None:
-    """Check the description on its own; findings go to `reading`."""
-    complain = _reporter(reading)
+def check(robot: RobotDescription, findings: list[Finding]) -> None:
+    """Check the description on its own; adds to `findings`."""
+    complain = _reporter(findings)
     for part in robot.parts:
         for servo in part.servos:
             _check_servo(servo, complain)
@@ -61,8 +62,8 @@ def compare(robot: RobotDescription, structure: RobotStructure) -> None:
     Raises `DescriptionError` for joints and bodies that do not exist, and for limits that are wider
     than the robot's.
     """
-    reading = YamlReader(robot.file)
-    complain = _reporter(reading)
+    findings: list[Finding] = []
+    complain = _reporter(findings)
     for part in robot.parts:
         for servo in part.servos:
             if servo.joint:
@@ -71,13 +72,13 @@ def compare(robot: RobotDescription, structure: RobotStructure) -> None:
             _compare_fixed_joint(held, structure.joints, complain)
         for limb in part.limbs:
             _compare_limb(limb, structure.bodies, complain)
-    reading.finish()
+    if findings:
+        raise DescriptionError(findings)
 
 
-def _reporter(reading: YamlReader) -> ReportFinding:
-    def complain(fault: Fault, place: Place, message: str, help: str) -> None:
-        finding = Finding(str(reading.file), place.line, place.column, message, help, fault)
-        reading.findings.append(finding)
+def _reporter(findings: list[Finding]) -> ReportFinding:
+    def complain(fault: Fault, place: Location, message: str, help: str) -> None:
+        findings.append(Finding(place, message, help=help, kind=fault))
 
     return complain
 

@@ -11,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
+from robocomp_dsl.finding import NOWHERE, Location
 from robocomp_dsl.tactile.arm.chain import Chain, generic_chain
 from robocomp_dsl.tactile.arm.mapping import PartMapping
 from robocomp_dsl.tactile.arrays import Floats
-from robocomp_dsl.tactile.description.yaml_reader import NOWHERE, UNITS, Place
+from robocomp_dsl.tactile.description.yaml_reader import UNITS
 from robocomp_dsl.tactile.reflex.law import Field
 from robocomp_dsl.tactile.skin.cone import Cone
 from robocomp_dsl.tactile.skin.normalise import Sensitivity
@@ -42,7 +43,7 @@ class Servo:
     damping: float
     start: float
     unit: str = "rad"
-    place: Place = NOWHERE
+    place: Location = field(default=NOWHERE, compare=False)
 
     @property
     def qualified(self) -> str:
@@ -57,7 +58,7 @@ class FixedJoint:
     joint: str
     part: str
     position: float
-    place: Place = NOWHERE
+    place: Location = field(default=NOWHERE, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ class Limb:
     axes: Floats
     cone: Cone
     covers: tuple[str, ...] = ()
-    place: Place = NOWHERE
+    place: Location = field(default=NOWHERE, compare=False)
 
     def to_body(self, points: Floats) -> Floats:
         """Points (..., 3) of the limb frame in the frame of its body."""
@@ -98,7 +99,7 @@ class Patch:
     points: Floats
     normals: Floats
     sensitivity: Sensitivity
-    place: Place = NOWHERE
+    place: Location = field(default=NOWHERE, compare=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +116,7 @@ class GenericPart:
     patches: tuple[Patch, ...] = ()
     fields: tuple[Field, ...] = ()
     fixed_joints: tuple[FixedJoint, ...] = ()
-    place: Place = NOWHERE
+    place: Location = field(default=NOWHERE, compare=False)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -165,7 +166,7 @@ class RobotDescription:
     parts: tuple[GenericPart, ...] = field(default=())
     file: Path = Path()
     model: str = ""
-    model_place: Place = NOWHERE
+    model_place: Location = field(default=NOWHERE, compare=False)
 
     def part(self, name: str) -> GenericPart:
         """The part of that name. Raises `KeyError` if there is none."""

@@ -14,9 +14,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from robocomp_dsl.finding import Finding, Location, SourceText
 from robocomp_dsl.tactile.description.model import FixedJoint, GenericPart, Servo
-from robocomp_dsl.tactile.description.yaml_reader import UNITS, Place
-from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+from robocomp_dsl.tactile.description.yaml_reader import UNITS
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
 _TOKEN = re.compile(
     r"<!--.*?-->|<\?.*?\?>"
@@ -33,7 +34,7 @@ _MAX_DEPTH = 20
 class _Element:
     tag: str
     attributes: dict[str, str]
-    place: Place
+    place: Location
     text: str = ""
     children: list[_Element] = field(default_factory=list)
 
@@ -45,12 +46,11 @@ class _Element:
 class _PartXmlReader:
     """One file being read."""
 
-    file: Path
+    text: SourceText
     findings: list[Finding] = field(default_factory=list)
 
-    def report(self, place: Place, message: str, fault: Fault = Fault.FORM) -> None:
-        finding = Finding(str(self.file), place.line, place.column, message, fault=fault)
-        self.findings.append(finding)
+    def report(self, place: Location, message: str, fault: Fault = Fault.FORM) -> None:
+        self.findings.append(Finding(place, message, kind=fault))
 
     def value(self, element: _Element | None, default: float) -> float:
         """The number in an element; `default` if there is no element."""
@@ -81,11 +81,11 @@ def read_part_xml(text: str, file: Path, joints: tuple[str, ...] = ()) -> Generi
 
     Raises `DescriptionError` with every finding.
     """
-    listing = _PartXmlReader(file)
+    listing = _PartXmlReader(SourceText.of_text(file, text))
     root = _parse_elements(text, listing)
     name = next((descendant for descendant in _descendants(root, "Generic_Robot_Part")), None)
     if name is None:
-        listing.report(Place(1, 1), "there is no <Generic_Robot_Part>")
+        listing.report(listing.text.word_at(1, 1), "there is no <Generic_Robot_Part>")
         raise DescriptionError(listing.findings)
     count = next(iter(_descendants(root, "generic_servo_number")), None)
     size = int(listing.value(count, 0.0))
@@ -164,7 +164,7 @@ def _fixed_joints(
     starts: dict[int, tuple[str, float]],
     servos: Iterable[Servo],
     joints: tuple[str, ...],
-    place: Place,
+    place: Location,
 ) -> Iterator[FixedJoint]:
     """Joints with an initial position that no servo moves: they stay there."""
     parts = {servo.part for servo in servos}
@@ -176,7 +176,7 @@ def _fixed_joints(
             yield FixedJoint(known, part, start * UNITS.get(unit, 1.0), place)
 
 
-def _missing_servo(place: Place) -> Servo:
+def _missing_servo(place: Location) -> Servo:
     return Servo("", "", 1.0, 0.0, -math.inf, math.inf, 0.0, 0.0, 0.0, 0.0, place=place)
 
 
@@ -203,7 +203,7 @@ def _descendants(element: _Element, tag: str) -> Iterator[_Element]:
 
 def _parse_elements(text: str, listing: _PartXmlReader) -> _Element:
     """Parse the elements below an artificial root; mismatched tags are findings."""
-    root = _Element("", {}, Place(1, 1))
+    root = _Element("", {}, listing.text.word_at(1, 1))
     stack, end = [root], 0
     for token in _TOKEN.finditer(text):
         stack[-1].text += text[end : token.start()]
@@ -212,7 +212,7 @@ def _parse_elements(text: str, listing: _PartXmlReader) -> _Element:
         if not tag:
             continue
         tag = _ALIASES.get(tag, tag)
-        place = _place(text, token.start())
+        place = _place(text, token.start(), listing.text)
         if closing:
             _close(stack, tag, place, listing)
             continue
@@ -228,13 +228,13 @@ def _parse_elements(text: str, listing: _PartXmlReader) -> _Element:
     return root
 
 
-def _close(stack: list[_Element], tag: str, place: Place, listing: _PartXmlReader) -> None:
+def _close(stack: list[_Element], tag: str, place: Location, listing: _PartXmlReader) -> None:
     if stack[-1].tag == tag:
         stack.pop()
     else:
         listing.report(place, f"</{tag}> has no matching start tag: <{stack[-1].tag}> is open here")
 
 
-def _place(text: str, offset: int) -> Place:
+def _place(text: str, offset: int, source: SourceText) -> Location:
     line = text.count("\n", 0, offset) + 1
-    return Place(line, offset - text.rfind("\n", 0, offset))
+    return source.word_at(line, offset - text.rfind("\n", 0, offset))

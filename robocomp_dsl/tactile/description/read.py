@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.tactile.arm.chain import Chain, DhLink
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.check import check
@@ -60,14 +61,14 @@ def read_robot(text: str, file: Path) -> RobotDescription:
     if body:
         robot = replace(robot, model=body.text(), model_place=body.place)
     reading.finish()
-    check(robot, reading)
+    check(robot, reading.findings)
     reading.finish()
     return robot
 
 
 def load_robot(file: Path) -> RobotDescription:
     """The robot that the file describes. Raises as `read_robot`, and `OSError`."""
-    return read_robot(file.read_text(encoding="utf-8"), file)
+    return read_robot(read_text(file), file)
 
 
 def _part(name: str, entry: YamlValue) -> GenericPart:

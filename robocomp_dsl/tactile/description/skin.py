@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from robocomp_dsl.regular_file import read_text
 from robocomp_dsl.tactile.description.model import Limb, Patch, Servo
 from robocomp_dsl.tactile.description.yaml_reader import (
     ANGLE,
@@ -86,7 +87,7 @@ def _from_file(entry: YamlValue, limb: Limb) -> TaxelLayout | None:
     """Measured positions in the frame of the limb's body; rows without a taxel are skipped."""
     file = entry.reader.file.parent / entry.text()
     try:
-        read = read_positions(file.read_text(encoding="utf-8"), Path(file))
+        read = read_positions(read_text(file), Path(file))
     except DescriptionError as error:
         entry.reader.findings.extend(error.findings)
         return None

@@ -1,9 +1,8 @@
 """Read YAML with positions, so that every finding has a line and a column.
 
-In: a text. Out: `Entry` trees that hand out tables, lists, numbers and words. What is wrong is
-collected in `Reading.findings` and a harmless value is returned, so that reading goes on and all
-faults are told at once. A length or an angle may carry a unit: `90 deg`, `62.5 mm`; rad and m are
-meant else.
+In: a text. Out: `Value` trees with tables, lists, numbers and strings. Errors are collected as
+findings, and a neutral value is returned, so that reading continues and all errors are reported
+together. A length or an angle may have a unit: `90 deg`, `62.5 mm`; the default is rad and m.
 """
 
 from __future__ import annotations
@@ -16,7 +15,8 @@ from pathlib import Path
 
 import yaml
 
-from robocomp_dsl.tactile.errors import DescriptionError, Fault, Finding
+from robocomp_dsl.finding import NOWHERE, Finding, Location, SourceText
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
 UNITS = {"deg": math.pi / 180.0, "rad": 1.0, "mm": 0.001, "m": 1.0}
 UNITS_OF = {"a number": (), "an angle": ("deg", "rad"), "a length": ("mm", "m")}
@@ -36,37 +36,32 @@ class YamlReader:
 
     file: Path
     findings: list[Finding] = field(default_factory=list)
+    text: SourceText = NOWHERE.text
 
     def root(self, text: str) -> YamlValue:
         """The whole document. Raises `DescriptionError` when it is not YAML."""
+        self.text = SourceText.of_text(self.file, text)
         try:
             node = yaml.compose(text, Loader=yaml.SafeLoader)
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
             message = f"invalid YAML: {error.problem or error.context}"
-            raise DescriptionError([Finding(str(self.file), line, column, message)]) from None
+            raise DescriptionError([self.finding(line, column, message)]) from None
         except yaml.YAMLError as error:
-            raise DescriptionError([Finding(str(self.file), 1, 1, str(error))]) from None
+            raise DescriptionError([self.finding(1, 1, str(error))]) from None
         if node is None:
-            raise DescriptionError([Finding(str(self.file), 1, 1, "the file is empty")])
+            raise DescriptionError([self.finding(1, 1, "the file is empty")])
         return YamlValue(self, node)
+
+    def finding(self, line: int, column: int, message: str) -> Finding:
+        """A finding about the form of the file."""
+        return Finding(self.text.word_at(line, column), message, kind=Fault.FORM)
 
     def finish(self) -> None:
         """Raise `DescriptionError` if there are findings."""
         if self.findings:
             raise DescriptionError(self.findings)
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A position in a file, from 1."""
-
-    line: int
-    column: int
-
-
-NOWHERE = Place(1, 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,17 +72,17 @@ class YamlValue:
     node: yaml.Node
 
     @property
-    def place(self) -> Place:
-        """Line and column of its first character."""
-        return Place(self.node.start_mark.line + 1, self.node.start_mark.column + 1)
+    def place(self) -> Location:
+        """The location of its first word."""
+        mark = self.node.start_mark
+        return self.reader.text.word_at(mark.line + 1, mark.column + 1)
 
     def report(self, message: str, help: str = "", fault: Fault = Fault.FORM) -> None:
-        """Note a fault of this value."""
-        file, place = str(self.reader.file), self.place
-        self.reader.findings.append(Finding(file, place.line, place.column, message, help, fault))
+        """Report an error of this value."""
+        self.reader.findings.append(Finding(self.place, message, help=help, kind=fault))
 
     def table(self) -> YamlTable:
-        """The value as a table; an empty one, with a finding, if it is none."""
+        """The value as a table; an empty one, with a finding, if it is not a table."""
         rows: dict[str, YamlValue] = {}
         if not isinstance(self.node, yaml.MappingNode):
             self.report("expected a table of `key: value`")
@@ -115,17 +110,16 @@ class YamlValue:
         return [YamlValue(self.reader, node) for node in self.node.value]
 
     def text(self) -> str:
-        """The value as a string; an empty one, with a finding, if it is none."""
+        """The value as a string; an empty one, with a finding, if it is not a string."""
         if isinstance(self.node, yaml.ScalarNode) and self.node.value:
             return str(self.node.value)
         self.report("expected a string")
         return ""
 
     def number(self, quantity: str, default_unit: str = "") -> float:
-        """The value, `what` of `UNITS_OF`; 0 after a complaint.
+        """The value as a `quantity` of `UNITS_OF`; 0, with a finding, if it is invalid.
 
-        In SI units, or as something that is `counted` in this unit has it; then so is a number that
-        carries none.
+        In SI units, or in `default_unit` if set; a number without a unit is in the same unit.
         """
         match = None
         if isinstance(self.node, yaml.ScalarNode):
@@ -146,14 +140,14 @@ class YamlValue:
         return value * UNITS[unit] / UNITS[default_unit or "m"]
 
     def integer(self) -> int:
-        """The value as an integer; 0, with a finding, if it is none."""
+        """The value as an integer; 0, with a finding, if it is not an integer."""
         value = self.number(NUMBER)
         if value != int(value):
             self.report("expected an integer")
         return int(value)
 
     def numbers(self, quantities: tuple[str, ...], default_unit: str = "") -> tuple[float, ...]:
-        """A list with one number per entry of `quantities`; zeros, with a finding, if not."""
+        """A list with one number per entry of `quantities`; zeros, with a finding, if invalid."""
         items = self.items(len(quantities))
         values = (
             item.number(quantity, default_unit)
@@ -201,7 +195,7 @@ class YamlTable:
         default: tuple[float, ...] = (),
         default_unit: str = "",
     ) -> tuple[float, ...]:
-        """The list of numbers at `key`; without a default it must be there."""
+        """The list of numbers at `key`; required unless there is a default."""
         value = self.get(key) if default else self.require(key)
         return (
             value.numbers(quantities, default_unit)
@@ -210,7 +204,7 @@ class YamlTable:
         )
 
     def finish(self) -> None:
-        """Report unknown keys, with the most similar known one."""
+        """Report unknown keys, each with the most similar known key."""
         for key, value in self.rows.items():
             if key not in self.requested:
                 near = get_close_matches(key, self.requested, n=1)

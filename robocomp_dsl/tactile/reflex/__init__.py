@@ -1,1 +1,1 @@
-"""The withdrawal reflex: receptive fields, the force and distance law, and when it may act."""
+"""The withdrawal reflex: receptive fields, the force and distance law, frames, withdrawals."""

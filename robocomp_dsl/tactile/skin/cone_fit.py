@@ -43,9 +43,9 @@ class ConeFit:
 def fit_cone(points: Floats, axis: Floats | None = None) -> ConeFit:
     """The cone nearest to `points` (n, 3) in the least-squares sense of the radius.
 
-    `axis` (3,) is a first guess and fixes which end is the far one; without it the three frame
-    axes are tried. Raises `BadFit` for fewer than 8 different points, points in one plane or line,
-    values that are not finite, or a result that is no cone.
+    `axis` (3,) is an initial guess and defines which end is the far one; without it the three frame
+    axes are tried. Raises `BadFit` for fewer than 8 different points, coplanar or collinear points,
+    values that are not finite, or a result that is not a cone.
     """
     _check(points)
     starts = [axis] if axis is not None else list(np.eye(3))
@@ -66,7 +66,7 @@ def _check(points: Floats) -> None:
 
 
 def _descend(points: Floats, start: Floats) -> tuple[tuple[Floats, Floats, Floats], float]:
-    """Frame, six numbers and sum of squares from the first guess `start` of the axis."""
+    """Frame, six numbers and sum of squares from the initial guess `start` of the axis."""
     frame = _frame(start / np.linalg.norm(start))
     centre = points.mean(axis=0)
     local = (points - centre) @ frame

@@ -23,8 +23,8 @@ TAXEL_AREA = float(np.sqrt(3.0) / 2.0 * PITCH**2)
 class SkinContact:
     """One touch. Positions [m] and directions in the limb's frame, `force` [N] into the limb.
 
-    `centre` is weighted by force, `middle` is the mean place of the taxels; `pressure` is the mean
-    force of a taxel [N]; `area` [m²].
+    `centre` is weighted by force, `middle` is the mean position of the taxels; `pressure` is the
+    mean force of a taxel [N]; `area` [m²].
     """
 
     limb: str
@@ -111,7 +111,7 @@ def contacts(
     shear: Floats | None = None,
     threshold: float = 0.0,
 ) -> list[SkinContact]:
-    """The same as `touches`, one object for each."""
+    """The result of `touches`, as one object per touch."""
     columns = touches(geometry, graph, force, shear, threshold)
     return [
         SkinContact(

@@ -38,7 +38,7 @@ class SkinElectronics:
         self.sensor.adjust(settings, self._broken(settings))
 
     def calibrate(self, seconds: float) -> None:
-        """Take the baseline from the frames of the next `seconds`."""
+        """Measure the baseline during the next `seconds`."""
         self._left, self._samples = seconds, []
 
     def read(self, force: Floats, noise: float) -> Floats:
@@ -46,11 +46,11 @@ class SkinElectronics:
         return self.sensor.read(force, noise)
 
     def raw(self, force: Floats, dt: float, noise: float) -> Raw:
-        """Raw values (n,); `dt` [s] is the time since the last ones."""
+        """Raw values (n,); `dt` [s] is the time since the previous ones."""
         return self.sensor.raw(force, dt, noise)
 
     def compensated(self, raw: Raw, dt: float, settings: Compensation) -> Floats:
-        """Forces (n,) [N] from raw values; zero as long as there is no baseline."""
+        """Forces (n,) [N] from raw values; zero without a baseline."""
         if self._compensating is None and self.manager is None and not self._left:
             self.calibrate(CALIBRATION_S)
         if self.manager is not None and settings != self._compensating:

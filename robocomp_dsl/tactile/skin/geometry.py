@@ -82,7 +82,7 @@ class SkinGeometry:
         )
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It is immutable: copies of a world share it."""
+        """Immutable: copies of a world share it."""
         return self
 
     def same_taxels(self, other: SkinGeometry) -> bool:
@@ -108,5 +108,5 @@ class SkinGeometry:
 
     @property
     def normaliser(self) -> Normaliser:
-        """Newtons of the taxels' raw values, patch by patch."""
+        """Newtons per raw value, for all taxels, patch by patch."""
         return Normaliser.of(list(self.sensitivities), self.patch)

@@ -89,7 +89,7 @@ def _sensitivity(patch: Any) -> Sensitivity:
 
 
 def _limb(limb: Any) -> Limb:
-    """The limb without its shape: the message does not hold it."""
+    """The limb without its shape, which the message lacks."""
     rotation = np.array([getattr(limb, name) for name in ROTATION]).reshape(3, 3)
     origin = np.array([limb.x, limb.y, limb.z])
     return Limb(limb.name.rpartition("/")[2], limb.body, origin, rotation, _UNKNOWN_CONE)

@@ -51,7 +51,7 @@ class ForceKernel:
         self._fill(limb)
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It is immutable: copies share it."""
+        """Immutable: copies share it."""
         return self
 
     def distribute(self, points: Floats, limb: Ints, forces: Floats) -> ForceShare:

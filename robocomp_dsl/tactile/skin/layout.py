@@ -55,7 +55,7 @@ def place_module(cone: Cone, x: float, theta: float, *, upside_down: bool = Fals
 
 _EXTENT = triangle.LAYOUT[list(triangle.PRESSURE), 1]
 _MIDDLE = float(_EXTENT.max() + _EXTENT.min()) / 2
-"""The middle between the lowest and the highest taxel, which centres a module on its ring."""
+"""The middle between the lowest and the highest taxel, which is placed on the ring."""
 
 
 def place_taxels(cone: Cone, places: Floats) -> TaxelLayout:

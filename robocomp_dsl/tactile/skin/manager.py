@@ -42,7 +42,7 @@ class SkinManager:
 
     @classmethod
     def calibrated(cls, samples: Floats, settings: Compensation) -> SkinManager:
-        """Take the baseline from raw frames (frames, n) of an untouched skin.
+        """Compute the baseline from raw frames (frames, n) of an untouched skin.
 
         The threshold is the distance from the mean to the 95th percentile, at least one count.
         Raises `ValueError` without a frame.
@@ -72,7 +72,7 @@ class SkinManager:
         return above
 
     def alarms(self) -> Bools:
-        """Taxels whose baseline has drifted so far that they are unreliable (n,)."""
+        """Taxels whose baseline has drifted too far to be reliable (n,)."""
         low = self.settings.min_baseline
         out: Bools = (self.baseline < low) | (self.baseline > FULL - low)
         return out

@@ -14,8 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
+from robocomp_dsl.finding import Finding, SourceText
 from robocomp_dsl.tactile.arrays import Bools, Floats
-from robocomp_dsl.tactile.errors import DescriptionError, Finding
+from robocomp_dsl.tactile.errors import DescriptionError, Fault
 
 _SECTION = re.compile(r"\[\s*(\w+)\s*\]")
 _HEADER = ("name", "spatial_sampling", "taxel2Repr")
@@ -37,7 +38,8 @@ class TaxelPositions:
 
 def read_positions(text: str, file: Path) -> TaxelPositions:
     """The content of a position file. Raises `DescriptionError` with all invalid rows."""
-    lines = text.splitlines()
+    source = SourceText.of_text(file, text)
+    lines = source.lines
     sections = [m.group(1) for line in lines if (m := _SECTION.fullmatch(line.strip()))]
     findings: list[Finding] = []
     rows: list[tuple[float, ...]] = []
@@ -49,27 +51,31 @@ def read_positions(text: str, file: Path) -> TaxelPositions:
         elif stripped.startswith("name") and len(stripped.split()) == 2:
             name = stripped.split()[1]
         elif section == "calibration" and stripped and not stripped.startswith(("#", *_HEADER)):
-            rows.append(_row(line, number, file, findings))
+            rows.append(_row(line, number, source, findings))
     if sections and "calibration" not in sections:
-        findings.append(Finding(str(file), 1, 1, "the file has no [calibration] section"))
+        findings.append(_finding(source, 1, 1, "the file has no [calibration] section"))
     elif not rows:
-        findings.append(Finding(str(file), max(len(lines), 1), 1, "the file has no taxel"))
+        findings.append(_finding(source, max(len(lines), 1), 1, "the file has no taxel"))
     if findings:
         raise DescriptionError(findings)
     return _positions(name, np.array(rows))
 
 
-def _row(line: str, number: int, file: Path, findings: list[Finding]) -> tuple[float, ...]:
+def _finding(source: SourceText, line: int, column: int, message: str) -> Finding:
+    return Finding(source.word_at(line, column), message, kind=Fault.FORM)
+
+
+def _row(line: str, number: int, source: SourceText, findings: list[Finding]) -> tuple[float, ...]:
     """The six numbers of a line; zeros, with a finding, if it is invalid."""
     words = list(re.finditer(r"\S+", line))
     if len(words) != 6:
         message = f"a row must have six numbers, x y z nx ny nz; it has {len(words)}"
-        findings.append(Finding(str(file), number, words[0].start() + 1, message))
+        findings.append(_finding(source, number, words[0].start() + 1, message))
         return (0.0,) * 6
-    return tuple(_number(word, number, file, findings) for word in words)
+    return tuple(_number(word, number, source, findings) for word in words)
 
 
-def _number(word: re.Match[str], line: int, file: Path, findings: list[Finding]) -> float:
+def _number(word: re.Match[str], line: int, source: SourceText, findings: list[Finding]) -> float:
     try:
         value = float(word.group())
     except ValueError:
@@ -77,7 +83,7 @@ def _number(word: re.Match[str], line: int, file: Path, findings: list[Finding])
     if math.isfinite(value):
         return value
     message = f"`{word.group()}` is not a number"
-    findings.append(Finding(str(file), line, word.start() + 1, message))
+    findings.append(_finding(source, line, word.start() + 1, message))
     return 0.0
 
 

@@ -25,8 +25,8 @@ class Imperfections:
 
     Forces below `threshold` [N] read 0, forces above `saturation` [N] read `saturation`. `noise`
     [N] is the standard deviation of each reading, `drift` [counts per root second] that of the
-    wandering baseline. `dead` is the share of taxels that always read 0; taxels with ids in
-    `broken` do so, too.
+    baseline's random walk. `dead` is the share of taxels that always read 0, as do taxels with ids
+    in `broken`.
     """
 
     threshold: float = 0.0
@@ -88,7 +88,7 @@ class Sensor:
         return np.minimum(reading, self._settings.saturation)
 
     def raw(self, force: Floats, dt: float, noise: float = 1.0) -> Raw:
-        """Raw values (n,), lower under pressure; `dt` [s] is the time since the last ones."""
+        """Raw values (n,), lower under pressure; `dt` [s] is the time since the previous ones."""
         settings, size = self._settings, len(force)
         if settings.drift:
             self.drift += self._random.normal(0.0, settings.drift * noise * np.sqrt(dt), size)

@@ -26,7 +26,7 @@ class TaxelGraph:
     near: Ints
 
     def __deepcopy__(self, memo: object) -> Self:
-        """It is immutable: copies share it."""
+        """Immutable: copies share it."""
         return self
 
     @classmethod

@@ -37,7 +37,7 @@ LAYOUT = _UNIT * np.array(
         (128.62, 222.83),
     ]
 )
-"""Place of each channel [m], shape (12, 2); the centre taxel, channel 3, at the origin."""
+"""Position of each channel [m], shape (12, 2); the centre taxel, channel 3, at the origin."""
 
 
 def published(channels: Ints, values: Raw, size: int, rest: int = 240) -> Raw:

@@ -22,8 +22,8 @@ DRIVE = Path(__file__).with_name("drive.el")
 def emacs(home: Path) -> list[str | Path]:
     """The command of an Emacs that has eglot and finds our modes."""
     command: list[str | Path] = [need("emacs"), "--batch", "-L", EDITORS / "emacs"]
-    there = run([*command, "--eval", '(princ (locate-library "eglot"))'], home, home)
-    return missing("eglot") if "nil" in there.splitlines()[-1] else command
+    library = run([*command, "--eval", '(princ (locate-library "eglot"))'], home, home)
+    return missing("eglot") if "nil" in library.splitlines()[-1] else command
 
 
 @pytest.fixture(scope="module")
@@ -36,25 +36,25 @@ def seen(emacs: list[str | Path], project: Project, home: Path) -> dict[str, Any
 
 
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda case: case.file)
-def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
+def test_emacs_shows_findings_at_position(seen: dict[str, Any], mistake: Mistake) -> None:
     ((line, column, message),) = seen["findings"][mistake.file]
     assert (line, column) == (mistake.line, mistake.column)
     assert mistake.message in message
 
 
-def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:
+def test_emacs_hover_shows_interface(seen: dict[str, Any]) -> None:
     assert "interface Scans::Laser" in seen["hover"]
 
 
-def test_completion_offers_interfaces(seen: dict[str, Any]) -> None:
+def test_emacs_completion_offers_interfaces(seen: dict[str, Any]) -> None:
     assert "Laser" in seen["completion"]
 
 
-def test_definition_jumps_to_the_interface(seen: dict[str, Any]) -> None:
+def test_emacs_definition_jumps_to_interface(seen: dict[str, Any]) -> None:
     assert seen["definition"] == ["Laser.idsl", 6, 14]
 
 
-def test_rename_goes_through_all_files(seen: dict[str, Any]) -> None:
+def test_emacs_rename_changes_all_files(seen: dict[str, Any]) -> None:
     assert "    interface Lidar\n" in seen["renamed"]["Laser.idsl"]
     assert "    Communications { requires Lidar; };\n" in seen["renamed"]["reader.cdsl"]
 
@@ -62,20 +62,20 @@ def test_rename_goes_through_all_files(seen: dict[str, Any]) -> None:
 @pytest.mark.skipif(
     lsp.TEXT_DOCUMENT_FORMATTING not in FEATURES, reason="the server does not format"
 )
-def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
+def test_emacs_formats_file(seen: dict[str, Any]) -> None:
     assert seen["formatted"] == FILES["reader.cdsl"]
 
 
-def test_words_and_comments_are_coloured(seen: dict[str, Any]) -> None:
+def test_emacs_highlights_keywords_and_comments(seen: dict[str, Any]) -> None:
     assert seen["faces"] == ["font-lock-keyword-face", "font-lock-comment-face", "nil"]
 
 
-def test_indentation_leaves_a_tidy_file_alone(seen: dict[str, Any]) -> None:
+def test_emacs_indentation_keeps_formatted_file(seen: dict[str, Any]) -> None:
     assert seen["indented"] is True
 
 
 @pytest.mark.parametrize("file", ["robocomp.el", "robocomp-words.el"])
-def test_it_compiles_without_a_warning(
+def test_emacs_modes_compile_without_warnings(
     emacs: list[str | Path], file: str, home: Path, tmp_path: Path
 ) -> None:
     source = tmp_path / file
@@ -84,10 +84,10 @@ def test_it_compiles_without_a_warning(
     run([*emacs, "--eval", strict, "-f", "batch-byte-compile", source], tmp_path, home)
 
 
-def test_without_a_server_the_user_is_told_what_to_do(
+def test_emacs_without_server_shows_install_command(
     emacs: list[str | Path], home: Path, tmp_path: Path
 ) -> None:
-    asked = "(condition-case told (robocomp--contact) (error (princ (cadr told))))"
-    command = [*emacs, "-l", "robocomp", "--eval", asked]
+    expression = "(condition-case err (robocomp--contact) (error (princ (cadr err))))"
+    command = [*emacs, "-l", "robocomp", "--eval", expression]
     output = run(command, tmp_path, home, {"PATH": str(tmp_path)})
     assert "pip install 'robocomp_dsl[editor]'" in output

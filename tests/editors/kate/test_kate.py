@@ -57,7 +57,7 @@ CASES = [
 
 
 @pytest.mark.parametrize("file", sorted(SYNTAX.glob("*.xml")), ids=lambda file: file.name)
-def test_contexts_and_styles_that_are_named_are_there(file: Path) -> None:
+def test_kate_syntax_defines_all_referenced_contexts_and_styles(file: Path) -> None:
     tree = ET.parse(file)
     names = {item.get("name") for item in tree.iter("context")}
     styles = {item.get("name") for item in tree.iter("itemData")}
@@ -98,7 +98,7 @@ def coloured(engine: str, language: str, text: str, tmp_path: Path) -> str:
 
 @pytest.mark.editors
 @pytest.mark.parametrize(("language", "text", "expected"), CASES)
-def test_words_are_coloured_where_they_have_a_place(
+def test_kate_highlights_words_by_context(
     engine: str, language: str, text: str, expected: str, tmp_path: Path
 ) -> None:
     assert coloured(engine, language, text, tmp_path) == expected

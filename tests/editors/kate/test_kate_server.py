@@ -1,6 +1,6 @@
-"""A real Kate with the configuration that we ship: it starts the server and gets the findings.
+"""A real Kate with the configuration that we ship: it starts the server and receives findings.
 
-Kate has no script that drives it, so what it and the server tell each other is kept on the way.
+Kate cannot be scripted, so a wrapper records the messages between Kate and the server.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -22,6 +21,7 @@ import pytest
 
 from tests.support.real_editor import DEADLINE_S, EDITORS, Project, need
 from tests.support.samples import MISTAKES, Mistake
+from tests.support.waiting import wait_until
 
 pytestmark = pytest.mark.editors
 
@@ -41,7 +41,7 @@ _HEAD = re.compile(
 
 
 def messages(file: Path) -> Iterator[dict[str, Any]]:
-    """The messages that have come through whole so far."""
+    """The complete messages so far."""
     data = file.read_bytes() if file.exists() else b""
     at = 0
     while head := _HEAD.match(data, at):
@@ -52,7 +52,7 @@ def messages(file: Path) -> Iterator[dict[str, Any]]:
 
 
 def configure(home: Path, server: Path) -> dict[str, str]:
-    """What a user of Kate does once, in the folder `home`; returns the environment."""
+    """Configure Kate in the folder `home` as a user does; returns the environment."""
     settings = home / ".config" / "kate" / "lspclient" / "settings.json"
     settings.parent.mkdir(parents=True)
     shutil.copy(EDITORS / "kate" / "lspclient.json", settings)
@@ -75,12 +75,12 @@ def configure(home: Path, server: Path) -> dict[str, str]:
 @pytest.mark.parametrize(
     "mistake", [item for item in MISTAKES if "xml" not in item.file], ids=lambda item: item.file
 )
-def test_kate_gets_the_findings(mistake: Mistake, tmp_path: Path) -> None:
+def test_kate_receives_findings(mistake: Mistake, tmp_path: Path) -> None:
     kate, bus = need("kate"), need("dbus-run-session")
     (tmp_path / "project").mkdir()
     project = Project(tmp_path / "project")
     project.path(".kateproject").write_text('{"name": "robot"}')
-    requests, responses = tmp_path / "asked", tmp_path / "told"
+    requests, responses = tmp_path / "requests", tmp_path / "responses"
     server = project.path(".venv/bin/rcgen")
     server.write_text(
         RECORDING.format(
@@ -113,13 +113,16 @@ def test_kate_gets_the_findings(mistake: Mistake, tmp_path: Path) -> None:
 
 
 def findings(responses: Path, process: subprocess.Popen[bytes]) -> list[dict[str, Any]]:
-    """What the server told Kate of the file, as soon as it did."""
-    end = time.monotonic() + DEADLINE_S
-    while True:
-        for message in messages(responses):
-            if message.get("method") == "textDocument/publishDiagnostics":
-                found: list[dict[str, Any]] = message["params"]["diagnostics"]
-                return found
-        assert time.monotonic() < end, "Kate got no findings in time"
-        with suppress(subprocess.TimeoutExpired):
-            pytest.fail(f"Kate ended with {process.wait(0.1)}")
+    """The first findings that the server sent to Kate."""
+
+    def published() -> list[dict[str, Any]]:
+        assert process.poll() is None, f"Kate ended with {process.returncode}"
+        return [
+            message
+            for message in messages(responses)
+            if message.get("method") == "textDocument/publishDiagnostics"
+        ]
+
+    message = wait_until(published, "Kate received no findings", DEADLINE_S)[0]
+    diagnostics: list[dict[str, Any]] = message["params"]["diagnostics"]
+    return diagnostics

@@ -57,26 +57,26 @@ def seen(request: pytest.FixtureRequest, project: Project, home: Path) -> dict[s
 
 
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda case: case.file)
-def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
+def test_neovim_shows_findings_at_position(seen: dict[str, Any], mistake: Mistake) -> None:
     ((line, column, message),) = seen["findings"][mistake.file]
     assert (line, column) == (mistake.line, mistake.column)
     assert mistake.message in message
 
 
-def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:
+def test_neovim_hover_shows_interface(seen: dict[str, Any]) -> None:
     assert "interface Scans::Laser" in seen["hover"]
     assert "A planar laser." in seen["hover"]
 
 
-def test_completion_offers_interfaces(seen: dict[str, Any]) -> None:
+def test_neovim_completion_offers_interfaces(seen: dict[str, Any]) -> None:
     assert "Laser" in seen["completion"]
 
 
-def test_definition_jumps_to_the_interface(seen: dict[str, Any]) -> None:
+def test_neovim_definition_jumps_to_interface(seen: dict[str, Any]) -> None:
     assert seen["definition"] == ["Laser.idsl", 6, 14]
 
 
-def test_rename_goes_through_all_open_files(seen: dict[str, Any]) -> None:
+def test_neovim_rename_changes_all_open_files(seen: dict[str, Any]) -> None:
     assert "    interface Lidar" in seen["renamed"]["Laser.idsl"]
     assert "    Communications { requires Lidar; };" in seen["renamed"]["reader.cdsl"]
 
@@ -84,14 +84,12 @@ def test_rename_goes_through_all_open_files(seen: dict[str, Any]) -> None:
 @pytest.mark.skipif(
     lsp.TEXT_DOCUMENT_FORMATTING not in FEATURES, reason="the server does not format"
 )
-def test_formatting_brings_the_file_into_shape(seen: dict[str, Any]) -> None:
+def test_neovim_formats_file(seen: dict[str, Any]) -> None:
     assert "\n".join(seen["formatted"]) + "\n" == FILES["reader.cdsl"]
 
 
 @pytest.mark.parametrize("new", [False, True], ids=["before 0.11", "0.11 or later"])
-def test_without_a_server_the_user_is_told_what_to_do(
-    new: bool, home: Path, tmp_path: Path
-) -> None:
+def test_neovim_without_server_shows_install_command(new: bool, home: Path, tmp_path: Path) -> None:
     fitting = [neovim for version, neovim in neovims().items() if (version >= NEWER) == new]
     nvim = fitting[0] if fitting else missing("this Neovim")
     config = f"set runtimepath^={EDITORS / 'neovim'} noswapfile"

@@ -24,7 +24,7 @@ FILES = (
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_scopes_are_those_that_are_kept(
+def test_textmate_scopes_equal_snapshot(
     tester: Path, name: str, tmp_path: Path, update_golden: bool
 ) -> None:
     file = Path(shutil.copy(ROOT / name, tmp_path))

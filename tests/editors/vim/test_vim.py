@@ -82,7 +82,7 @@ def run(vim: str, file: Path, script: Path, *more: str) -> Path:
 
 
 @pytest.mark.parametrize(("language", "text", "expected"), CASES)
-def test_words_have_their_groups(
+def test_vim_highlights_words_by_group(
     vim: str, language: str, text: str, expected: str, tmp_path: Path
 ) -> None:
     file = tmp_path / f"x.{language}"
@@ -94,7 +94,7 @@ def test_words_have_their_groups(
     assert " ".join(known) == expected
 
 
-def test_indentation_leaves_a_tidy_file_alone(vim: str, tmp_path: Path) -> None:
+def test_vim_indentation_keeps_formatted_file(vim: str, tmp_path: Path) -> None:
     text = (
         "Deployment a\n{\n    component b\n    {\n        after c;\n        port 1;\n    };\n};\n"
     )

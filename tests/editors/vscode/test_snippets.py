@@ -69,7 +69,7 @@ def expanded(body: str | list[str]) -> str:
 
 
 @pytest.mark.parametrize(("language", "name"), CASES)
-def test_a_snippet_as_proposed_is_right(language: str, name: str) -> None:
+def test_vscode_snippet_parses_with_defaults(language: str, name: str) -> None:
     snippet = json.loads((SNIPPETS / f"{language}.json").read_text())[name]
     whole = name in WHOLE and (language, name) != ("ddsl", "Component")
     before, after = ("", "") if whole else DEEPER.get((language, name), FRAMES[language])

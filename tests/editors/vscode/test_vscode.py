@@ -80,29 +80,29 @@ def seen(url: str, project: Project, home: Path) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda item: item.file)
-def test_findings_stand_in_place(seen: dict[str, Any], mistake: Mistake) -> None:
+def test_vscode_shows_findings_at_position(seen: dict[str, Any], mistake: Mistake) -> None:
     rows = seen["problems"][mistake.file]
     place = f"[Ln {mistake.line + 1}, Col {mistake.column + 1}]"
     assert [row for row in rows if mistake.message in row and place in row], rows
 
 
-def test_hover_shows_the_interface(seen: dict[str, Any]) -> None:
+def test_vscode_hover_shows_interface(seen: dict[str, Any]) -> None:
     assert "interface Scans::Laser" in seen["hover"]
     assert "A planar laser." in seen["hover"]
 
 
-def test_definition_jumps_to_the_interface(seen: dict[str, Any]) -> None:
+def test_vscode_definition_jumps_to_interface(seen: dict[str, Any]) -> None:
     assert seen["definition"] is True
 
 
-def test_a_lens_leads_to_what_uses_the_interface(seen: dict[str, Any]) -> None:
+def test_vscode_code_lens_shows_references_of_interface(seen: dict[str, Any]) -> None:
     assert seen["lens"] == "1 component requires this"
     assert "reader.cdsl" in seen["peek"]
 
 
-def test_formatting_brings_the_file_into_shape(seen: dict[str, Any], project: Project) -> None:
+def test_vscode_formats_file(seen: dict[str, Any], project: Project) -> None:
     assert project.path("ugly.cdsl").read_text() == FILES["reader.cdsl"]
 
 
-def test_generate_runs_in_a_terminal(seen: dict[str, Any], project: Project) -> None:
+def test_vscode_generate_runs_in_terminal(seen: dict[str, Any], project: Project) -> None:
     assert "class SpecificWorker" in project.path("specificworker.py").read_text()

@@ -33,7 +33,7 @@ def manifest(content: dict[str, str]) -> dict[str, Any]:
     return package
 
 
-def test_everything_that_is_contributed_is_inside(
+def test_vsix_contains_all_contributed_files(
     content: dict[str, str], manifest: dict[str, Any]
 ) -> None:
     contributed = manifest["contributes"]
@@ -43,13 +43,13 @@ def test_everything_that_is_contributed_is_inside(
     assert {file.removeprefix("./") for file in files} <= content.keys()
 
 
-def test_nothing_else_is_inside(content: dict[str, str]) -> None:
+def test_vsix_contains_no_other_files(content: dict[str, str]) -> None:
     allowed = r"package\.json|readme\.md|[\w-]*language-configuration\.json|dist/extension\.js"
     folders = r"(snippets|syntaxes|grammars)/[\w.]+\.json"
     assert [item for item in content if not re.fullmatch(f"{allowed}|{folders}", item)] == []
 
 
-def test_every_language_is_contributed_whole(manifest: dict[str, Any]) -> None:
+def test_vsix_contributes_all_languages(manifest: dict[str, Any]) -> None:
     contributed = manifest["contributes"]
     languages = {item["id"]: item.get("extensions") for item in contributed["languages"]}
     braces = ["idsl", "cdsl", "pdsl", "ddsl", "smdsl"]
@@ -62,7 +62,7 @@ def test_every_language_is_contributed_whole(manifest: dict[str, Any]) -> None:
     assert {item["language"] for item in contributed["snippets"]} == set(braces)
 
 
-def test_grammars_have_the_scope_that_the_manifest_says(
+def test_vsix_grammars_have_scope_of_manifest(
     content: dict[str, str], manifest: dict[str, Any]
 ) -> None:
     for item in manifest["contributes"]["grammars"]:
@@ -70,12 +70,12 @@ def test_grammars_have_the_scope_that_the_manifest_says(
         assert grammar["scopeName"] == item["scopeName"]
 
 
-def test_the_program_is_javascript(content: dict[str, str], tmp_path: Path) -> None:
+def test_vsix_program_is_valid_javascript(content: dict[str, str], tmp_path: Path) -> None:
     program = tmp_path / "extension.js"
     program.write_text(content["dist/extension.js"], encoding="utf-8")
     subprocess.run([need("node"), "--check", program], check=True, timeout=60)
-    # Only what VS Code and node bring may be asked for, as no package is inside.
-    asked = set(re.findall(r'require\("([^"]+)"\)', program.read_text(encoding="utf-8")))
+    # The archive contains no packages: only modules of VS Code and node may be required.
+    required = set(re.findall(r'require\("([^"]+)"\)', program.read_text(encoding="utf-8")))
     builtin = subprocess.run(
         [need("node"), "-p", "JSON.stringify(require('module').builtinModules)"],
         capture_output=True,
@@ -84,10 +84,12 @@ def test_the_program_is_javascript(content: dict[str, str], tmp_path: Path) -> N
         timeout=60,
     )
     known = {"vscode", *json.loads(builtin.stdout)}
-    assert {item.removeprefix("node:") for item in asked} <= known
+    assert {item.removeprefix("node:") for item in required} <= known
 
 
-def test_all_commands_exist(content: dict[str, str], manifest: dict[str, Any]) -> None:
+def test_vsix_program_defines_all_commands(
+    content: dict[str, str], manifest: dict[str, Any]
+) -> None:
     commands = {item["command"] for item in manifest["contributes"]["commands"]}
     in_menus = {
         item["command"] for menu in manifest["contributes"]["menus"].values() for item in menu
@@ -97,7 +99,7 @@ def test_all_commands_exist(content: dict[str, str], manifest: dict[str, Any]) -
         assert f'"{command}"' in content["dist/extension.js"]
 
 
-def test_versions_are_one() -> None:
+def test_vsix_versions_are_equal() -> None:
     package = json.loads((EDITORS / "vscode" / "package.json").read_text())
     lock = json.loads((EDITORS / "vscode" / "package-lock.json").read_text())
     assert lock["version"] == lock["packages"][""]["version"] == package["version"]

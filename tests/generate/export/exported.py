@@ -1,4 +1,4 @@
-"""What the tests of exports share: modules of files, and files brought into a folder."""
+"""Helpers of the tests of exports: modules of files, and files written to a folder."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ def modules(path: Path) -> tuple[Module, ...]:
 
 
 def exported(text: str, to: str, folder: Path) -> ExportResult:
-    """What becomes of a text."""
+    """The export of a text."""
     path = folder / "Text.idsl"
     path.write_text(text)
     return export(modules(path), to)
 
 
 def put(files: Iterable[OutputFile], folder: Path) -> None:
-    """Bring files into a folder."""
+    """Write files into a folder."""
     for file in files:
         path = folder / file.path
         path.parent.mkdir(parents=True, exist_ok=True)

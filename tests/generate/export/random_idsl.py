@@ -1,4 +1,4 @@
-"""Valid IDSL by chance: two files, one importing the other, names that hurt, any order."""
+"""Random valid IDSL: two files, one importing the other, difficult names, any order."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ DOCS = (
 
 
 @dataclass
-class Drawn:
-    """What may be mentioned so far; the texts of the declarations."""
+class RandomModule:
+    """The types declared so far, and the texts of declarations."""
 
     draw: Callable[..., object]
     types: list[str] = field(default_factory=lambda: list(PRIMITIVES))
@@ -130,7 +130,7 @@ class Drawn:
 @st.composite
 def texts(draw: Callable[..., object]) -> dict[str, str]:
     """File name to text; `Text.idsl` is the one to export, and it imports `Base.idsl`."""
-    drawn = Drawn(draw)
+    drawn = RandomModule(draw)
     base, text = (
         drawn.choice(("Base", "IceBase", "base", "a_b")),
         drawn.choice(("M", "Text", "pose")),

@@ -1,4 +1,4 @@
-"""`--to json-schema`: judged by its meta schema, and by what it takes and refuses."""
+"""`--to json-schema`: valid schemas, and the instances that they accept and reject."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from tests.generate.export import exported, random_idsl
 
 
 def schema_of(path: Path, *, alone: bool = False) -> dict[str, Any]:
-    """The schema of a file, in which every reference leads somewhere."""
+    """The schema of a file; every reference in it resolves."""
     files = export(exported.modules(path), "json-schema", alone=alone)
     assert not files.findings
     (file,) = files.files
@@ -45,13 +45,13 @@ def validator(schema: dict[str, Any], name: str) -> Draft202012Validator:
 
 
 @pytest.mark.parametrize("name", exported.SHIPPED)
-def test_every_shipped_interface_is_a_schema(name: str) -> None:
+def test_json_schema_of_shipped_interface_is_valid(name: str) -> None:
     schema_of(INTERFACES / name)
 
 
 @settings(max_examples=40)
 @given(texts=random_idsl.texts())
-def test_any_valid_interface_is_a_schema(texts: dict[str, str]) -> None:
+def test_json_schema_of_random_interface_is_valid(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:
         for file, text in texts.items():
             Path(name, file).write_text(text)
@@ -116,12 +116,12 @@ def schema(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_instances(case: str, schema: dict[str, Any]) -> None:
+def test_json_schema_accepts_and_rejects_instances(case: str, schema: dict[str, Any]) -> None:
     name, value, fits = CASES[case]
     assert validator(schema, name).is_valid(value) is fits
 
 
-def test_what_is_written_for_people(schema: dict[str, Any]) -> None:
+def test_json_schema_has_descriptions(schema: dict[str, Any]) -> None:
     described = schema["$defs"]["M.S"]
     assert described["description"] == "A thing."
     assert described["properties"]["l"]["description"] == "[mm]"
@@ -129,7 +129,7 @@ def test_what_is_written_for_people(schema: dict[str, Any]) -> None:
     assert schema["$defs"]["M.E"]["$comment"] == "Off = 0, On = 5"
 
 
-def test_alone_leaves_out_what_is_not_used() -> None:
+def test_json_schema_alone_omits_unused_types() -> None:
     whole, alone = (schema_of(INTERFACES / "Laser.idsl", alone=name) for name in (False, True))
     assert set(alone["$defs"]) < set(whole["$defs"])
     assert "RoboCompGenericBase.TBaseState" in alone["$defs"]

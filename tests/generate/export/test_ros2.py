@@ -1,4 +1,4 @@
-"""`--to ros2`: what rosbags' parser reads in it, and whether the bytes are the same."""
+"""`--to ros2`: parsed with rosbags, and compared with the bytes of the runtime."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def parsed(files: Iterable[OutputFile]) -> dict[str, Any]:
             found |= get_types_from_msg(file.text, f"{package}/msg/{stem}")
         elif rest.startswith("srv/"):
             request, response = re.split("(?m)^---\n", file.text)
-            # Halves of services are read as messages, which is what they are to the parser.
+            # The parser reads the two parts of a service as messages.
             found |= get_types_from_msg(request, f"{package}/msg/{stem}_Request")
             found |= get_types_from_msg(response, f"{package}/msg/{stem}_Response")
         if rest.startswith(("msg/", "srv/")):
@@ -63,7 +63,7 @@ def registered(types: dict[str, Any]) -> Any:
     return store
 
 
-def test_every_shipped_interface_is_read() -> None:
+def test_ros2_export_of_shipped_interfaces_is_parsed() -> None:
     everything: dict[str, Any] = {}
     for name in exported.SHIPPED:
         files = export(exported.modules(INTERFACES / name), "ros2")
@@ -78,7 +78,7 @@ def test_every_shipped_interface_is_read() -> None:
 
 @settings(max_examples=60)
 @given(texts=random_idsl.texts())
-def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
+def test_ros2_export_of_random_interface_is_parsed(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for file, text in texts.items():
@@ -102,12 +102,12 @@ def test_any_valid_interface_is_read(texts: dict[str, str]) -> None:
         ("header", "header", "HeaderData"),
     ],
 )
-def test_names(name: str, member: str, message: str) -> None:
+def test_ros2_names_follow_conventions(name: str, member: str, message: str) -> None:
     assert (ros2_names.member_name(name), ros2_names.message_name(name)) == (member, message)
 
 
-def test_the_bytes_are_those_of_the_runtime() -> None:
-    """Enum, sequences of texts and structs, long and double: written by either, read by both."""
+def test_ros2_message_has_bytes_of_runtime() -> None:
+    """Enum, sequences, long and double, in both directions."""
     files = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
     store = registered(parsed(files.files))
     ports = [rt.PortInfo("implements", "Laser", "M::Laser", "zenoh", ["a", "b"])]
@@ -122,7 +122,7 @@ def test_the_bytes_are_those_of_the_runtime() -> None:
     assert decode(rt.ComponentInfo, bytes(store.serialize_cdr(theirs, kind))) == ours
 
 
-def test_a_dictionary_has_the_bytes_of_its_entries() -> None:
+def test_ros2_dictionary_has_bytes_of_its_entries() -> None:
     files = export(exported.modules(INTERFACES / "Component.idsl"), "ros2")
     store = registered(parsed(files.files))
     entry = store.types["robocomp_component/msg/ValuesEntry"]

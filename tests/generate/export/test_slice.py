@@ -1,4 +1,4 @@
-"""`--to slice`: what ZeroC's own compiler says of it."""
+"""`--to slice`: compiled with slice2py of ZeroC."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ compiled = pytest.mark.skipif(
 
 
 def slice2py(folder: Path) -> str:
-    """What the compiler says of all files of a folder; nothing if they are right."""
+    """The messages of the compiler for all files of a folder; empty if they are valid."""
     assert SLICE2PY, "no slice2py"
     out = folder / "out"
     out.mkdir(exist_ok=True)
@@ -39,7 +39,7 @@ def slice2py(folder: Path) -> str:
 
 
 @compiled
-def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
+def test_slice_export_of_shipped_interfaces_compiles(tmp_path: Path) -> None:
     for name in exported.SHIPPED:
         files = export(exported.modules(INTERFACES / name), "slice")
         assert not files.findings
@@ -51,7 +51,7 @@ def test_every_shipped_interface_compiles(tmp_path: Path) -> None:
 @compiled
 @settings(max_examples=40)
 @given(texts=random_idsl.texts())
-def test_any_valid_interface_compiles(texts: dict[str, str]) -> None:
+def test_slice_export_of_random_interface_compiles(texts: dict[str, str]) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for file, text in texts.items():

@@ -40,13 +40,13 @@ Deployment demo {
 """
 
 
-def test_a_deployment_tells_its_processes_of_their_devices(tmp_path: Path) -> None:
+def test_deployment_plan_passes_device_descriptions_to_processes(tmp_path: Path) -> None:
     (tmp_path / "body.cdsl").write_text(CDSL)
     path = tmp_path / "demo.ddsl"
     path.write_text(DDSL)
     report = Report()
     deployment = check_ddsl(path, Workspace(environ={}), report)
-    assert [item.message for item in report] == []
+    assert [finding.message for finding in report] == []
     assert deployment is not None
     result = plan(deployment, name="demo", domain="d", interpreter="python3")
     body, plain = result.processes
@@ -67,11 +67,11 @@ def test_a_deployment_tells_its_processes_of_their_devices(tmp_path: Path) -> No
     assert plan_from_environment(dict(plain.env)) == DevicePlan(())
 
 
-def test_both_sides_mean_the_same_variable() -> None:
+def test_device_host_and_deployment_use_same_variable() -> None:
     assert told.DEVICES_VARIABLE == host.DEVICES_VARIABLE
 
 
 @pytest.mark.parametrize(("text", "message"), [("{", "is not valid JSON"), ("[]", "is a mapping")])
-def test_what_is_no_description_is_refused(text: str, message: str) -> None:
+def test_host_description_of_another_form_is_refused(text: str, message: str) -> None:
     with pytest.raises(InvalidPlan, match=message):
         plan_from_environment({host.DEVICES_VARIABLE: text})

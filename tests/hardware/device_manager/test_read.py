@@ -27,7 +27,7 @@ backwards: true
 """
 
 
-def test_a_description_is_read():
+def test_device_plan_is_read():
     assert read_plan(yaml.safe_load(TEXT)) == DevicePlan(
         (
             DeviceSpec("arm", "control_board", {"part": "LArm"}),
@@ -67,7 +67,7 @@ def test_a_description_is_read():
         ({"backwards": "yes"}, "`backwards`: true or false"),
     ],
 )
-def test_data_of_another_form_is_refused(data, message):
+def test_device_plan_of_another_form_is_refused(data, message):
     with pytest.raises(InvalidPlan) as refused:
         read_plan(data)
     assert message in str(refused.value)

@@ -83,7 +83,7 @@ class Robot:
         return float(self.arm.world.data.joint(joint).qpos[0])
 
 
-def test_an_arm_is_calibrated_used_and_parked():
+def test_robot_devices_calibrate_use_and_park_arm():
     robot = Robot()
     conductor = DeviceManager(read_plan(DEVICES), robot.kinds)
     with robot.alive():
@@ -97,7 +97,7 @@ def test_an_arm_is_calibrated_used_and_parked():
             goal = hand.pose()
             goal[:3, 3] += (5.0, -5.0, 5.0)
             hand.go_to(goal[:3, 3], 0.5)
-        until(robot, lambda: hand.state is CartesianState.REACHED)
+        advance_until(robot, lambda: hand.state is CartesianState.REACHED)
         assert conductor.shutdown()
         with robot.turn:
             assert set(robot.arm.board.table.modes) == {Mode.IDLE}
@@ -106,14 +106,14 @@ def test_an_arm_is_calibrated_used_and_parked():
     assert conductor.phase is Phase.CLOSED
 
 
-def test_an_interrupt_ends_a_calibration_and_leaves_the_arm_without_power():
+def test_robot_devices_interrupt_ends_calibration_without_motor_power():
     robot = Robot()
     conductor = DeviceManager(read_plan(DEVICES), robot.kinds)
     result: list[bool] = []
     with robot.alive():
         starter = threading.Thread(target=lambda: result.append(conductor.start()))
         starter.start()
-        until(robot, lambda: Mode.CALIBRATING in robot.arm.board.table.modes)
+        advance_until(robot, lambda: Mode.CALIBRATING in robot.arm.board.table.modes)
         conductor.interrupt()
         starter.join(LONG)
         assert result == [False]
@@ -126,7 +126,7 @@ def test_an_interrupt_ends_a_calibration_and_leaves_the_arm_without_power():
             assert not robot.arm.board.torque.any()
 
 
-def until(robot: Robot, done) -> None:
+def advance_until(robot: Robot, done) -> None:
     """Wait, in turns with the world, until `done()`; a minute of the world's time at most."""
     with robot.turn:
         last = robot.arm.world.time + LONG
@@ -144,7 +144,7 @@ def until(robot: Robot, done) -> None:
         ({"speed": "fast"}, BadValue, "`speed` must be a number"),
     ],
 )
-def test_parameters_that_devices_do_not_know_are_refused(change, error, message):
+def test_robot_devices_refuse_unknown_parameters(change, error, message):
     robot = Robot()
     devices = [dict(device) for device in DEVICES["devices"]]
     devices[0 if "part" in change else 1].update(change)
@@ -153,7 +153,7 @@ def test_parameters_that_devices_do_not_know_are_refused(change, error, message)
         conductor.start()
 
 
-def test_a_parameter_of_no_joint_fails_the_startup(caplog):
+def test_robot_devices_fail_startup_with_parameter_of_unknown_joint(caplog):
     robot = Robot()
     devices = [dict(device) for device in DEVICES["devices"]]
     devices[1]["home.LTail"] = 1.0
@@ -165,7 +165,7 @@ def test_a_parameter_of_no_joint_fails_the_startup(caplog):
     conductor.shutdown()
 
 
-def test_controllers_stand_on_boards_only(caplog):
+def test_robot_devices_attach_controllers_to_boards_only(caplog):
     robot = Robot()
     data = {**DEVICES, "attach": {"hand": "zeroing"}, "actions": []}
     conductor = DeviceManager(read_plan(data), robot.kinds)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.hardware.control.errors import ModeRefused
-from robocomp_dsl.hardware.control.faults import FaultCode
 from robocomp_dsl.hardware.control.modes import SELECTABLE, Interaction, Mode
+from robocomp_dsl.hardware.control.protection.faults import FaultCode
 from tests.support.simulated_arm import Arm
 
 
@@ -32,7 +32,7 @@ SEQUENCE = (
 )
 
 
-def test_control_modes_follow_each_other_and_faults_leave_by_force_idle(arm):
+def test_control_modes_change_and_faults_end_by_force_idle(arm):
     for interaction in (Interaction.STIFF, Interaction.COMPLIANT):
         arm.command.set_interaction(None, interaction)
         for asked, expected in SEQUENCE:
@@ -44,7 +44,7 @@ def test_control_modes_follow_each_other_and_faults_leave_by_force_idle(arm):
     )
     arm.world.advance(0.01)
     assert modes(arm) == {(Mode.HW_FAULT, Interaction.STIFF)}
-    assert {item.code for item in arm.board.faults.last} == {FaultCode.OVERCURRENT}
+    assert {fault.code for fault in arm.board.faults.last} == {FaultCode.OVERCURRENT}
     arm.board.motors.set_max_current(
         np.arange(len(arm.spec.joints)), np.full(len(arm.spec.joints), 10.0)
     )
@@ -61,13 +61,13 @@ def test_control_modes_follow_each_other_and_faults_leave_by_force_idle(arm):
     assert modes(arm) == {(Mode.POSITION, Interaction.COMPLIANT)}
 
 
-def test_states_cannot_be_asked_for(arm):
+def test_control_mode_refuses_states_as_request(arm):
     for state in (m for m in Mode if m not in SELECTABLE):
         with pytest.raises(ModeRefused, match="cannot be asked for"):
             arm.command.set_mode(None, state)
 
 
-def test_the_arm_does_not_jump_when_its_mode_changes(arm):
+def test_control_mode_change_does_not_move_arm(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.world.advance(0.5)
     for asked in (Mode.VELOCITY, Mode.MIXED, Mode.POSITION_DIRECT, Mode.POSITION):

@@ -42,7 +42,7 @@ def test_joint_limits_hold_in_every_mode(arm):
                 assert (q < high + 0.1).all(), mode
 
 
-def test_torque_mode_gives_the_torque_and_no_more(arm):
+def test_torque_mode_gives_commanded_torque(arm):
     arm.command.set_mode(None, Mode.TORQUE)
     clipped = arm.command.set_torque(None, 1e6)
     assert clipped.all()
@@ -51,7 +51,7 @@ def test_torque_mode_gives_the_torque_and_no_more(arm):
     arm.command.set_mode([0], Mode.POSITION)
 
 
-def test_no_command_gets_past_the_limits_on_its_way_to_a_motor(arm):
+def test_joint_limits_apply_to_every_motor_command(arm):
     """Whatever is asked for, motors get no more than the torque limits, joints no more speed."""
     limits = arm.board.limits
     arm.world.model.opt.gravity[:] = 0

@@ -25,7 +25,7 @@ def test_motors_reach_their_targets_in_time(arm):
     assert arm.board.position == pytest.approx(goal - 0.1, abs=0.02)
 
 
-def test_a_stop_ends_the_motion_where_it_is(arm):
+def test_motor_stop_ends_motion_in_place(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 0.3)
     arm.command.position_move(None, arm.inside)

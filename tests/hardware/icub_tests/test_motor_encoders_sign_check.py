@@ -7,7 +7,7 @@ import pytest
 from robocomp_dsl.hardware.control.modes import Mode
 
 
-def test_motor_encoders_count_the_way_the_motor_pushes(arm):
+def test_motor_encoder_sign_matches_motor_push(arm):
     arm.world.model.opt.gravity[:] = 0
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)

@@ -12,7 +12,7 @@ FRICTION = 0.02
 
 
 @pytest.mark.parametrize("joint", [1, 3, 4])
-def test_the_output_that_moves_a_joint_tells_its_friction(arm, joint):
+def test_motor_stiction_is_output_that_moves_joint(arm, joint):
     arm.world.model.opt.gravity[:] = 0
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)

@@ -25,15 +25,15 @@ def share(arm, name: str, value: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("name", WRITTEN)
-def test_references_are_read_back_as_written(arm, name):
+def test_movement_references_are_read_back_as_written(arm, name):
     mode, command, value = WRITTEN[name]
     arm.command.set_mode(None, mode)
     arm.world.advance(0.01)
     everyone = share(arm, name, value)
     assert not getattr(arm.command, command)(None, everyone).any()
     assert getattr(targets(arm.board), name) == pytest.approx(everyone)
-    item = arm.spec.names[3]  # a single one, by name: the others stay
-    getattr(arm.command, command)([item], everyone[3] * 0.9)
+    joint = arm.spec.names[3]  # a single one, by name: the others stay
+    getattr(arm.command, command)([joint], everyone[3] * 0.9)
     everyone[3] *= 0.9
     assert getattr(targets(arm.board), name) == pytest.approx(everyone)
     group = [4, 0]  # a group, in any order
@@ -45,7 +45,7 @@ def test_references_are_read_back_as_written(arm, name):
 
 
 @pytest.mark.parametrize("name", WRITTEN)
-def test_references_beyond_the_limits_are_read_back_clipped(arm, name):
+def test_movement_references_beyond_limits_are_read_back_clipped(arm, name):
     mode, command, _ = WRITTEN[name]
     arm.command.set_mode(None, mode)
     assert getattr(arm.command, command)(None, 1e6).all()
@@ -60,7 +60,7 @@ def test_references_beyond_the_limits_are_read_back_clipped(arm, name):
     assert getattr(targets(arm.board), name) == pytest.approx(most[name])
 
 
-def test_a_change_of_mode_begins_references_anew(arm):
+def test_movement_references_restart_on_mode_change(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.command.position_move(None, arm.inside)
     arm.world.advance(0.1)

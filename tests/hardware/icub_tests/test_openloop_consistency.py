@@ -20,7 +20,7 @@ OTHERS = (
 
 @pytest.mark.parametrize("interaction", Interaction)
 @pytest.mark.parametrize("other", OTHERS)
-def test_duty_cycles_begin_at_zero_and_leave_nothing_behind(arm, other, interaction):
+def test_duty_cycle_starts_at_zero_and_leaves_no_offset(arm, other, interaction):
     arm.world.model.opt.gravity[:] = 0
     arm.command.set_interaction(None, interaction)
     arm.command.set_mode(None, other)

@@ -8,7 +8,7 @@ import pytest
 from robocomp_dsl.hardware.control.modes import Mode
 
 
-def test_both_encoders_agree_while_the_arm_moves(arm):
+def test_joint_and_motor_encoders_agree_while_arm_moves(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 0.7)
     arm.command.position_move(None, arm.inside)
@@ -25,7 +25,7 @@ def test_both_encoders_agree_while_the_arm_moves(arm):
         last = state
 
 
-def test_encoders_do_not_drift_in_a_cyclic_motion(arm):
+def test_encoders_do_not_drift_in_cyclic_motion(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 2.0)
     arm.go(None, arm.inside)

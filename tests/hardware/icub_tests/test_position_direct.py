@@ -7,7 +7,7 @@ import numpy as np
 from robocomp_dsl.hardware.control.modes import Mode
 
 
-def test_joints_follow_a_stream_of_direct_positions(arm):
+def test_position_direct_follows_stream(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)
@@ -22,7 +22,7 @@ def test_joints_follow_a_stream_of_direct_positions(arm):
     assert worst < 0.03
 
 
-def test_single_joints_and_groups_follow_while_the_others_stay(arm):
+def test_position_direct_moves_single_joints_and_groups_only(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     arm.go(None, arm.inside)

@@ -8,7 +8,7 @@ import pytest
 from robocomp_dsl.hardware.control.modes import Interaction, Mode
 
 
-def test_an_arm_at_rest_is_held_by_the_weight_that_the_model_tells(arm):
+def test_torque_control_holds_resting_arm_with_modelled_weight(arm):
     arm.command.set_mode(None, Mode.POSITION)
     arm.settings.set_reference_speed(None, 1.0)
     for part in (0.5, 0.35):
@@ -20,7 +20,7 @@ def test_an_arm_at_rest_is_held_by_the_weight_that_the_model_tells(arm):
         assert arm.board.state().torque == pytest.approx(weight, abs=0.02)
 
 
-def test_stiffness_and_damping_are_those_that_were_set(arm):
+def test_torque_control_stiffness_and_damping_are_as_set(arm):
     """A push of known strength moves a compliant joint by strength over stiffness."""
     joint = 3
     arm.command.set_mode(None, Mode.POSITION)

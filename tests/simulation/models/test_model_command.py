@@ -37,14 +37,14 @@ f 2 3 4
 """
 
 
-def test_a_dry_run_of_urdf(tmp_path: Path) -> None:
+def test_model_command_dry_run_lists_urdf(tmp_path: Path) -> None:
     (tmp_path / "bot.urdf").write_text(BOT)
     done = rcgen("simulator", "bot.urdf", "--dry-run", cwd=tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, TABLE, "")
     assert [path.name for path in tmp_path.iterdir()] == ["bot.urdf"]
 
 
-def test_what_is_made_of_mjcf_is_clean_typed_and_stays(tmp_path: Path) -> None:
+def test_model_component_is_clean_typed_and_stable(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(ARM)
     done = rcgen("simulator", "arm.xml", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
@@ -64,7 +64,7 @@ def test_what_is_made_of_mjcf_is_clean_typed_and_stays(tmp_path: Path) -> None:
 # -- the copy beside the component ----------------------------------------------------------------
 
 
-def test_the_component_needs_no_other_file_but_meshes(tmp_path: Path) -> None:
+def test_model_component_needs_only_mesh_files(tmp_path: Path) -> None:
     """Includes are written out, meshes have absolute paths, whatever folder the file names."""
     source = tmp_path / "source"
     (source / "parts" / "shapes").mkdir(parents=True)
@@ -87,7 +87,7 @@ def test_the_component_needs_no_other_file_but_meshes(tmp_path: Path) -> None:
     assert simulation.devices["j"].board.spec.names == ("j",)
 
 
-def test_packages_of_urdf(tmp_path: Path) -> None:
+def test_model_command_resolves_urdf_packages(tmp_path: Path) -> None:
     package = tmp_path / "share" / "bot_description"
     (package / "meshes").mkdir(parents=True)
     (package / "meshes" / "corner.obj").write_text(TETRAHEDRON)
@@ -116,14 +116,14 @@ COPIES = {
 
 
 @pytest.mark.parametrize("text", COPIES)
-def test_paths_in_the_copy(tmp_path: Path, text: str) -> None:
+def test_model_copy_has_relative_paths(tmp_path: Path, text: str) -> None:
     (tmp_path / "m.xml").write_text(text)
     copy = copy_model(tmp_path / "m.xml")
     assert f'"{COPIES[text].format(tmp_path)}"' in copy
     assert "strippath" not in copy
 
 
-def test_a_file_without_others_is_copied_as_it_is(tmp_path: Path) -> None:
+def test_model_copy_without_references_is_identical(tmp_path: Path) -> None:
     (tmp_path / "arm.xml").write_text(ARM)
     assert copy_model(tmp_path / "arm.xml") == ARM
 
@@ -154,7 +154,7 @@ BAD = {
 
 
 @pytest.mark.parametrize("text", BAD)
-def test_bad_files_are_told(tmp_path: Path, text: str) -> None:
+def test_model_command_reports_invalid_files(tmp_path: Path, text: str) -> None:
     """With a line or a name where there is one, and never as a traceback."""
     (tmp_path / "robot.xml").write_text(text)
     done = rcgen("simulator", "robot.xml", "--dry-run", "--format", "concise", cwd=tmp_path)
@@ -167,7 +167,7 @@ def test_bad_files_are_told(tmp_path: Path, text: str) -> None:
     assert done.returncode == int(failed)
 
 
-def test_a_text_that_is_not_utf_8(tmp_path: Path) -> None:
+def test_model_command_reports_text_that_is_not_utf_8(tmp_path: Path) -> None:
     """MuJoCo takes it, and so do we."""
     text = ARM.replace("<worldbody>", "<!-- Fuß --><worldbody>", 1)
     (tmp_path / "arm.xml").write_bytes(text.encode("latin-1"))

@@ -21,14 +21,14 @@ def described(folder: Path, text: str, name: str = "robot.xml") -> ModelDescript
 
 
 def settings(folder: Path, text: str, name: str = "robot.xml") -> dict[str, dict[str, Any]]:
-    result = described(folder, text, name)
-    return {device["id"]: device["settings"] for device in result.scene["devices"]}
+    description = described(folder, text, name)
+    return {device["id"]: device["settings"] for device in description.scene["devices"]}
 
 
-def test_ports(tmp_path: Path) -> None:
-    result = described(tmp_path, ARM)
-    assert result.findings == []
-    ports = [(item.port, item.interface, item.ids) for item in served(result.scene)]
+def test_model_devices_have_ports(tmp_path: Path) -> None:
+    description = described(tmp_path, ARM)
+    assert description.findings == []
+    ports = [(port.port, port.interface, port.ids) for port in served(description.scene)]
     assert ports == [
         ("JointMotor", "JointMotor", ["elbow", "shoulder", "grip"]),
         ("arm", "ControlBoard", ["elbow", "shoulder"]),
@@ -41,10 +41,13 @@ def test_ports(tmp_path: Path) -> None:
         ("InnerModelManager", "InnerModelManager", [""]),
         ("Simulation", "Simulation", [""]),
     ]
-    assert not_served(result.scene) == [("follower", "followingjoint"), ("hinge", "passivejoint")]
+    assert not_served(description.scene) == [
+        ("follower", "followingjoint"),
+        ("hinge", "passivejoint"),
+    ]
 
 
-def test_limits_come_from_joints_actuators_and_numbers(tmp_path: Path) -> None:
+def test_model_limits_come_from_joints_actuators_and_numbers(tmp_path: Path) -> None:
     found = settings(tmp_path, ARM)
     shoulder, elbow, grip = (found[name] for name in ("shoulder", "elbow", "grip"))
     assert shoulder["force"] == 20.0
@@ -58,7 +61,7 @@ def test_limits_come_from_joints_actuators_and_numbers(tmp_path: Path) -> None:
     assert (elbow["board"], grip["board"]) == ("arm", "")
 
 
-def test_a_robot_in_urdf_is_driven_whole(tmp_path: Path) -> None:
+def test_model_from_urdf_has_motors_for_all_joints(tmp_path: Path) -> None:
     found = settings(tmp_path, BOT, "bot.urdf")
     assert (found["lift"]["force"], found["turn"]["force"]) == (200.0, 40.0)
     assert (found["lift"]["speed"], found["turn"]["speed"]) == (0.25, 2.0)
@@ -86,58 +89,58 @@ FORCES = [
 
 
 @pytest.mark.parametrize(("text", "force"), FORCES)
-def test_forces(tmp_path: Path, text: str, force: float) -> None:
+def test_model_force_limits_are_read(tmp_path: Path, text: str, force: float) -> None:
     """What is not given holds twice the weight, and 50 N·m or 500 N at least."""
     assert settings(tmp_path, text)["j"]["force"] == pytest.approx(force)
 
 
-def test_what_has_no_name_gets_one(tmp_path: Path) -> None:
+def test_model_devices_without_name_get_one(tmp_path: Path) -> None:
     text = model('<joint/><joint axis="1 0 0"/>').replace("<body>", "<camera/><body>")
-    result = described(tmp_path, text)
-    assert [device["id"] for device in result.scene["devices"]] == [
+    description = described(tmp_path, text)
+    assert [device["id"] for device in description.scene["devices"]] == [
         "body1.joint0",
         "body1.joint1",
         "camera0",
     ]
 
 
-def test_a_joint_in_two_tuples_stays_in_the_first(tmp_path: Path) -> None:
+def test_model_joint_in_two_tuples_stays_in_first(tmp_path: Path) -> None:
     tuples = "".join(
         f'<tuple name="{name}"><element objtype="joint" objname="j"/></tuple>' for name in "ab"
     )
-    result = described(tmp_path, model(HINGE, f"<custom>{tuples}</custom>"))
-    assert result.scene["devices"][0]["settings"]["board"] == "a"
-    assert [finding.message for finding in result.findings] == [
+    description = described(tmp_path, model(HINGE, f"<custom>{tuples}</custom>"))
+    assert description.scene["devices"][0]["settings"]["board"] == "a"
+    assert [finding.message for finding in description.findings] == [
         "`j` is in `b` and stays on the board `a`"
     ]
 
 
-def test_a_speed_that_is_none_is_told(tmp_path: Path) -> None:
+def test_model_reports_invalid_speed(tmp_path: Path) -> None:
     text = model(HINGE, '<custom><numeric name="speed_j" data="-1"/></custom>')
-    result = described(tmp_path, text)
-    assert result.scene["devices"][0]["settings"]["speed"] == pytest.approx(6.2832, abs=1e-4)
-    assert "speed_j" in result.findings[0].message
+    description = described(tmp_path, text)
+    assert description.scene["devices"][0]["settings"]["speed"] == pytest.approx(6.2832, abs=1e-4)
+    assert "speed_j" in description.findings[0].message
 
 
 @pytest.mark.parametrize(("values", "received"), [("", []), ('armature="0.1"', ["too light"])])
-def test_a_motor_too_strong_for_its_joint_gets_inertia(
+def test_model_adds_inertia_to_joint_of_strong_motor(
     tmp_path: Path, values: str, received: list[str]
 ) -> None:
     """Else no controller could hold it at that step; told where the file says otherwise."""
-    result = described(tmp_path, model(f'<joint name="j" {values}/>', MOTOR.format(900)))
-    assert result.scene["devices"][0]["settings"]["armature"] == pytest.approx(1.8, abs=0.01)
-    assert [finding.message[:9] for finding in result.findings] == received
+    description = described(tmp_path, model(f'<joint name="j" {values}/>', MOTOR.format(900)))
+    assert description.scene["devices"][0]["settings"]["armature"] == pytest.approx(1.8, abs=0.01)
+    assert [finding.message[:9] for finding in description.findings] == received
 
 
-def test_names_that_things_share(tmp_path: Path) -> None:
+def test_model_devices_with_shared_names_are_renamed(tmp_path: Path) -> None:
     """Joints are called as in the file, whatever else is; all nodes have names of their own."""
     text = model('<joint name="a" armature="1"/><site name="a"/><camera name="a"/>').replace(
         "<body>", '<body name="a">'
     )
-    result = described(tmp_path, text)
-    frames = [item["id"] for item in result.scene["frames"]]
+    description = described(tmp_path, text)
+    frames = [frame["id"] for frame in description.scene["frames"]]
     assert frames == ["root", "a#2.at", "a#2", "a", "a#3"]
-    assert [(item["id"], item["frame"]) for item in result.scene["devices"]] == [
+    assert [(device["id"], device["frame"]) for device in description.scene["devices"]] == [
         ("a", "a#2"),
         ("a#4", "a"),
     ]
@@ -147,13 +150,13 @@ BAD_KEYS = ('qpos="1 2"', 'ctrl="1 2 3"', 'qpos="nan"')
 
 
 @pytest.mark.parametrize("key", BAD_KEYS)
-def test_a_key_frame_that_does_not_fit(tmp_path: Path, key: str) -> None:
+def test_model_reports_key_frame_of_wrong_size(tmp_path: Path, key: str) -> None:
     text = model(HINGE, f'<keyframe><key name="k" {key}/></keyframe>')
     with pytest.raises(ModelFileError, match="key"):
         described(tmp_path, text)
 
 
-def test_inertial_units_have_the_noise_of_their_sensors(tmp_path: Path) -> None:
+def test_model_imu_has_noise_of_its_sensors(tmp_path: Path) -> None:
     quiet = '<gyro site="wrist"/>\n    <accelerometer site="wrist"/>'
     noisy = '<gyro site="wrist" noise="0.02"/><accelerometer site="wrist" noise="0.3"/>'
     found = settings(tmp_path, ARM.replace(quiet, noisy))["wrist"]
@@ -161,7 +164,7 @@ def test_inertial_units_have_the_noise_of_their_sensors(tmp_path: Path) -> None:
     assert settings(tmp_path, ARM)["wrist"] == {"site": "wrist"}
 
 
-def test_a_gyroscope_alone_is_no_inertial_unit(tmp_path: Path) -> None:
+def test_model_gyroscope_alone_is_no_imu(tmp_path: Path) -> None:
     text = ARM.replace('<accelerometer site="wrist"/>', "")
     assert "wrist" not in settings(tmp_path, text)
 
@@ -174,29 +177,31 @@ COUPLINGS = [
 
 
 @pytest.mark.parametrize(("numbers", "couplings", "received"), COUPLINGS)
-def test_motors_that_joints_share(
+def test_model_joints_share_motors(
     tmp_path: Path, numbers: str, couplings: dict[str, list[float]], received: list[str]
 ) -> None:
     text = ARM.replace("<custom>", f'<custom><numeric name="coupling_arm" data="{numbers}"/>')
-    result = described(tmp_path, text)
-    assert result.scene["model"].get("couplings", {}) == couplings
-    assert [finding.message[18:33] for finding in result.findings] == received
+    description = described(tmp_path, text)
+    assert description.scene["model"].get("couplings", {}) == couplings
+    assert [finding.message[18:33] for finding in description.findings] == received
 
 
-def test_motors_of_tendons_keep_their_command(tmp_path: Path) -> None:
+def test_model_tendon_motors_keep_their_command(tmp_path: Path) -> None:
     """They are on no board; what the key frame commands them is what they do."""
     tendon = '<tendon><fixed name="t"><joint joint="grip" coef="1"/></fixed></tendon><actuator>'
     text = ARM.replace("<actuator>", tendon).replace(
         "</actuator>", '<motor name="pull" tendon="t"/></actuator>'
     )
     text = text.replace('name="home"', 'name="home" ctrl="0.5 0.5 0.5 0.5 0.7"')
-    result = described(tmp_path, text)
-    assert [finding.message for finding in result.findings] == [
+    description = described(tmp_path, text)
+    assert [finding.message for finding in description.findings] == [
         "not on one joint, so on no control board; they keep the commands of the start: `pull`"
     ]
-    assert result.scene["model"]["held"] == {"pull": 0.7}
-    file = {"model": result.scene["model"] | {"file": "robot.xml"}}
-    it = Simulation(Scene.of_data(result.scene | file, tmp_path), SimulationOptions(step=0.001))
+    assert description.scene["model"]["held"] == {"pull": 0.7}
+    file = {"model": description.scene["model"] | {"file": "robot.xml"}}
+    it = Simulation(
+        Scene.of_data(description.scene | file, tmp_path), SimulationOptions(step=0.001)
+    )
     it.advance(0.01)
     assert it.world.data.actuator("pull").ctrl[0] == 0.7
 
@@ -211,7 +216,7 @@ TRANSMISSIONS = [  # names of joints, the matrix, what is said
 
 
 @pytest.mark.parametrize(("names", "matrix", "message"), TRANSMISSIONS)
-def test_boards_may_command_other_joints_than_the_model_has(
+def test_model_boards_may_command_joints_outside_model(
     tmp_path: Path, names: str, matrix: str, message: str
 ) -> None:
     custom = (
@@ -219,15 +224,17 @@ def test_boards_may_command_other_joints_than_the_model_has(
         f'<numeric name="transmission_arm" data="{matrix}"/>'
         '<numeric name="range_bend" data="-0.5 0.25"/>'
     )
-    result = described(tmp_path, ARM.replace("</custom>", f"{custom}</custom>"))
-    received = [finding.message for finding in result.findings if "joints_arm" in finding.message]
-    devices = {device["id"]: device["settings"] for device in result.scene["devices"]}
+    description = described(tmp_path, ARM.replace("</custom>", f"{custom}</custom>"))
+    received = [
+        finding.message for finding in description.findings if "joints_arm" in finding.message
+    ]
+    devices = {device["id"]: device["settings"] for device in description.scene["devices"]}
     if message:
         assert message in received[0]
         assert "elbow" in devices
         return
     assert received == []
-    assert result.scene["model"]["transmissions"] == {"arm": [1.0, 1.0, 1.0, -1.0]}
+    assert description.scene["model"]["transmissions"] == {"arm": [1.0, 1.0, 1.0, -1.0]}
     assert devices["bend"]["joint"] == "elbow"
     assert (devices["bend"]["low"], devices["bend"]["high"]) == (-0.5, 0.25)
     assert "low" not in devices["swing"]

@@ -9,20 +9,22 @@ import pytest
 from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.simulation.models.model_file import LoadedModel, load_model
 from robocomp_dsl.simulation.models.model_to_transforms import model_transforms
-from tests.simulation.models.test_model_to_transforms import agree, random_position
+from tests.simulation.models.test_model_to_transforms import assert_trees_agree, random_position
 
 MODELS = Path(__file__).parent / "files"
 GEOM = mujoco.mjtGeom
 
 
 @pytest.mark.parametrize("name", ["arm.urdf", "crane.xml"])
-def test_the_tree_of_a_file_is_where_mujoco_has_its_bodies(name: str) -> None:
+def test_model_file_tree_matches_mujoco_bodies(name: str) -> None:
     loaded = load_model(MODELS / name)
     assert [str(finding) for finding in loaded.findings] == []
-    agree(loaded.model, model_transforms(loaded.model), np.random.default_rng(0), moves=6)
+    assert_trees_agree(
+        loaded.model, model_transforms(loaded.model), np.random.default_rng(0), moves=6
+    )
 
 
-def test_links_and_joints_are_where_mujocos_own_importer_has_them() -> None:
+def test_model_file_links_and_joints_match_mujoco_importer() -> None:
     ours = load_model(MODELS / "arm.urdf").model
     text = (MODELS / "arm.urdf").read_text()
     text = text.replace("package://arm_description/meshes/pyramid.stl", "meshes/pyramid.obj")
@@ -60,7 +62,7 @@ def test_links_and_joints_are_where_mujocos_own_importer_has_them() -> None:
     assert ours.neq == 1
 
 
-def test_a_mimic_joint_follows() -> None:
+def test_model_file_mimic_joint_follows() -> None:
     model = load_model(MODELS / "arm.urdf").model
     data = mujoco.MjData(model)
     for _ in range(500):
@@ -71,7 +73,7 @@ def test_a_mimic_joint_follows() -> None:
     assert right == pytest.approx(left, abs=2e-3)
 
 
-def test_meshes_have_their_size_and_stand_as_in_the_file() -> None:
+def test_model_file_meshes_have_size_and_pose_of_file() -> None:
     model = load_model(MODELS / "arm.urdf").model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -157,13 +159,13 @@ JOINT = "<joint name='j' type='{}'><parent link='{}'/><child link='{}'/>{}</join
         ),
     ],
 )
-def test_what_is_no_model_is_told_with_its_line(
+def test_model_file_reports_faults_with_line(
     tmp_path: Path, text: str, line: int, message: str
 ) -> None:
     with pytest.raises(ModelFileError) as error:
         load(tmp_path, text)
     assert message in str(error.value)
-    assert error.value.faults[0].line == line
+    assert error.value.findings[0].location.line == line
 
 
 @pytest.mark.parametrize(
@@ -177,13 +179,14 @@ def test_what_is_no_model_is_told_with_its_line(
         (LINKS + "<link name='c'>\n<visual/></link>@", "size", 2, "has no geometry"),
     ],
 )
-def test_what_had_to_be_guessed_is_found(
+def test_model_file_reports_assumptions(
     tmp_path: Path, inside: str, kind: str, line: int, message: str
 ) -> None:
     text = inside.replace("@", JOINT.format("revolute", "a", "b", ""))
     found = load(tmp_path, f"<robot name='r'>{text}</robot>").findings
     assert any(
-        (item.kind, item.line) == (kind, line) and message in item.message for item in found
+        (finding.kind, finding.location.line) == (kind, line) and message in finding.message
+        for finding in found
     ), found
 
 
@@ -211,7 +214,7 @@ DAE = """<COLLADA xmlns="c"><asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></
         ("a.dae", "<COLLADA", "the file is damaged", (0.1, 0.05, 0.05), 0),
     ],
 )
-def test_a_mesh_that_cannot_be_had_is_a_box(
+def test_model_file_replaces_unreadable_mesh_by_box(
     tmp_path: Path,
     text: str,
     file: str,
@@ -223,7 +226,7 @@ def test_a_mesh_that_cannot_be_had_is_a_box(
     if content:
         (tmp_path / file).write_text(content)
     loaded = load(tmp_path, text.format(file))
-    assert [(finding.kind, finding.line) for finding in loaded.findings] == [("mesh", 2)]
+    assert [(finding.kind, finding.location.line) for finding in loaded.findings] == [("mesh", 2)]
     assert message in loaded.findings[0].message
     model = loaded.model
     assert model.geom_type[0] == GEOM.mjGEOM_BOX
@@ -234,7 +237,7 @@ def test_a_mesh_that_cannot_be_had_is_a_box(
 
 @pytest.mark.parametrize("home", ["packages/arm/meshes", "meshes", "work/share/arm/meshes"])
 @pytest.mark.parametrize("way", ["option", "variable", "above"])
-def test_packages_are_found(
+def test_model_file_finds_packages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, home: str, way: str
 ) -> None:
     root = tmp_path / "arm" if home == "meshes" else tmp_path / home.split("/", maxsplit=1)[0]
@@ -254,21 +257,23 @@ def test_packages_are_found(
     assert loaded.model.nmesh == 1
 
 
-def test_a_massless_body_and_a_missing_texture_of_mjcf(tmp_path: Path) -> None:
+def test_model_file_reports_massless_body_and_missing_texture_of_mjcf(tmp_path: Path) -> None:
     text = (
         "<mujoco><asset>\n<texture name='t' type='2d' file='gone.png'/>"
         "<material name='m' texture='t'/></asset><worldbody><body name='b'><joint/>"
         "<geom size='.1' mass='0' material='m'/></body></worldbody></mujoco>"
     )
     loaded = load(tmp_path, text)
-    assert [(finding.kind, finding.subject, finding.line) for finding in loaded.findings] == [
+    assert [
+        (finding.kind, finding.subject, finding.location.line) for finding in loaded.findings
+    ] == [
         ("texture", "t", 2),
         ("mass", "b", 0),
     ]
     assert loaded.model.body_mass[1] > 0
 
 
-def test_an_stl_file_in_letters_is_read_for_mjcf_too(tmp_path: Path) -> None:
+def test_model_file_reads_ascii_stl_for_mjcf(tmp_path: Path) -> None:
     """MuJoCo itself reads only binary ones."""
     text = "<mujoco><asset><mesh name='m' file='{}' scale='2 2 3'/></asset><worldbody><geom "
     text += "type='mesh' mesh='m'/></worldbody></mujoco>"
@@ -287,8 +292,8 @@ def _matrix(quaternion: np.ndarray) -> np.ndarray:
     return result.reshape(3, 3)
 
 
-def test_bodies_in_each_other_are_told(tmp_path: Path) -> None:
+def test_model_file_reports_overlapping_bodies(tmp_path: Path) -> None:
     ball = "<body name='{0}' pos='{1} 0 0'><freejoint/><geom size='.1'/></body>"
     inside = ball.format("a", 0) + ball.format("b", 0.15) + ball.format("c", 0.4)
     found = load(tmp_path, f"<mujoco><worldbody>{inside}</worldbody></mujoco>").findings
-    assert [str(item) for item in found] == ["`a` and `b` overlap by 50 mm"]
+    assert [str(finding) for finding in found] == ["`a` and `b` overlap by 50 mm"]

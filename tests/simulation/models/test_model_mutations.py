@@ -22,17 +22,19 @@ OTHERS = ("nan", "-1", "0", "1e-9", "1e9", "5", "-0.3", "0.001", "1000")
 def mutated(text: str, seed: int) -> str:
     chosen = random.Random(seed)
     places = chosen.sample(list(NUMBERS.finditer(text)), chosen.randint(1, 3))
-    for place in sorted(places, key=lambda item: -item.start()):
+    for place in sorted(places, key=lambda match: -match.start()):
         text = text[: place.start()] + chosen.choice(OTHERS) + text[place.end() :]
     return text
 
 
 @pytest.mark.parametrize("seed", range(0, 60, 10))
 @pytest.mark.parametrize(("text", "name"), [(ARM, "arm.xml"), (BOT, "bot.urdf")])
-def test_other_numbers(text: str, name: str, seed: int, tmp_path: Path) -> None:
+def test_model_file_with_other_numbers_loads_or_reports(
+    text: str, name: str, seed: int, tmp_path: Path
+) -> None:
     ran = 0
-    for item in range(seed, seed + 10):
-        (tmp_path / name).write_text(mutated(text, item))
+    for number in range(seed, seed + 10):
+        (tmp_path / name).write_text(mutated(text, number))
         report = Report()
         result = model_world(tmp_path / name, (), report, lambda result: result)
         assert result is not None or report.has_errors

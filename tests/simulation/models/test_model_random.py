@@ -81,7 +81,7 @@ class Tree:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_a_random_tree(seed: int, tmp_path: Path) -> None:
+def test_model_of_random_tree_matches_mujoco(seed: int, tmp_path: Path) -> None:
     tree = Tree(seed)
     world = served_model(tmp_path, tree.text())
     driven = [name for names in tree.boards.values() for name in names]
@@ -104,6 +104,6 @@ def test_a_random_tree(seed: int, tmp_path: Path) -> None:
         ):
             matrix = world.simulation.state.matrix(frame)
             assert np.abs(matrix - axes.matrix(place, turn)).max() < 1e-6, frame
-    received = {item.id: item.parentId for item in nodes.getAllNodeInformation()}
+    received = {node.id: node.parentId for node in nodes.getAllNodeInformation()}
     assert {*tree.bodies, *driven, *tree.loose} <= set(received)
     assert all(parent in received for parent in received.values() if parent)

@@ -49,19 +49,19 @@ def described(folder: Path, text: str) -> ModelDescription:
     return describe(folder / "robot.xml", "model.xml")
 
 
-def test_a_motor_that_closes_both_fingers_moves_them(tmp_path: Path) -> None:
+def test_tendon_motor_closes_both_fingers(tmp_path: Path) -> None:
     world = served_model(tmp_path, PANDA)
     motors = world.ports["JointMotor"]
     assert list(motors.getAllMotorState()) == ["right"]
     motors.setPosition(world.types.MotorGoalPosition("right", 30.0, 0.0))
     world.simulation.advance(0.05)
-    world.until(lambda: not motors.getMotorState("right").isMoving)
+    world.advance_until(lambda: not motors.getMotorState("right").isMoving)
     world.simulation.advance(0.3)
     left, right = (world.simulation.world.data.joint(name).qpos[0] for name in ("left", "right"))
     assert (left, right) == pytest.approx((0.03, 0.03), abs=1e-3)
 
 
-def test_it_is_as_strong_as_the_tendon_makes_it(tmp_path: Path) -> None:
+def test_tendon_motor_force_follows_from_tendon(tmp_path: Path) -> None:
     """30 N at the tendon, which goes as far as the fingers, behind a gear of 2."""
     assert forces(tmp_path, PANDA) == {"right": 60.0}
     slow = PANDA.replace(TIED.format(slope=1), TIED.format(slope=0.5))
@@ -69,16 +69,16 @@ def test_it_is_as_strong_as_the_tendon_makes_it(tmp_path: Path) -> None:
 
 
 def forces(folder: Path, text: str) -> dict[str, float]:
-    result = described(folder, text)
-    assert result.findings == []
+    description = described(folder, text)
+    assert description.findings == []
     return {
         device["id"]: device["settings"]["force"]
-        for device in result.scene["devices"]
+        for device in description.scene["devices"]
         if device["kind"] == "prismaticjoint"
     }
 
 
-def test_a_tendon_of_one_joint_is_that_joint(tmp_path: Path) -> None:
+def test_tendon_of_one_joint_acts_like_joint(tmp_path: Path) -> None:
     text = gripper(SPLIT.format(other=""), CLOSE.format(on='tendon="t"'))
     assert forces(tmp_path, text) == {"left": 30.0}
     assert not_served(described(tmp_path, text).scene) == [("right", "passivejoint")]
@@ -100,24 +100,24 @@ LEFT_OUT = {
 
 
 @pytest.mark.parametrize("case", LEFT_OUT)
-def test_what_moves_no_joint_alone_is_told(tmp_path: Path, case: str) -> None:
-    result = described(tmp_path, LEFT_OUT[case])
-    assert [finding.message for finding in result.findings] == [
+def test_tendon_motor_that_moves_no_single_joint_is_reported(tmp_path: Path, case: str) -> None:
+    description = described(tmp_path, LEFT_OUT[case])
+    assert [finding.message for finding in description.findings] == [
         "not on one joint, so on no control board; they keep the commands of the start: `close`"
     ]
-    assert "pulled" not in result.scene["model"]
+    assert "pulled" not in description.scene["model"]
 
 
-def test_a_joint_that_has_a_motor_keeps_that_alone(tmp_path: Path) -> None:
+def test_tendon_does_not_replace_motor_of_joint(tmp_path: Path) -> None:
     motor = CLOSE.format(on='tendon="t"').replace(
         "</actuator>", '<motor name="own" joint="right" ctrlrange="-9 9"/></actuator>'
     )
     text = gripper(TIED.format(slope=1), SPLIT.format(other=OTHER), motor)
-    result = described(tmp_path, text)
-    assert ["`close`" in finding.message for finding in result.findings] == [True]
+    description = described(tmp_path, text)
+    assert ["`close`" in finding.message for finding in description.findings] == [True]
 
 
-def test_the_same_after_a_reset_and_in_a_fork(tmp_path: Path) -> None:
+def test_tendon_motor_is_restored_by_reset_and_fork(tmp_path: Path) -> None:
     world = served_model(tmp_path, PANDA)
     board = world.ports["ControlBoard"]
     for _ in range(2):

@@ -29,7 +29,7 @@ def random_position(model, random) -> np.ndarray:  # type: ignore[no-untyped-def
     return result
 
 
-def agree(model, found: ModelTransforms, random, moves: int = 3) -> None:  # type: ignore[no-untyped-def]
+def assert_trees_agree(model, found: ModelTransforms, random, moves: int = 3) -> None:  # type: ignore[no-untyped-def]
     data = mujoco.MjData(model)
     for move in range(moves):
         data.qpos[:] = random_position(model, random) if move else model.qpos0
@@ -44,12 +44,12 @@ def agree(model, found: ModelTransforms, random, moves: int = 3) -> None:  # typ
 
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("name", list(ROBOTS))
-def test_the_robots_that_ship(name: str, free: bool) -> None:
+def test_transforms_of_shipped_robots_match_mujoco(name: str, free: bool) -> None:
     spec = new_world()
     add_robot(spec, ROBOTS[name](), free=free)
     model = spec.compile()
     found = model_transforms(model)
-    agree(model, found, np.random.default_rng(3))
+    assert_trees_agree(model, found, np.random.default_rng(3))
     assert set(ROBOTS[name]().joints) <= {joint.name for joint in found.joints}
 
 
@@ -88,15 +88,15 @@ def random_model(seed: int, count: int):  # type: ignore[no-untyped-def]
 
 
 @pytest.mark.parametrize(("seed", "count"), [(0, 1), (1, 30), (2, 60), (3, 300), (4, 10_000)])
-def test_random_trees(seed: int, count: int) -> None:
+def test_transforms_of_random_trees_match_mujoco(seed: int, count: int) -> None:
     model = random_model(seed, count)
     assert model.nbody == count + 1
-    agree(
+    assert_trees_agree(
         model, model_transforms(model), np.random.default_rng(seed), moves=3 if count < 1000 else 2
     )
 
 
-def test_names_are_those_of_the_model_and_no_two_are_alike() -> None:
+def test_transforms_use_unique_names_of_model() -> None:
     model = mujoco.MjModel.from_xml_string(
         """<mujoco><worldbody><body name="root"><joint name="root" type="hinge"/><geom size=".1"/>
         <body><joint type="slide"/><geom size=".1"/><site name="tip" pos="0 0 1"/></body></body>
@@ -108,7 +108,7 @@ def test_names_are_those_of_the_model_and_no_two_are_alike() -> None:
     assert found.tree.transform((0, 0, 0), "tip", "root") == pytest.approx((0, 1000, 0))
 
 
-def test_jacobians_are_those_of_mujoco() -> None:
+def test_transforms_jacobians_match_mujoco() -> None:
     spec = new_world()
     add_robot(spec, ROBOTS["nao_h25"]())
     model = spec.compile()
@@ -127,7 +127,7 @@ def test_jacobians_are_those_of_mujoco() -> None:
     assert np.abs(place).max() > 0.1
 
 
-def test_what_is_no_number_is_refused() -> None:
+def test_transforms_refuse_non_finite_values() -> None:
     found = model_transforms(random_model(1, 12))
     for joint in found.joints:
         qpos = np.zeros(200)
@@ -138,6 +138,6 @@ def test_what_is_no_number_is_refused() -> None:
 
 @pytest.mark.parametrize("off", [0.0, 1e-15, 1e-13, 1e-12, 1e-10, 1e-8, 1e-6, 1e-3])
 @pytest.mark.parametrize("sign", [1, -1])
-def test_angles_give_the_rotation_again_near_the_pole(off: float, sign: int) -> None:
+def test_transforms_angles_round_trip_near_pole(off: float, sign: int) -> None:
     turned = rotation(0.7, sign * (math.pi / 2 - off), -1.1)
     assert np.abs(rotation(*angles(turned)) - turned).max() < 1e-11

@@ -22,42 +22,42 @@ try:
     at = names.index(joint)
     assert [joint.name for joint in finger.getJoints()] == ["finger_x", "finger_y", "finger_z"]
     assert all(joint.prismatic and joint.torqueLimit == 20.0 for joint in finger.getJoints())
-    refused(i.UnknownJoint, arm.positionMove, ["finger_x"], [0.1])
+    refusal_of(i.UnknownJoint, arm.positionMove, ["finger_x"], [0.1])
     rest = arm.getState().position.copy()
     arm.setReferenceSpeed([joint], [1.0])
     arm.positionMove([joint], [goal])
-    until(lambda: abs(arm.getState().position[at] - goal) < 0.01)
+    wait_until(lambda: abs(arm.getState().position[at] - goal) < 0.01)
     others = [k for k in range(len(names)) if k != at]
-    until(lambda: abs(arm.getState().position[others] - rest[others]).max() < 0.02)
+    wait_until(lambda: abs(arm.getState().position[others] - rest[others]).max() < 0.02)
     start = finger.getState().position.copy()
     finger.setReferenceSpeed([], [0.3, 0.3, 0.3])
     finger.positionMove([], start + (0.05, 0.1, -0.15))
-    until(lambda: abs(finger.getState().position - start - (0.05, 0.1, -0.15)).max() < 2e-3)
+    wait_until(lambda: abs(finger.getState().position - start - (0.05, 0.1, -0.15)).max() < 2e-3)
     nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
     def agree():  # it may still be coming to rest between the two questions
-        place, told = nodes.getPose("root", "finger")[1], finger.getState().position
-        return abs(place.x - 1000 * told[0]) < 1 and abs(place.y - 1000 * told[2]) < 1
-    until(agree)
+        place, slides = nodes.getPose("root", "finger")[1], finger.getState().position
+        return abs(place.x - 1000 * slides[0]) < 1 and abs(place.y - 1000 * slides[2]) < 1
+    wait_until(agree)
     motors = proxy(i.JOINTMOTOR, "JointMotor")
-    until(lambda: abs(motors.getMotorState(joint).pos - goal) < 0.02)
-    heard = []
+    wait_until(lambda: abs(motors.getMotorState(joint).pos - goal) < 0.02)
+    states = []
     source = (sys.argv[3] + "." + sys.argv[4] + "_pub",)
     topic = Endpoint(i.ControlBoardStateProxy.INTERFACE, "client", "x", source)
-    middleware.subscribe(topic, {"boardState": heard.append}, CallbackGroup())
-    until(lambda: heard and abs(heard[-1].position[at] - goal) < 0.02)
+    middleware.subscribe(topic, {"boardState": states.append}, CallbackGroup())
+    wait_until(lambda: states and abs(states[-1].position[at] - goal) < 0.02)
     hand = proxy(i.CARTESIANCONTROLLER, "cartesian_" + sys.argv[4])
     place = hand.getPose().place
     solved = hand.askForPosition(i.HandPlace(place.x, place.y, place.z + 0.03))
     hand.goToPose(solved.pose, 0.5)
-    until(hand.checkMotionDone)
-    until(lambda: abs(hand.getPose().place.z - place.z - 0.03) < 4e-3)
+    wait_until(hand.checkMotionDone)
+    wait_until(lambda: abs(hand.getPose().place.z - place.z - 0.03) < 4e-3)
     assert hand.getState().motion is i.MotionState.Reached
-    far = refused(i.Unreachable, hand.goToPosition, i.HandPlace(9.0, 0.0, 0.0), 0.5)
+    far = refusal_of(i.Unreachable, hand.goToPosition, i.HandPlace(9.0, 0.0, 0.0), 0.5)
     assert 7.0 < far.distance < 10.0
     arm.setControlMode([], i.ControlMode.Position)
     world = proxy(i.SIMULATION, "Simulation")
     world.reset()
-    until(lambda: abs(arm.getState().position[at] - rest[at]) < 1e-3)
+    wait_until(lambda: abs(arm.getState().position[at] - rest[at]) < 1e-3)
     print("moved")
 except BaseException:
     traceback.print_exc()
@@ -75,7 +75,7 @@ ROBOTS = {
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_a_client_moves_an_arm_and_the_finger(name: str, tmp_path: Path) -> None:
+def test_robot_simulator_client_moves_arm_and_finger(name: str, tmp_path: Path) -> None:
     folder = tmp_path / name
     shutil.copytree(COMPONENTS / name, folder, ignore=shutil.ignore_patterns("__pycache__"))
     board, joint, goal = ROBOTS[name]

@@ -36,7 +36,7 @@ def simulation(world: RobotWorld) -> Simulation:
 
 
 @worlds
-def test_the_file_is_what_the_exporter_writes(world: RobotWorld) -> None:
+def test_robot_world_file_matches_exporter(world: RobotWorld) -> None:
     path = COMPONENTS / world.file
     assert path.read_text("utf-8") == text(world), EXPORT
     described = description_file(world.robot).read_bytes()
@@ -44,28 +44,28 @@ def test_the_file_is_what_the_exporter_writes(world: RobotWorld) -> None:
 
 
 @worlds
-def test_the_simulator_is_fresh(world: RobotWorld, tmp_path: Path) -> None:
+def test_robot_simulator_is_freshly_generated(world: RobotWorld, tmp_path: Path) -> None:
     file = COMPONENTS / world.file
-    for item in (file, file.with_name("tactile.yaml")):
-        (tmp_path / item.name).write_bytes(item.read_bytes())
+    for path in (file, file.with_name("tactile.yaml")):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
     values = ("simulator", file.name, "--tactile", "tactile.yaml", "-o", "made")
     done = rcgen(*values, cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     saved = {"README.md", "specificworker.py", "etc/config.yaml"}
-    result = {
+    joint_poses = {
         str(path.relative_to(tmp_path / "made")): path.read_text("utf-8")
         for path in (tmp_path / "made").rglob("*")
         if path.is_file()
     }
-    assert len(result) > 10
-    for name in result.keys() - saved:
-        assert (file.parent / name).read_text("utf-8") == result[name], (
+    assert len(joint_poses) > 10
+    for name in joint_poses.keys() - saved:
+        assert (file.parent / name).read_text("utf-8") == joint_poses[name], (
             f"{file.parent.name}/{name}: {RCGEN.format(file.name)}"
         )
 
 
 @worlds
-def test_forward_kinematics_are_the_robots_own(world: RobotWorld) -> None:
+def test_robot_world_forward_kinematics_match_robot(world: RobotWorld) -> None:
     """The file has six digits: bodies and points are where the robot has them to 0.01 mm."""
     robot = ROBOTS[world.robot]()
     spec = new_world()
@@ -80,9 +80,9 @@ def test_forward_kinematics_are_the_robots_own(world: RobotWorld) -> None:
         mujoco.mj_forward(own, here)
         mujoco.mj_forward(file, there)
         for link in robot.links:
-            item, other = here.body(link.name), there.body(link.name)
-            assert np.abs(item.xpos - other.xpos).max() < 1e-5
-            assert np.abs(item.xmat - other.xmat).max() < 1e-5
+            body, other = here.body(link.name), there.body(link.name)
+            assert np.abs(body.xpos - other.xpos).max() < 1e-5
+            assert np.abs(body.xmat - other.xmat).max() < 1e-5
             for point in link.points:
                 apart = here.site(point).xpos - there.site(point).xpos
                 assert np.abs(apart).max() < 1e-5
@@ -97,7 +97,7 @@ def limits(spec: BoardSpec) -> dict[str, tuple[float, ...]]:
 
 
 @worlds
-def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: RobotWorld) -> None:
+def test_robot_world_boards_match_joints_and_limits_of_robot(world: RobotWorld) -> None:
     robot, board = ROBOTS[world.robot](), simulation(world).devices["finger_x"]
     here = limits(board.board.spec)
     for name in board_names(robot):
@@ -112,7 +112,7 @@ def test_boards_have_the_joints_and_limits_of_the_robots_boards(world: RobotWorl
 
 
 @worlds
-def test_it_stands_at_its_start_touching_nothing(world: RobotWorld) -> None:
+def test_robot_world_start_pose_is_free_of_contacts(world: RobotWorld) -> None:
     """And it stays there, with all boards in position mode."""
     robot, it = ROBOTS[world.robot](), simulation(world)
     it.reset()
@@ -139,7 +139,7 @@ def slides(finger: str) -> list[str]:
 
 
 @worlds
-def test_the_fingers_go_where_their_joints_say(world: RobotWorld) -> None:
+def test_robot_world_fingers_follow_their_joints(world: RobotWorld) -> None:
     """Each by itself: the other one stays."""
     it, goal = simulation(world), [world.parked[0][0] + 0.05, 0.3, 0.2]
     it.reset()
@@ -153,7 +153,7 @@ def test_the_fingers_go_where_their_joints_say(world: RobotWorld) -> None:
 
 @pytest.mark.parametrize("finger", FINGERS)
 @worlds
-def test_a_finger_pushes_with_no_more_than_its_force(world: RobotWorld, finger: str) -> None:
+def test_robot_world_finger_force_is_limited(world: RobotWorld, finger: str) -> None:
     """Driven through the robot's root, which is fixed, it presses on it with 20 N."""
     it = simulation(world)
     it.reset()
@@ -170,7 +170,7 @@ def test_a_finger_pushes_with_no_more_than_its_force(world: RobotWorld, finger: 
     assert total == pytest.approx(FORCE, rel=0.05)
 
 
-def test_the_eyes_of_the_icub_turn_by_version_and_vergence() -> None:
+def test_robot_world_icub_eyes_turn_by_version_and_vergence() -> None:
     """Encoders at the joints count these; those of the motors each its own eye."""
     it = simulation(next(world for world in WORLDS if world.robot == "icub_v2"))
     it.reset()

@@ -28,23 +28,23 @@ WORLD = """\
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD)
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD)
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
 @pytest.mark.parametrize("name", ["robot", "platform"])
-def test_a_generic_base_tells_what_the_base_tells(world: Served, name: str) -> None:
+def test_generic_base_servant_matches_base_state(world: Served, name: str) -> None:
     world.ports[name].setSpeedBase(*((300.0, 0.4) if name == "robot" else (100.0, 300.0, 0.4)))
     world.simulation.advance(1.0)
     generic, own = world.ports[f"{name}_base"], world.ports[name]
     assert generic.getBasePose() == own.getBasePose()
     received, state = generic.getBaseState(), own.getBaseState()
     assert received.isMoving
-    assert all(getattr(received, item) == getattr(state, item) for item, _ in type(state)._fields_)
+    assert all(getattr(received, name) == getattr(state, name) for name, _ in type(state)._fields_)
 
 
-def test_the_full_pose_is_the_true_one_and_so_are_its_speeds(world: Served) -> None:
+def test_base_servant_full_pose_and_speeds_are_true(world: Served) -> None:
     pose = world.ports["robot_pose"].getFullPoseEuler()
     assert (pose.x, pose.y, pose.z) == pytest.approx((400, 250, -300), abs=1e-3)
     assert (pose.rx, pose.ry, pose.rz) == pytest.approx((0, 0.5, 0), abs=1e-6)
@@ -67,7 +67,7 @@ def test_the_full_pose_is_the_true_one_and_so_are_its_speeds(world: Served) -> N
     assert (after.vy, after.ay, after.vry) == pytest.approx((0, 0, 0.8), abs=0.01)
 
 
-def test_the_matrix_is_the_pose(world: Served) -> None:
+def test_base_servant_matrix_is_pose(world: Served) -> None:
     port = world.ports["robot_pose"]
     euler, it = port.getFullPoseEuler(), port.getFullPoseMatrix()
     rows = pose_rows((euler.x, euler.y, euler.z, euler.rx, euler.ry, euler.rz))
@@ -75,7 +75,7 @@ def test_the_matrix_is_the_pose(world: Served) -> None:
     assert np.allclose(received, [*rows, (0, 0, 0, 1)], atol=1e-3)
 
 
-def test_an_initial_pose_turns_the_world_that_poses_are_told_in(world: Served) -> None:
+def test_base_servant_initial_pose_turns_reported_frame(world: Served) -> None:
     port = world.ports["robot_pose"]
     port.setInitialPose(10, 20, 30, 0, 0, 0)
     pose = port.getFullPoseEuler()
@@ -99,20 +99,20 @@ def test_laser_scan_is_published_once(world: Served) -> None:
     assert len(port.poll()) == 1
 
 
-def test_a_base_tells_its_state_with_the_time(world: Served) -> None:
+def test_base_servant_state_contains_time(world: Served) -> None:
     ((state, time),) = world.ports["robot"].poll()
     assert time == pytest.approx(0.1)
     assert state.correctedX == pytest.approx(400, abs=1)
 
 
-def test_a_laser_tells_how_it_is_set_up(world: Served) -> None:
+def test_laser_servant_reports_configuration(world: Served) -> None:
     it = world.ports["laser"].getLaserConfData()
     assert (it.device, it.maxMeasures, it.minRange, it.maxRange) == ("laser", 11, 0, 4000)
     assert (it.maxDegrees, it.iniRange, it.endRange, it.sampleRate) == (58, -29, 29, 50)
     assert (it.angleRes, it.angleIni) == pytest.approx((5.7296, -28.648), abs=1e-3)
 
 
-def test_a_base_that_knows_only_the_floor_has_a_full_pose_too(world: Served) -> None:
+def test_base_servant_of_planar_base_has_full_pose(world: Served) -> None:
     base = world.simulation.devices["platform"]
     base.set_speed(100.0, 300.0, 0.4)
     world.simulation.advance(1.5)

@@ -25,7 +25,7 @@ EYES = """\
 """
 
 
-def test_depth_and_points_are_those_of_the_walls(tmp_path: Path) -> None:
+def test_camera_depth_and_points_match_walls(tmp_path: Path) -> None:
     world = served(tmp_path, EYES)
     world.simulation.advance(0.01)
     seen = world.ports["CameraRGBDSimple"].getAll("eye")
@@ -39,13 +39,13 @@ def test_depth_and_points_are_those_of_the_walls(tmp_path: Path) -> None:
     assert (seen.image.width, seen.image.height, seen.image.depth) == (80, 60, 3)
     points = seen.points.points
     z = points.column("z")
-    assert sorted({round(float(item), -1) for item in z}) == [2000, 3000]
+    assert sorted({round(float(depth), -1) for depth in z}) == [2000, 3000]
     blue = z > 2500
     assert points.column("x")[blue].min() > -60
     assert points.column("y")[blue].min() > -60  # above the eye, which looks ahead at 500 mm
 
 
-def test_a_plain_camera_sees_the_same_colours(tmp_path: Path) -> None:
+def test_camera_without_depth_has_same_colours(tmp_path: Path) -> None:
     world = served(tmp_path, EYES)
     image = world.ports["plain"].getImage()
     colours = image.image.reshape(30, 40, 3).astype(int)
@@ -53,7 +53,7 @@ def test_a_plain_camera_sees_the_same_colours(tmp_path: Path) -> None:
     assert colours[5, 30].argmax() == 2
 
 
-def test_a_picture_is_taken_once_a_period(tmp_path: Path) -> None:
+def test_camera_takes_one_picture_per_period(tmp_path: Path) -> None:
     world = served(tmp_path, EYES)
     port = world.ports["CameraRGBDSimple"]
     first = port.getImage("eye").alivetime
@@ -63,7 +63,7 @@ def test_a_picture_is_taken_once_a_period(tmp_path: Path) -> None:
     assert port.getImage("eye").alivetime == first + 80
 
 
-def test_noise_is_as_declared(tmp_path: Path) -> None:
+def test_camera_noise_is_as_declared(tmp_path: Path) -> None:
     world = served(tmp_path, EYES.replace('focal="60"', 'focal="60" noise="30"'))
     depth = world.ports["CameraRGBDSimple"].getDepth("eye").depth.view(np.float32).reshape(60, 80)
     wall = depth[:, 2:38]
@@ -71,14 +71,14 @@ def test_noise_is_as_declared(tmp_path: Path) -> None:
     assert wall.mean() == pytest.approx(2000, abs=5)
 
 
-def test_unknown_cameras_are_refused(tmp_path: Path) -> None:
+def test_camera_servant_refuses_unknown_cameras(tmp_path: Path) -> None:
     world = served(tmp_path, EYES)
     with pytest.raises(Exception, match="no camera `ear`: eye") as raised:
         world.ports["CameraRGBDSimple"].getImage("ear")
     assert type(raised.value).__name__.endswith("HardwareFailedException")
 
 
-def test_a_changed_world_is_seen(tmp_path: Path) -> None:
+def test_camera_shows_changed_world(tmp_path: Path) -> None:
     world = served(tmp_path, EYES)
     port = world.ports["CameraRGBDSimple"]
     port.getImage("eye")
@@ -102,7 +102,7 @@ class CountedRenderer(Renderer):
         CountedRenderer.in_use -= 1
 
 
-def test_a_camera_that_is_gone_frees_its_rendering_context(
+def test_removed_camera_frees_rendering_context(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(camera, "Renderer", CountedRenderer)

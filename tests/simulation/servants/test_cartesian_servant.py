@@ -34,9 +34,9 @@ def true_pose(served: Served, robot: str) -> np.ndarray:
     """The hand in its base as MuJoCo tells it, (4, 4) in m."""
     _, tip, base, _ = ROBOTS[robot]
     data, found = served.simulation.world.data, []
-    for item in (data.body(base), data.site(tip)):
+    for frame in (data.body(base), data.site(tip)):
         pose = np.eye(4)
-        pose[:3, :3], pose[:3, 3] = item.xmat.reshape(3, 3), item.xpos
+        pose[:3, :3], pose[:3, 3] = frame.xmat.reshape(3, 3), frame.xpos
         found.append(pose)
     return np.linalg.inv(found[0]) @ found[1]
 
@@ -49,7 +49,7 @@ def matrix(pose: Any) -> np.ndarray:
 
 
 @BOTH
-def test_poses_are_those_of_the_model(robot: str, tmp_path: Path) -> None:
+def test_cartesian_servant_poses_match_model(robot: str, tmp_path: Path) -> None:
     result, hand, _ = robot_of(tmp_path, robot)
     result.simulation.advance(0.2)
     assert len(hand.getJoints()) == ROBOTS[robot][3]
@@ -59,7 +59,7 @@ def test_poses_are_those_of_the_model(robot: str, tmp_path: Path) -> None:
 
 
 @BOTH
-def test_a_hand_goes_to_a_pose_that_was_asked_for_before(robot: str, tmp_path: Path) -> None:
+def test_cartesian_servant_reaches_solved_pose(robot: str, tmp_path: Path) -> None:
     result, hand, board = robot_of(tmp_path, robot)
     result.simulation.advance(0.2)
     i, start = result.types, hand.getPose()
@@ -72,7 +72,7 @@ def test_a_hand_goes_to_a_pose_that_was_asked_for_before(robot: str, tmp_path: P
     assert received.joints == pytest.approx(hand.getDesired().joints)
     began = result.simulation.time
     assert not hand.checkMotionDone()
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     assert result.simulation.time - began == pytest.approx(0.8, abs=0.15)
     result.simulation.advance(0.5)
     assert hand.getState().motion.name == "Reached"
@@ -123,7 +123,7 @@ def test_cartesian_servant_refuses_invalid_arguments(
     assert hand.getInTargetTol() == pytest.approx((0.001, 0.01))
 
 
-def test_joints_that_are_not_free_stay_as_they_are(tmp_path: Path) -> None:
+def test_cartesian_servant_keeps_fixed_joints(tmp_path: Path) -> None:
     result, hand, board = robot_of(tmp_path, "icub")
     result.simulation.advance(0.2)
     i = result.types
@@ -136,7 +136,7 @@ def test_joints_that_are_not_free_stay_as_they_are(tmp_path: Path) -> None:
     solved = hand.goToPosition(i.HandPlace(at.x, at.y + 0.02, at.z + 0.02), 0.0)
     with pytest.raises(i.CartesianRefused, match="on its way"):
         hand.setDOF([True] * 7)
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     result.simulation.advance(0.3)
     after = board.getState().position
     assert np.abs(after - before)[4:].max() < 1e-3
@@ -146,7 +146,7 @@ def test_joints_that_are_not_free_stay_as_they_are(tmp_path: Path) -> None:
     assert (place.y, place.z) == pytest.approx((at.y + 0.02, at.z + 0.02), abs=4e-3)
 
 
-def test_a_stop_ends_a_motion_and_who_takes_the_joints_interrupts_it(tmp_path: Path) -> None:
+def test_cartesian_servant_motion_ends_on_stop_and_on_mode_change(tmp_path: Path) -> None:
     result, hand, board = robot_of(tmp_path, "nao")
     result.simulation.advance(0.2)
     i, at = result.types, hand.getPose().place
@@ -191,7 +191,7 @@ LINKS = """\
 
 
 @pytest.mark.parametrize("tracking", [True, False])
-def test_a_hand_that_is_tracked_stays_when_other_joints_move_it(
+def test_cartesian_servant_tracks_hand_while_other_joints_move(
     tracking: bool, tmp_path: Path
 ) -> None:
     result = served_model(tmp_path, LINKS.replace("TIP", "tip"))
@@ -200,11 +200,11 @@ def test_a_hand_that_is_tracked_stays_when_other_joints_move_it(
     hand.setTrackingMode(tracking)
     assert hand.getTrackingMode() is tracking
     hand.goToPosition(i.HandPlace(0.35, 0.1, 0.1), 0.5)
-    result.until(hand.checkMotionDone)
+    result.advance_until(hand.checkMotionDone)
     rest.setReferenceSpeed(["turn"], np.array([0.3]))
     rest.positionMove(["turn"], np.array([0.4]))
     result.simulation.advance(0.1)
-    result.until(lambda: rest.motionDone(["turn"]).all())
+    result.advance_until(lambda: rest.motionDone(["turn"]).all())
     result.simulation.advance(1.0)
     place = hand.getPose().place
     away = np.hypot(place.x - 0.35, place.y - 0.1)

@@ -34,7 +34,7 @@ def world(tmp_path: Path) -> Served:
     return served(tmp_path, WORLD)
 
 
-def seen(world: Served) -> dict[str, tuple[bool, ...]]:
+def visible_places(world: Served) -> dict[str, tuple[bool, ...]]:
     """Which of red, green, blue shine in each corner of the display."""
     world.simulation.advance(0.1)  # or the camera tells the picture that it has
     image = world.ports["CameraRGBDSimple"].getImage("eye")
@@ -55,32 +55,32 @@ AS_CORNERS = {
 }
 
 
-def test_at_first_it_has_its_colour(world: Served) -> None:
-    assert set(seen(world).values()) == {(False, True, False)}
+def test_display_starts_with_its_colour(world: Served) -> None:
+    assert set(visible_places(world).values()) == {(False, True, False)}
 
 
-def test_an_image_is_seen_the_right_way_round(world: Served) -> None:
-    seen(world)  # the camera has its context already
+def test_display_shows_image_in_right_orientation(world: Served) -> None:
+    visible_places(world)  # the camera has its context already
     world.ports["face"].setImage(image_of(world, CORNERS))
-    assert seen(world) == AS_CORNERS
+    assert visible_places(world) == AS_CORNERS
     grey = np.full((3, 5, 1), 255, np.uint8)
     world.ports["face"].setImage(image_of(world, grey))
-    assert set(seen(world).values()) == {(True, True, True)}
+    assert set(visible_places(world).values()) == {(True, True, True)}
 
 
-def test_an_image_comes_from_a_file(world: Served, tmp_path: Path) -> None:
+def test_display_shows_image_from_file(world: Served, tmp_path: Path) -> None:
     Image.fromarray(CORNERS).save(tmp_path / "corners.png")
     world.ports["face"].setImageFromFile(str(tmp_path / "corners.png"))
-    assert seen(world) == AS_CORNERS
+    assert visible_places(world) == AS_CORNERS
 
 
 def test_display_stays_when_the_world_is_built_again_and_goes_with_a_reset(world: Served) -> None:
     world.ports["face"].setImage(image_of(world, CORNERS))
     plane = world.types.Plane3D(0, 0, 3000, 0, 0, -1, 10, 10, 10, "#ffffff")
     world.ports["InnerModelManager"].addPlane("more", "root", plane)
-    assert seen(world) == AS_CORNERS
+    assert visible_places(world) == AS_CORNERS
     world.ports["Simulation"].reset()
-    assert set(seen(world).values()) == {(False, True, False)}
+    assert set(visible_places(world).values()) == {(False, True, False)}
 
 
 @pytest.mark.parametrize(
@@ -92,19 +92,19 @@ def test_display_stays_when_the_world_is_built_again_and_goes_with_a_reset(world
         (-1, -1, 3, 3, "no"),
     ],
 )
-def test_what_is_no_image_is_refused(
+def test_display_servant_refuses_invalid_images(
     world: Served, width: int, height: int, depth: int, count: int, message: str
 ) -> None:
-    result = world.types.Image(width, height, depth, np.zeros(count, np.uint8))
+    image = world.types.Image(width, height, depth, np.zeros(count, np.uint8))
     with pytest.raises(Exception, match=message) as raised:
-        world.ports["face"].setImage(result)
+        world.ports["face"].setImage(image)
     assert type(raised.value).__name__.endswith("HardwareFailedException")
 
 
 @pytest.mark.parametrize(
     ("name", "message"), [("gone.png", "No such file"), ("text.png", "no picture")]
 )
-def test_files_without_an_image_are_refused(
+def test_display_servant_refuses_files_without_image(
     world: Served, tmp_path: Path, name: str, message: str
 ) -> None:
     (tmp_path / "text.png").write_text("text")

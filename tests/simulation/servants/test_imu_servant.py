@@ -40,7 +40,7 @@ def readings(world: Served, port: str) -> np.ndarray:
     return np.array(result)
 
 
-def test_noise_is_as_declared(tmp_path: Path) -> None:
+def test_imu_noise_is_as_declared(tmp_path: Path) -> None:
     world = served(tmp_path, NOISY)
     seen = readings(world, "rough")
     assert seen[:, :3].std(axis=0) == pytest.approx(0.5, rel=0.2)
@@ -51,12 +51,12 @@ def test_noise_is_as_declared(tmp_path: Path) -> None:
     assert readings(world, "rough").std(axis=0) == pytest.approx(0, abs=1e-6)
 
 
-def test_noise_does_not_depend_on_who_asks(tmp_path: Path) -> None:
-    item, other = served(tmp_path, NOISY), served(tmp_path, NOISY)
-    for world, asked in ((item, 50), (other, 1)):
+def test_imu_noise_is_independent_of_readers(tmp_path: Path) -> None:
+    reference, other = served(tmp_path, NOISY), served(tmp_path, NOISY)
+    for world, asked in ((reference, 50), (other, 1)):
         for _ in range(asked):
             world.ports["rough"].getDataImu()
-    assert (readings(item, "rough") == readings(other, "rough")).all()
+    assert (readings(reference, "rough") == readings(other, "rough")).all()
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def robot(tmp_path: Path) -> Served:
     return result
 
 
-def test_at_rest_it_feels_what_holds_it(robot: Served) -> None:
+def test_imu_at_rest_measures_gravity(robot: Served) -> None:
     acc = robot.ports["imu"].getAcceleration()
     assert (acc.XAcc, acc.YAcc, acc.ZAcc) == pytest.approx((0, G, 0), abs=1e-3)
     # its z axis points down by 0.3 rad or up: Rx(0.3) takes (0, 0, 1) to (0, -sin, cos)
@@ -75,7 +75,7 @@ def test_at_rest_it_feels_what_holds_it(robot: Served) -> None:
     assert (tilted.XAcc, tilted.YAcc, tilted.ZAcc) == pytest.approx(expected, abs=1e-3)
 
 
-def test_orientation_counts_from_the_reset(robot: Served) -> None:
+def test_imu_orientation_starts_at_reset(robot: Served) -> None:
     imu = robot.ports["imu"]
     assert imu.getOrientation().Yaw == pytest.approx(0.5, abs=1e-3)
     imu.resetImu()
@@ -87,7 +87,7 @@ def test_orientation_counts_from_the_reset(robot: Served) -> None:
     assert imu.getOrientation().Yaw == pytest.approx(turned, abs=1e-3)
 
 
-def test_imu_feels_the_base_speed_up_and_go_round(robot: Served) -> None:
+def test_imu_measures_acceleration_and_turn_of_base(robot: Served) -> None:
     base, imu = robot.ports["robot"], robot.ports["imu"]
     base.setSpeedBase(800.0, 0.0)
     robot.simulation.advance(0.2)
@@ -99,7 +99,7 @@ def test_imu_feels_the_base_speed_up_and_go_round(robot: Served) -> None:
     assert imu.getAcceleration().XAcc == pytest.approx(0.8, abs=0.05)
 
 
-def test_the_field_turns_against_the_base(robot: Served) -> None:
+def test_imu_magnetic_field_turns_against_base(robot: Served) -> None:
     before = robot.ports["imu"].getMagneticFields()
     assert math.hypot(before.XMag, before.YMag, before.ZMag) == pytest.approx(1.0, abs=1e-5)
     robot.ports["robot"].setSpeedBase(0.0, 1.0)

@@ -45,7 +45,7 @@ def mistake(world: Served, operation: str, *arguments: Any) -> str:
     return str(raised.value.err.name)
 
 
-def test_all_nodes_depth_first(world: Served) -> None:
+def test_inner_model_servant_lists_nodes_depth_first(world: Served) -> None:
     nodes = world.ports["InnerModelManager"].getAllNodeInformation()
     found = [(node.id, node.parentId, node.nType.name) for node in nodes]
     assert found[:4] == [
@@ -59,25 +59,25 @@ def test_all_nodes_depth_first(world: Served) -> None:
     assert ("wall", "floor", "Plane") in found
 
 
-def test_points_and_poses_are_those_of_the_transform_tree(world: Served) -> None:
+def test_inner_model_servant_poses_match_transform_tree(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     tree = TransformTree(world.simulation.state.scene.frames)
-    for base, item in (("robot", "laser_pose"), ("laser_pose", "platform"), ("root", "neck")):
-        done, found = nodes.getPose(base, item)
+    for base, frame in (("robot", "laser_pose"), ("laser_pose", "platform"), ("root", "neck")):
+        done, found = nodes.getPose(base, frame)
         assert done
         assert [found.x, found.y, found.z, found.rx, found.ry, found.rz] == pytest.approx(
-            list(tree.pose(item, base)), abs=1e-6
+            list(tree.pose(frame, base)), abs=1e-6
         )
         point = world.types.coord3D(10.0, 20.0, 30.0)
-        _, seen = nodes.transform(base, item, point)
-        expected = tree.transform((10, 20, 30), item, base)
+        _, seen = nodes.transform(base, frame, point)
+        expected = tree.transform((10, 20, 30), frame, base)
         assert [seen.x, seen.y, seen.z] == pytest.approx(expected, abs=1e-6)
-        matrix = nodes.getTransformationMatrix(base, item)
+        matrix = nodes.getTransformationMatrix(base, frame)
         assert (matrix.rows, matrix.cols) == (4, 4)
-        assert matrix.data.reshape(4, 4) == pytest.approx(tree.matrix(item, base), abs=1e-3)
+        assert matrix.data.reshape(4, 4) == pytest.approx(tree.matrix(frame, base), abs=1e-3)
 
 
-def test_poses_follow_the_physics(world: Served) -> None:
+def test_inner_model_servant_poses_follow_physics(world: Served) -> None:
     world.ports["robot"].setSpeedBase(400.0, 0.0)
     world.simulation.advance(1.0)
     _, found = world.ports["InnerModelManager"].getPose("floor", "robot")
@@ -85,7 +85,7 @@ def test_poses_follow_the_physics(world: Served) -> None:
     assert found.z > -100
 
 
-def test_an_obstacle_appears_before_the_laser_and_goes(world: Served) -> None:
+def test_inner_model_servant_adds_and_removes_obstacle_of_laser(world: Served) -> None:
     nodes, laser = world.ports["InnerModelManager"], world.ports["laser"]
     assert nodes.addPlane("crate", "floor", plane(world, px=500.0, py=100.0, pz=1000.0, height=400))
     world.simulation.advance(0.1)
@@ -96,7 +96,7 @@ def test_an_obstacle_appears_before_the_laser_and_goes(world: Served) -> None:
     assert laser.getLaserData().dist[50] == pytest.approx(3100, abs=1)
 
 
-def test_what_moves_goes_on_when_a_node_is_added(world: Served) -> None:
+def test_inner_model_servant_keeps_motion_when_node_is_added(world: Served) -> None:
     base, nodes = world.ports["robot"], world.ports["InnerModelManager"]
     base.setSpeedBase(400.0, 0.0)
     world.ports["JointMotor"].setPosition(world.types.MotorGoalPosition("neck", 0.8, 0.4))
@@ -115,7 +115,7 @@ def test_what_moves_goes_on_when_a_node_is_added(world: Served) -> None:
     assert (mark.x, mark.y, mark.z) == pytest.approx((0, 500, 0), abs=1e-6)
 
 
-def test_a_base_that_is_put_elsewhere_does_not_feel_it(world: Served) -> None:
+def test_inner_model_servant_moves_base_without_acceleration(world: Served) -> None:
     nodes, base = world.ports["InnerModelManager"], world.ports["robot"]
     nodes.setPose("root", "robot", pose(world, 1000, 0, 500, 0, 1.0, 0))
     world.simulation.advance(0.1)
@@ -132,14 +132,14 @@ def test_a_base_that_is_put_elsewhere_does_not_feel_it(world: Served) -> None:
     assert base.getBaseState().correctedX == pytest.approx(1000, abs=1e-3)
 
 
-def test_a_joint_that_is_turned_by_hand_stays(world: Served) -> None:
+def test_inner_model_servant_sets_joint_that_stays(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     nodes.setPoseFromParent("neck", pose(world, 0, 0, 0, 0, 0.6, 0))
     world.simulation.advance(0.5)
     assert world.ports["JointMotor"].getMotorState("neck").pos == pytest.approx(0.6, abs=1e-3)
 
 
-def test_a_ball_is_added_and_falls(world: Served) -> None:
+def test_inner_model_servant_adds_ball_that_falls(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     nodes.addTransform("ball", "bullet", "root", pose(world, 0, 2000, 0, 0, 0, 0))
     world.simulation.advance(0.3)
@@ -150,18 +150,18 @@ def test_a_ball_is_added_and_falls(world: Served) -> None:
     assert found.y == pytest.approx(3000)
 
 
-def test_a_joint_that_is_added_can_be_moved(world: Served) -> None:
+def test_inner_model_servant_adds_joint_that_moves(world: Served) -> None:
     nodes, motors, i = world.ports["InnerModelManager"], world.ports["JointMotor"], world.types
-    result = i.jointType(pose=pose(world, 0, 300, 0, 0, 0, 0), min=-1.0, max=1.0, axis="x")
-    nodes.addJoint("nod", "neck", result)
+    joint = i.jointType(pose=pose(world, 0, 300, 0, 0, 0, 0), min=-1.0, max=1.0, axis="x")
+    nodes.addJoint("nod", "neck", joint)
     motors.setPosition(i.MotorGoalPosition("nod", 0.5, 0))
-    world.until(lambda: motors.getMotorState("nod").pos > 0.49)
+    world.advance_until(lambda: motors.getMotorState("nod").pos > 0.49)
     nodes.removeNode("neck")
     with pytest.raises(Exception, match="no joints"):
         motors.getMotorState("nod")
 
 
-def test_a_mesh_is_scaled_and_collides(world: Served, tmp_path: Path) -> None:
+def test_inner_model_servant_adds_scaled_mesh_that_collides(world: Served, tmp_path: Path) -> None:
     nodes, i = world.ports["InnerModelManager"], world.types
     (tmp_path / "cube.stl").write_text(CUBE)
     mesh = i.meshType(
@@ -177,7 +177,7 @@ def test_a_mesh_is_scaled_and_collides(world: Served, tmp_path: Path) -> None:
     assert not nodes.collide("block", "post")
 
 
-def test_a_subtree_moves_to_another_parent(world: Served) -> None:
+def test_inner_model_servant_moves_subtree_to_another_parent(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     nodes.moveNode("laser_pose", "platform")
     _, found = nodes.getPose("platform", "laser_pose")
@@ -186,7 +186,7 @@ def test_a_subtree_moves_to_another_parent(world: Served) -> None:
     assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(2800, abs=1)
 
 
-def test_attributes_come_and_go(world: Served) -> None:
+def test_inner_model_servant_adds_and_removes_attributes(world: Served) -> None:
     nodes = world.ports["InnerModelManager"]
     nodes.addAttribute("robot", "colour", "string", "red")
     assert mistake(world, "addAttribute", "robot", "colour", "string", "blue") == (
@@ -194,13 +194,13 @@ def test_attributes_come_and_go(world: Served) -> None:
     )
     nodes.setAttribute("robot", "colour", "string", "blue")
     assert nodes.getAttribute("robot", "colour") == (True, "string", "blue")
-    received = {item.id: item.attributes for item in nodes.getAllNodeInformation()}
+    received = {node.id: node.attributes for node in nodes.getAllNodeInformation()}
     assert received["robot"]["colour"].value == "blue"
     nodes.removeAttribute("robot", "colour")
     assert mistake(world, "getAttribute", "robot", "colour") == "NonExistingAttribute"
 
 
-def test_what_is_removed_is_gone_for_its_servants(world: Served) -> None:
+def test_inner_model_servant_removes_nodes_for_other_servants(world: Served) -> None:
     world.ports["InnerModelManager"].removeNode("robot")
     assert mistake(world, "getPose", "root", "robot") == "NonExistingNode"
     with pytest.raises(Exception, match="removed") as raised:
@@ -232,7 +232,7 @@ MISTAKES = [
 
 
 @pytest.mark.parametrize(("operation", "values", "error"), MISTAKES)
-def test_mistakes_have_codes_and_change_nothing(
+def test_inner_model_servant_reports_error_codes_and_changes_nothing(
     world: Served, operation: str, values: tuple[Any, ...], error: str
 ) -> None:
     scene = world.simulation.state.scene
@@ -244,7 +244,7 @@ def test_mistakes_have_codes_and_change_nothing(
     assert np.isfinite(world.simulation.world.data.qpos).all()
 
 
-def test_a_mesh_that_cannot_be_read_is_an_invalid_path(world: Served) -> None:
+def test_inner_model_servant_reports_unreadable_mesh_as_invalid_path(world: Served) -> None:
     mesh = world.types.meshType(pose(world, 0, 0, 0, 0, 0, 0), 1, 1, 1, 0, "/nowhere.stl")
     assert mistake(world, "addMesh", "new", "root", mesh) == "InvalidPath"
     mesh.scaleX = -1.0

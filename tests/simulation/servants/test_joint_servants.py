@@ -40,7 +40,7 @@ def test_joint_holds_its_place_from_the_start(arm: Served) -> None:
     assert {mode.name for mode in state.modes} == {"Position"}
 
 
-def test_a_position_is_reached_no_faster_than_told(arm: Served) -> None:
+def test_joint_servant_reaches_position_at_commanded_speed(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setPosition(i.MotorGoalPosition("shoulder", 0.8, 0.5))
     fastest = 0.0
@@ -52,34 +52,36 @@ def test_a_position_is_reached_no_faster_than_told(arm: Served) -> None:
         return not state.isMoving
 
     arm.simulation.advance(0.1)
-    arm.until(done)
+    arm.advance_until(done)
     assert 0.45 < fastest < 0.52
     assert motors.getMotorState("shoulder").pos == pytest.approx(0.8, abs=2e-3)
     hand = where(arm, "hand")  # x to the right, y up: the arm of 300 and 200 mm has turned by 0.8
     assert hand == pytest.approx([500 * math.cos(0.8), 1000 + 500 * math.sin(0.8), 0], abs=2)
 
 
-def test_slides_count_in_millimetres(arm: Served) -> None:
+def test_joint_servant_of_slide_uses_millimetres(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setSyncPosition([i.MotorGoalPosition("lift", 300, 0)])
     arm.simulation.advance(0.05)
-    arm.until(lambda: not motors.getMotorState("lift").isMoving)
+    arm.advance_until(lambda: not motors.getMotorState("lift").isMoving)
     assert where(arm, "lift") == pytest.approx([0, 1300, 0], abs=1)
     assert motors.getMotorState("lift").pos == pytest.approx(300, abs=1)
     params = motors.getMotorParams("lift")
     assert (params.minPos, params.maxPos, params.zeroPos) == pytest.approx((0, 400, 100))
 
 
-def test_home_is_the_zero_position(arm: Served) -> None:
+def test_joint_servant_home_is_zero_position(arm: Served) -> None:
     motors = arm.ports["JointMotor"]
     motors.setSyncZeroPos()
     arm.simulation.advance(0.05)
-    arm.until(lambda: not any(item.isMoving for item in motors.getAllMotorState().values()))
-    found = {name: item.pos for name, item in motors.getAllMotorState().items()}
+    arm.advance_until(
+        lambda: not any(motor.isMoving for motor in motors.getAllMotorState().values())
+    )
+    found = {name: motor.pos for name, motor in motors.getAllMotorState().items()}
     assert found == pytest.approx({"shoulder": 0.2, "elbow": 0.0, "lift": 100.0}, abs=0.5)
 
 
-def test_a_velocity_is_kept(arm: Served) -> None:
+def test_joint_servant_holds_velocity(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     motors.setVelocity(i.MotorGoalVelocity("elbow", -0.6, 0))
     arm.simulation.advance(1.0)
@@ -110,7 +112,7 @@ def test_joint_servant_refuses_invalid_commands(
     assert np.abs(arm.ports["ControlBoard"].getState().position - [0, 0, 0.05]).max() < 1e-6
 
 
-def test_several_motors_go_or_none(arm: Served) -> None:
+def test_joint_servant_moves_all_motors_or_none(arm: Served) -> None:
     motors, i = arm.ports["JointMotor"], arm.types
     goals = [i.MotorGoalPosition("elbow", 1.0, 0), i.MotorGoalPosition("nobody", 1.0, 0)]
     with pytest.raises(i.UnknownMotorException):
@@ -119,7 +121,7 @@ def test_several_motors_go_or_none(arm: Served) -> None:
     assert abs(motors.getMotorState("elbow").pos) < 1e-6
 
 
-def test_the_board_keeps_its_modes_apart(arm: Served) -> None:
+def test_board_servant_separates_control_modes(arm: Served) -> None:
     board, i = arm.ports["ControlBoard"], arm.types
     with pytest.raises(i.WrongMode):
         board.velocityMove(["elbow"], np.array([1.0]), 0.0)
@@ -143,7 +145,7 @@ PENDULUM = """\
 """
 
 
-def test_a_torque_turns_the_joint_by_its_inertia(tmp_path: Path) -> None:
+def test_board_servant_torque_accelerates_joint_by_inertia(tmp_path: Path) -> None:
     arm = served(tmp_path, PENDULUM)
     board, i = arm.ports["ControlBoard"], arm.types
     board.setControlMode(["elbow"], i.ControlMode.Torque)
@@ -154,7 +156,7 @@ def test_a_torque_turns_the_joint_by_its_inertia(tmp_path: Path) -> None:
     assert board.getState().velocity[0] == pytest.approx(0.1 / inertia, rel=0.04)
 
 
-def test_every_operation_of_the_board_answers(arm: Served) -> None:
+def test_board_servant_answers_every_operation(arm: Served) -> None:
     board, i = arm.ports["ControlBoard"], arm.types
     assert [getJoint.name for getJoint in board.getJoints()] == ["shoulder", "elbow", "lift"]
     assert board.getJoints()[2].prismatic
@@ -166,7 +168,7 @@ def test_every_operation_of_the_board_answers(arm: Served) -> None:
         board.enablePid(loop, [], True)
         for asked in (board.getPidReferences, board.getPidErrors, board.getPidOutputs):
             assert asked(loop, ["elbow", "lift"]).shape == (2,)
-    assert [board.getPid(item, "elbow").kp for item in i.Loop] == [200.0, 201.0, 202.0, 203.0]
+    assert [board.getPid(loop, "elbow").kp for loop in i.Loop] == [200.0, 201.0, 202.0, 203.0]
     assert board.getPid(i.Loop.TorqueLoop, "elbow").feedforward == 0.5
     board.setImpedance("elbow", i.Impedance(10.0, 1.0, 0.5))
     assert board.getImpedance("elbow").offset == 0.5
@@ -185,7 +187,7 @@ def test_every_operation_of_the_board_answers(arm: Served) -> None:
     assert not board.isBusy()
     board.park(["shoulder"])
     assert board.isBusy()
-    arm.until(lambda: board.getState().modes[0].name == "Idle")
+    arm.advance_until(lambda: board.getState().modes[0].name == "Idle")
     assert board.getState().position[0] == pytest.approx(0.2, abs=0.05)
 
 
@@ -219,11 +221,11 @@ FAR = ("setEncoder", "setMotorEncoder")
 
 
 @pytest.mark.parametrize("operation", FAR)
-def test_a_number_that_nothing_reaches_is_refused(arm: Served, operation: str) -> None:
+def test_joint_servant_refuses_unreachable_number(arm: Served, operation: str) -> None:
     """From such no controller works out a torque."""
     board = arm.ports["ControlBoard"]
     with pytest.raises(arm.types.RoboCompControlBoard_Refused, match="nothing here reaches"):
         getattr(board, operation)("elbow", 1e308)
     arm.simulation.advance(0.1)
     assert np.abs(board.getState().position - [0, 0, 0.05]).max() < 1e-6
-    assert not any(item.number for item in arm.simulation.world.data.warning)
+    assert not any(warning.number for warning in arm.simulation.world.data.warning)

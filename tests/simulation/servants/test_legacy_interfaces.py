@@ -31,9 +31,9 @@ SIZE = 9 * 6
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD, also=("JointMotorSimple", "Camera"))
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD, also=("JointMotorSimple", "Camera"))
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
 # -- motors ---------------------------------------------------------------------------------------
@@ -45,29 +45,29 @@ def simple(world: Served, name: str) -> type:
 
 
 @pytest.mark.parametrize("name", ["neck", ""])
-def test_a_motor_goes_where_it_is_sent(world: Served, name: str) -> None:
+def test_legacy_motor_reaches_position(world: Served, name: str) -> None:
     """Components that have one motor call it by no name at all."""
     motors = world.ports["JointMotorSimple"]
     motors.setPosition(name, simple(world, "MotorGoalPosition")(0.5, 2.0))
     world.simulation.advance(0.05)
     assert motors.getMotorState(name).isMoving
-    world.until(lambda: not motors.getMotorState(name).isMoving)
+    world.advance_until(lambda: not motors.getMotorState(name).isMoving)
     assert motors.getMotorState(name).pos == pytest.approx(0.5, abs=2e-3)
     assert isinstance(motors.getMotorState(name), simple(world, "MotorState"))
 
 
-def test_a_motor_turns_at_a_speed_and_goes_home(world: Served) -> None:
+def test_legacy_motor_turns_at_speed_and_goes_home(world: Served) -> None:
     motors = world.ports["JointMotorSimple"]
     motors.setVelocity("neck", simple(world, "MotorGoalVelocity")(0.4, 5.0))
     world.simulation.advance(0.5)
     assert motors.getMotorState("neck").vel == pytest.approx(0.4, abs=0.01)
     motors.setZeroPos("neck")
     world.simulation.advance(0.05)
-    world.until(lambda: not motors.getMotorState("neck").isMoving)
+    world.advance_until(lambda: not motors.getMotorState("neck").isMoving)
     assert motors.getMotorState("neck").pos == pytest.approx(0.25, abs=2e-3)
 
 
-def test_how_a_motor_is_built(world: Served) -> None:
+def test_legacy_motor_reports_parameters(world: Served) -> None:
     received = world.ports["JointMotorSimple"].getMotorParams("neck")
     assert (received.name, received.minPos, received.maxPos) == ("neck", -1, 1)
     assert received.zeroPos == pytest.approx(0.25)
@@ -82,7 +82,7 @@ REFUSED = {
 
 
 @pytest.mark.parametrize("case", REFUSED)
-def test_what_cannot_be_is_a_failure_of_the_interface(world: Served, case: str) -> None:
+def test_legacy_motor_refuses_invalid_commands(world: Served, case: str) -> None:
     name, position, speed, kind, message = REFUSED[case]
     motors = world.ports["JointMotorSimple"]
     with pytest.raises(simple(world, kind)) as caught:
@@ -94,7 +94,7 @@ def test_what_cannot_be_is_a_failure_of_the_interface(world: Served, case: str) 
 # -- images ---------------------------------------------------------------------------------------
 
 
-def test_images_come_in_five_forms(world: Served) -> None:
+def test_legacy_camera_has_five_image_formats(world: Served) -> None:
     camera, eye = world.ports["Camera"], world.simulation.devices["left"]
     colours = eye.picture().colour.astype(float)
     red, green, blue = (colours[..., i] for i in range(3))
@@ -116,14 +116,14 @@ def test_images_come_in_five_forms(world: Served) -> None:
     assert small[1, 2] == pytest.approx(grey[2:4, 4:6].mean(), abs=1)
 
 
-def test_all_cameras_are_one_image_behind_the_other(world: Served) -> None:
+def test_legacy_camera_concatenates_images_of_all_cameras(world: Served) -> None:
     camera = world.ports["Camera"]
     left, right = (camera.getYImage(i)[0] for i in (0, 1))
     assert (camera.getYImage(BOTH)[0] == [*left, *right]).all()
     assert len(camera.getRGBPackedImage(BOTH)[0]) == 2 * 3 * SIZE
 
 
-def test_an_image_comes_with_the_head_and_the_base(world: Served) -> None:
+def test_legacy_camera_image_contains_head_and_base_state(world: Served) -> None:
     world.ports["JointMotorSimple"].setPosition("", simple(world, "MotorGoalPosition")(0.5, 1.0))
     world.simulation.advance(0.1)
     _, head, base = world.ports["Camera"].getYImage(1)
@@ -132,7 +132,7 @@ def test_an_image_comes_with_the_head_and_the_base(world: Served) -> None:
     assert base.correctedZ == pytest.approx(100, abs=1)
 
 
-def test_how_the_cameras_are_set_up(world: Served) -> None:
+def test_legacy_camera_reports_parameters(world: Served) -> None:
     received = world.ports["Camera"].getCamParams()
     assert (received.name, received.width, received.height, received.focal) == ("left", 9, 6, 6)
     assert (received.numCams, received.leftCamera, received.rightCamera, received.bothCameras) == (
@@ -149,7 +149,7 @@ def test_how_the_cameras_are_set_up(world: Served) -> None:
     )
 
 
-def test_an_image_that_is_fed_in_is_seen(world: Served) -> None:
+def test_legacy_camera_shows_injected_image(world: Served) -> None:
     camera = world.ports["Camera"]
     fed = np.arange(SIZE * 3, dtype=np.uint8)
     before = camera.getRGBPackedImage(1)[0]
@@ -173,13 +173,13 @@ SENSELESS = {
 
 
 @pytest.mark.parametrize("case", SENSELESS)
-def test_camera_servant_reports_invalid_arguments(world: Served, case: str) -> None:
+def test_legacy_camera_reports_invalid_arguments(world: Served, case: str) -> None:
     operation, values, message = SENSELESS[case]
     with pytest.raises(Exception, match=message):
         getattr(world.ports["Camera"], operation)(*values)
 
 
-def test_cameras_that_stand_alone_have_no_states(tmp_path: Path) -> None:
+def test_legacy_camera_without_robot_has_no_states(tmp_path: Path) -> None:
     text = '<innerModel><camera id="eye" width="8" height="6"/></innerModel>'
     world = served(tmp_path, text, also=("Camera",))
     image, head, base = world.ports["Camera"].getYImage(0)
@@ -190,7 +190,7 @@ def test_cameras_that_stand_alone_have_no_states(tmp_path: Path) -> None:
 # -- at the command line --------------------------------------------------------------------------
 
 
-def test_they_are_served_for_those_who_ask(tmp_path: Path) -> None:
+def test_legacy_interfaces_are_served_on_request(tmp_path: Path) -> None:
     (tmp_path / "head.xml").write_text(WORLD)
     usual = rcgen("simulator", "head.xml", "--dry-run", cwd=tmp_path)
     asked = rcgen(
@@ -223,7 +223,7 @@ def test_legacy_servants_report_unsupported_operations(
     assert "Traceback" not in done.stderr
 
 
-def test_what_is_generated_is_as_the_formatter_leaves_it(tmp_path: Path) -> None:
+def test_legacy_simulator_is_formatted_as_generated(tmp_path: Path) -> None:
     """Two modules that declare the same types have longer names for them."""
     (tmp_path / "head.xml").write_text(WORLD)
     asked = ("--also", "Camera", "--also", "JointMotorSimple", "-o", "made")

@@ -38,12 +38,12 @@ FARTHEST = 1_000_000
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served_model(tmp_path, ROBOT)
-    result.simulation.advance(0.01)
-    return result
+    world_served = served_model(tmp_path, ROBOT)
+    world_served.simulation.advance(0.01)
+    return world_served
 
 
-def test_range_finder_tells_how_far_things_are(world: Served) -> None:
+def test_range_finder_measures_distances(world: Served) -> None:
     sonars = world.ports["Ultrasound"]
     assert [getAllSensorParam.name for getAllSensorParam in sonars.getAllSensorParams()] == [
         "front",
@@ -57,30 +57,30 @@ def test_range_finder_tells_how_far_things_are(world: Served) -> None:
     assert sonars.getSensorDistance("front") == pytest.approx(1450, abs=5)
 
 
-def test_where_they_sit_is_told_as_the_robot_sees_it(world: Served) -> None:
+def test_range_finder_positions_are_in_robot_frame(world: Served) -> None:
     """The robot looks along its y axis; right of that is x."""
     front, _, back = world.ports["Ultrasound"].getAllSonarPose()
     assert (front.x, front.y, front.angle) == pytest.approx((50, 0, math.pi / 2), abs=1e-3)
     assert (back.x, back.y, abs(back.angle)) == pytest.approx((0, -50, math.pi), abs=1e-3)
 
 
-def test_one_that_is_not_there(world: Served) -> None:
+def test_range_finder_servant_refuses_unknown_name(world: Served) -> None:
     with pytest.raises(world.types.UnknownSensorException, match="front, sky, sensor2"):
         world.ports["Ultrasound"].getSensorDistance("grid")
 
 
-def test_noise_is_that_of_the_sensor(tmp_path: Path) -> None:
+def test_range_finder_noise_is_that_of_sensor(tmp_path: Path) -> None:
     world = served_model(tmp_path, ROBOT.replace('site="nose"', 'site="nose" noise="0.02"'))
     sonars, seen = world.ports["Ultrasound"], []
     for _ in range(200):
         world.simulation.advance(0.05)
         seen.append(sonars.getSensorDistance("front"))
-    spread = math.sqrt(sum((item - 1950) ** 2 for item in seen) / len(seen))
+    spread = math.sqrt(sum((distance - 1950) ** 2 for distance in seen) / len(seen))
     assert spread == pytest.approx(20, rel=0.25)
     assert sonars.getSensorDistance("sky") == 3000  # nothing has no error
 
 
-def test_they_are_listed(tmp_path: Path) -> None:
+def test_range_finder_servant_lists_sensors(tmp_path: Path) -> None:
     (tmp_path / "robot.xml").write_text(ROBOT)
     done = rcgen("simulator", "robot.xml", "--dry-run", cwd=tmp_path)
     rows = [line.split() for line in done.stdout.splitlines()]

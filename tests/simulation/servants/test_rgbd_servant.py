@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from robocomp_dsl.simulation.devices.camera import Camera
 from robocomp_dsl.simulation.view.offscreen import NoRendering
 from robocomp_dsl.simulation.world.simulation import Simulation
 from tests.simulation.served_worlds import Served, served
+from tests.support.waiting import wait_until
 
 WORLD = """\
 <innerModel>
@@ -30,12 +30,12 @@ WORLD = """\
 
 @pytest.fixture
 def world(tmp_path: Path) -> Served:
-    result = served(tmp_path, WORLD)
-    result.simulation.advance(0.1)
-    return result
+    world_served = served(tmp_path, WORLD)
+    world_served.simulation.advance(0.1)
+    return world_served
 
 
-def test_colours_distances_and_points_go_together(world: Served) -> None:
+def test_rgbd_servant_returns_matching_colours_distances_and_points(world: Served) -> None:
     colours, depths, points, joints, base = world.ports["eye"].getImage()
     assert len(colours) == len(depths) == len(points) == 80 * 60
     wall = np.isfinite(depths)
@@ -54,7 +54,7 @@ def test_colours_distances_and_points_go_together(world: Served) -> None:
     assert base.correctedZ == pytest.approx(100, abs=1)
 
 
-def test_all_forms_hold_the_same(world: Served) -> None:
+def test_rgbd_servant_returns_same_data_in_all_formats(world: Served) -> None:
     port = world.ports["eye"]
     colours, depths, points, *_ = port.getImage()
     data, far, *_ = port.getData()
@@ -68,7 +68,7 @@ def test_all_forms_hold_the_same(world: Served) -> None:
     assert (stream[:, 1] == points.column("y")).all()
 
 
-def test_how_the_camera_is_set_up(world: Served) -> None:
+def test_rgbd_servant_reports_configuration(world: Served) -> None:
     port = world.ports["eye"]
     received = port.getRGBDParams()
     assert (received.color.width, received.color.height, received.color.focal) == (80, 60, 60)
@@ -79,7 +79,7 @@ def test_how_the_camera_is_set_up(world: Served) -> None:
     assert port.getRegistration().name == "ColorInDepth"
 
 
-def test_a_camera_that_stands_alone_has_no_states(tmp_path: Path) -> None:
+def test_rgbd_servant_without_robot_has_no_states(tmp_path: Path) -> None:
     world = served(tmp_path, '<innerModel><rgbd id="eye" width="8" height="6"/></innerModel>')
     depths, joints, base = world.ports["eye"].getDepth()
     assert (len(depths), joints) == (48, {})
@@ -112,11 +112,8 @@ def test_exposure_does_not_wait_in_real_time(
     monkeypatch.setattr(Camera, "picture", held)
     assert port.poll() == []  # it is being taken
     shutter.set()
-    end, result = time.monotonic() + 60, list[Any]()
-    while not result:
-        assert time.monotonic() < end
-        result = port.poll()
-    assert result[0][0].alivetime == round(world.simulation.world.time * 1000)
+    ((image, _),) = wait_until(port.poll, "the picture has not been taken")
+    assert image.alivetime == round(world.simulation.world.time * 1000)
 
 
 def test_camera_servant_without_rendering_publishes_the_rest(
@@ -133,7 +130,7 @@ def test_camera_servant_without_rendering_publishes_the_rest(
     assert world.ports["CameraRGBDSimple"].poll() == []  # it is not tried again
 
 
-def test_a_camera_that_was_removed_is_not_published(world: Served) -> None:
+def test_rgbd_servant_does_not_publish_removed_camera(world: Served) -> None:
     port = world.ports["CameraRGBDSimple"]
     world.ports["InnerModelManager"].removeNode("stand")
     assert port.poll() == []

@@ -24,7 +24,7 @@ WORLD = """\
 """
 
 
-def test_metres_become_degrees_and_utm() -> None:
+def test_gps_servant_converts_metres_to_degrees_and_utm() -> None:
     # on the central meridian at 45°, the meridian's length is 4984944.378 m (WGS 84)
     zone, band, east, north = utm(GeoPoint(45.0, 3.0, 0.0))
     assert (zone, band) == (31, "T")
@@ -35,7 +35,7 @@ def test_metres_become_degrees_and_utm() -> None:
     assert utm(GeoPoint(-33.9, 151.2, 0.0))[:2] == (56, "H")
 
 
-def test_a_receiver_follows_the_robot(tmp_path: Path) -> None:
+def test_gps_servant_follows_robot(tmp_path: Path) -> None:
     world = served(tmp_path, WORLD)
     gps = world.ports["gps"]
     fixed, latitude, longitude, altitude = gps.getData()
@@ -52,7 +52,7 @@ def test_a_receiver_follows_the_robot(tmp_path: Path) -> None:
     assert gps.getUTMData()[4] - 4_982_950.400 == pytest.approx(z / 1000, abs=0.01)
 
 
-def test_sonars_hear_what_is_before_them(tmp_path: Path) -> None:
+def test_sonar_servant_measures_distance_ahead(tmp_path: Path) -> None:
     world = served(tmp_path, WORLD)
     sonars = world.ports["Ultrasound"]
     world.simulation.advance(0.1)
@@ -66,16 +66,16 @@ def test_sonars_hear_what_is_before_them(tmp_path: Path) -> None:
         sonars.getSensorDistance("back")
 
 
-def test_the_noise_of_a_sonar_is_as_declared(tmp_path: Path) -> None:
+def test_sonar_noise_is_as_declared(tmp_path: Path) -> None:
     world = served(tmp_path, WORLD.replace('max="3000"', 'max="3000" noise="10"'))
-    heard = []
+    distances = []
     for _ in range(200):
         world.simulation.advance(0.05)
-        heard.append(world.ports["Ultrasound"].getSensorDistance("front"))
-    assert np.std(heard) == pytest.approx(10, rel=0.2)
+        distances.append(world.ports["Ultrasound"].getSensorDistance("front"))
+    assert np.std(distances) == pytest.approx(10, rel=0.2)
 
 
-def test_driving_empties_the_battery_faster(tmp_path: Path) -> None:
+def test_battery_discharges_faster_while_driving(tmp_path: Path) -> None:
     left = []
     for speed in (0.0, 800.0):
         world = served(tmp_path, WORLD)
@@ -89,7 +89,7 @@ def test_driving_empties_the_battery_faster(tmp_path: Path) -> None:
     assert left[1] == pytest.approx(left[0] - 100 * 6.4 / 360, abs=0.4)
 
 
-def test_an_empty_battery_stays_empty(tmp_path: Path) -> None:
+def test_empty_battery_stays_empty(tmp_path: Path) -> None:
     world = served(tmp_path, WORLD.replace('capacity="0.1"', 'capacity="0.001"'))
     world.simulation.advance(1.0)
     state = world.ports["cells"].getBatteryState()

@@ -29,13 +29,13 @@ def declared(name: str, file: str = "") -> Interface:
     return next(i for module in modules for i in module.interfaces if i.name == name)
 
 
-def test_every_kind_that_is_offered_is_simulated() -> None:
+def test_servant_tables_simulate_every_offered_kind() -> None:
     kinds = {offer.kind for offer in SERVED} - {"joint", "prismaticjoint", "skin"}
     assert kinds == set(SINGLE)
 
 
 @pytest.mark.parametrize("name", OFFERED)
-def test_a_servant_has_every_operation_with_its_parameters(name: str) -> None:
+def test_servant_has_every_operation_with_its_parameters(name: str) -> None:
     interface = declared(name)
     servant = ALL_SERVANTS[interface.qualified]
     for operation in interface.operations:
@@ -43,25 +43,27 @@ def test_a_servant_has_every_operation_with_its_parameters(name: str) -> None:
         assert len(values) == len(operation.inputs), operation.name
 
 
-def test_no_servant_is_left_over() -> None:
+def test_servant_tables_list_every_servant() -> None:
     assert {declared(name).qualified for name in OFFERED} == set(ALL_SERVANTS)
 
 
 @pytest.mark.parametrize(
-    "topic", [item for item in TOPICS if not item.on_change], ids=lambda item: item.published
+    "topic", [topic for topic in TOPICS if not topic.on_change], ids=lambda topic: topic.published
 )
-def test_a_topic_carries_what_its_port_answers(topic: Topic) -> None:
+def test_topic_table_type_matches_port_operation(topic: Topic) -> None:
     asked = next(o for o in declared(topic.interface).operations if o.name == topic.query)
     to = declared(topic.published, topic.file)
     received = next(o for o in to.operations if o.name == topic.operation)
     results = [asked.result] if asked.result else [output.type for output in asked.outputs]
-    assert [named(item.type) for item in received.inputs] == [named(result) for result in results]
+    assert [named(argument.type) for argument in received.inputs] == [
+        named(result) for result in results
+    ]
 
 
 @pytest.mark.parametrize(
-    "topic", [item for item in TOPICS if item.on_change], ids=lambda item: item.published
+    "topic", [topic for topic in TOPICS if topic.on_change], ids=lambda topic: topic.published
 )
-def test_a_topic_of_news_is_published_and_has_a_servant_that_tells_them(topic: Topic) -> None:
+def test_topic_table_of_change_topics_has_servants(topic: Topic) -> None:
     to = declared(topic.published, topic.file)
     assert topic.operation in {operation.name for operation in to.operations}
     assert callable(ALL_SERVANTS[declared(topic.interface).qualified].poll)  # type: ignore[attr-defined]

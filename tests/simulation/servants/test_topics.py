@@ -1,4 +1,4 @@
-"""Everything that a simulator publishes is heard by who subscribes, over both middlewares."""
+"""Subscribers receive everything that a simulator publishes, over both middlewares."""
 
 from __future__ import annotations
 
@@ -24,36 +24,38 @@ WORLD = """\
 """
 
 HEAR = """
-def hear(proxy, port, operation):
-    heard = []
+def subscribe(proxy, port, operation):
+    received = []
     topic = Endpoint(proxy.INTERFACE, "client", port)
-    middleware.subscribe(topic, {operation: lambda *given: heard.append(given)}, CallbackGroup())
-    return heard
+    handler = lambda *arguments: received.append(arguments)
+    middleware.subscribe(topic, {operation: handler}, CallbackGroup())
+    return received
 
-scans = hear(i.LaserPubProxy, "laser_pub", "pushLaserData")
-states = hear(i.DifferentialRobotPubProxy, "robot_pub", "pushBaseState")
-sideways = hear(i.OmniRobotPubProxy, "platform_pub", "pushBaseState")
-poses = hear(i.FullPoseEstimationPubProxy, "robot_pose_pub", "newFullPose")
-pictures = hear(i.CameraRGBDSimplePubProxy, "CameraRGBDSimplePub", "pushRGBD")
-motors = hear(i.JointMotorPubProxy, "JointMotorPub", "motorStates")
-forces = hear(i.IMUPubProxy, "imu_pub", "publish")
-until(lambda: len(scans) > 2 and len(states) > 2 and sideways and motors and forces)
-until(lambda: {pose.source for pose, in poses} == {"robot", "platform"})
-until(lambda: {(image.width, depth.height) for image, depth in pictures} == {(40, 30), (20, 10)})
+scans = subscribe(i.LaserPubProxy, "laser_pub", "pushLaserData")
+states = subscribe(i.DifferentialRobotPubProxy, "robot_pub", "pushBaseState")
+sideways = subscribe(i.OmniRobotPubProxy, "platform_pub", "pushBaseState")
+poses = subscribe(i.FullPoseEstimationPubProxy, "robot_pose_pub", "newFullPose")
+pictures = subscribe(i.CameraRGBDSimplePubProxy, "CameraRGBDSimplePub", "pushRGBD")
+motors = subscribe(i.JointMotorPubProxy, "JointMotorPub", "motorStates")
+forces = subscribe(i.IMUPubProxy, "imu_pub", "publish")
+wait_until(lambda: len(scans) > 2 and len(states) > 2 and sideways and motors and forces)
+wait_until(lambda: {pose.source for pose, in poses} == {"robot", "platform"})
+SIZES = {(40, 30), (20, 10)}
+wait_until(lambda: {(image.width, depth.height) for image, depth in pictures} == SIZES)
 assert len(scans[0][0]) == 11
 times = [time for _, time in states]
 assert times == sorted(times)
 assert times[-1] > times[0]
 robot = proxy(i.DIFFERENTIALROBOT, "robot")
 robot.setSpeedBase(400.0, 0.0)
-until(lambda: any(pose.source == "robot" and pose.z > 50 and pose.vz > 100 for pose, in poses))
+wait_until(lambda: any(pose.source == "robot" and pose.z > 50 and pose.vz > 100 for pose, in poses))
 nodes = proxy(i.INNERMODELMANAGER, "InnerModelManager")
 for gone in ("imu", "laser", "eye", "other", "neck", "platform"):
     nodes.removeNode(gone)
 del poses[:], scans[:], forces[:]
-until(lambda: len([pose for pose, in poses if pose.source == "robot"]) > 10)
+wait_until(lambda: len([pose for pose, in poses if pose.source == "robot"]) > 10)
 assert not any(pose.source == "platform" for pose, in poses[-5:])
-print("heard")
+print("received")
 """
 
 
@@ -67,7 +69,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return home / "room_simulator"
 
 
-def test_it_is_clean_and_typed(folder: Path) -> None:
+def test_topics_simulator_is_clean_and_typed(folder: Path) -> None:
     assert_clean(folder)
 
 
@@ -75,4 +77,4 @@ def test_it_is_clean_and_typed(folder: Path) -> None:
 def test_simulator_publishes_all_topics(folder: Path, middleware: str) -> None:
     code = with_simulator(middleware, HEAR)
     domain = f"test-topics-{folder.parent.name}-{middleware}"
-    assert run(folder, code, middleware, domain, "room_simulator") == "heard\n"
+    assert run(folder, code, middleware, domain, "room_simulator") == "received\n"

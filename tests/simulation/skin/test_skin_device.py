@@ -32,7 +32,7 @@ def lower_arm(robot: str) -> tuple[Limb, Link, SkinGeometry]:
     limb = part.limb("lower_arm")
     patches = tuple(patch for patch in part.patches if patch.limb == "lower_arm")
     only = RobotDescription(robot, (GenericPart("left_arm", (), limbs=(limb,), patches=patches),))
-    link = next(item for item in ROBOTS[robot]().links if item.name == FOREARMS[robot])
+    link = next(link for link in ROBOTS[robot]().links if link.name == FOREARMS[robot])
     return limb, link, SkinGeometry.of(only)
 
 
@@ -98,7 +98,7 @@ def upwards(limb: Limb, theta: float) -> np.ndarray:
 
 
 @pytest.mark.parametrize("robot", FOREARMS)
-def test_a_ball_at_rest_weighs_what_it_weighs_wherever_it_lies(robot):
+def test_skin_device_measures_weight_of_resting_ball_everywhere(robot):
     rng = np.random.default_rng(1)
     cone = lower_arm(robot)[0].cone
     sums, errors = [], []
@@ -115,7 +115,7 @@ def test_a_ball_at_rest_weighs_what_it_weighs_wherever_it_lies(robot):
     assert np.median(errors) < 0.003
 
 
-def test_the_contact_list_tells_the_ball():
+def test_skin_device_contact_list_contains_ball():
     forearm = Forearm("icub_v2", 0.06, 0.7)
     forearm.rest()
     (touch,) = forearm.skin.contacts()
@@ -127,7 +127,7 @@ def test_the_contact_list_tells_the_ball():
 
 
 @pytest.mark.parametrize("cone", [mujoco.mjtCone.mjCONE_PYRAMIDAL, mujoco.mjtCone.mjCONE_ELLIPTIC])
-def test_shear_is_told_too(cone):
+def test_skin_device_measures_shear(cone):
     tilt = np.deg2rad(10)
     forearm = Forearm("icub_v2", 0.06, 0.7, tilt=tilt, cone=cone, friction=[1.0, 0.005, 0.0001])
     forearm.rest(0.5)
@@ -137,7 +137,7 @@ def test_shear_is_told_too(cone):
     assert along == pytest.approx([-WEIGHT * np.sin(tilt), 0, 0], abs=0.02)
 
 
-def test_a_ball_beside_the_skin_is_told_apart():
+def test_skin_device_separates_ball_off_skin():
     forearm = Forearm("icub_v2", 0.112, 0.0)
     forearm.rest()
     assert forearm.skin.frame.off_skin == pytest.approx(WEIGHT, rel=0.02)
@@ -145,7 +145,7 @@ def test_a_ball_beside_the_skin_is_told_apart():
     assert forearm.skin.contacts() == []
 
 
-def test_frames_come_at_their_rate_and_hold_the_mean():
+def test_skin_device_frames_come_at_their_rate_with_mean():
     forearm = Forearm("nao_h21", 0.06, 0.0, SkinSettings(rate=50.0, shear=False))
     frames = []
     forearm.skin.subscribe(frames.append)
@@ -160,7 +160,7 @@ def test_frames_come_at_their_rate_and_hold_the_mean():
     assert felt == pytest.approx(WEIGHT * 1.0, rel=0.03)
 
 
-def test_two_balls_are_two_touches_on_both_limbs():
+def test_skin_device_reports_two_touches_on_both_limbs():
     spec = new_world()
     robot = ROBOTS["icub_v2"]()
     add_robot(spec, robot, prefix="r1_")
@@ -189,7 +189,7 @@ def test_two_balls_are_two_touches_on_both_limbs():
     assert all(contact.force > 0.1 for contact in skin.contacts())
 
 
-def test_a_contact_that_parts_without_force_is_none():
+def test_skin_device_ignores_contact_without_force():
     text = """<mujoco><option gravity="0 0 0"/><worldbody><geom size=".1"/>
       <body name="limb" pos="0 0 .1999"><freejoint/><geom size=".1"/></body></worldbody></mujoco>"""
     model = mujoco.MjModel.from_xml_string(text)
@@ -205,7 +205,7 @@ def test_a_contact_that_parts_without_force_is_none():
     assert recorder.take() is None
 
 
-def test_raw_values_and_compensation_follow_the_electronics():
+def test_skin_device_raw_values_and_compensation_follow_electronics():
     settings = SkinSettings(
         raw=True,
         compensation=Compensation(smooth=False, add_threshold=1.0),
@@ -232,7 +232,7 @@ def test_raw_values_and_compensation_follow_the_electronics():
     assert 0 < np.count_nonzero(frame.force) < 30
 
 
-def test_the_same_seed_gives_the_same_frames():
+def test_skin_device_repeats_frames_with_same_seed():
     def frames(seed: int) -> np.ndarray:
         settings = SkinSettings(imperfections=Imperfections(noise=0.05, dead=0.1))
         forearm = Forearm("nao_h21", 0.06, 0.0, settings)
@@ -244,7 +244,7 @@ def test_the_same_seed_gives_the_same_frames():
     assert (frames(1) != frames(2)).any()
 
 
-def test_the_skin_of_a_forearm_may_cover_the_wrist():
+def test_skin_device_of_forearm_may_cover_wrist():
     robot = ROBOTS["nao_h25"]()
     geometry = SkinGeometry.of(description("nao_h25"))
     spec = new_world()
@@ -257,7 +257,7 @@ def test_the_skin_of_a_forearm_may_cover_the_wrist():
     assert covered == {geometry.limbs.index("left_arm/lower_arm")}
 
 
-def test_skin_on_missing_or_shared_bodies_is_refused():
+def test_skin_device_refuses_missing_or_shared_bodies():
     geometry = SkinGeometry.of(description("nao_h25"))
     with pytest.raises(SceneError, match="no body `LBicep`"):
         World(new_world(), [SimulatedSkin(geometry)])

@@ -16,18 +16,18 @@ from tests.simulation.served_worlds import rcgen
 from tests.support.generated_package import package_in
 
 COMPONENTS = Path(__file__).parents[3] / "components"
-ROBOTS = pytest.mark.parametrize("world", WORLDS, ids=lambda item: item.robot)
+ROBOTS = pytest.mark.parametrize("world", WORLDS, ids=lambda world: world.robot)
 
 
 @ROBOTS
-def test_world_and_description_are_those_of_the_robot(world: RobotWorld) -> None:
+def test_robot_skin_world_and_description_are_those_of_robot(world: RobotWorld) -> None:
     path = COMPONENTS / world.file
     assert path.read_text() == text(world)
     assert path.with_name(TACTILE).read_text() == description_file(world.robot).read_text()
 
 
 @ROBOTS
-def test_the_simulator_is_fresh(world: RobotWorld, tmp_path: Path) -> None:
+def test_robot_skin_simulator_is_freshly_generated(world: RobotWorld, tmp_path: Path) -> None:
     path = COMPONENTS / world.file
     folder = tmp_path / path.parent.name
     shutil.copytree(path.parent, folder, ignore=shutil.ignore_patterns("__pycache__"))
@@ -37,7 +37,7 @@ def test_the_simulator_is_fresh(world: RobotWorld, tmp_path: Path) -> None:
 
 
 @ROBOTS
-def test_its_skin_is_that_of_the_description(world: RobotWorld) -> None:
+def test_robot_skin_matches_description(world: RobotWorld) -> None:
     scene = package_in((COMPONENTS / world.file).parent) / "scene.json"
     found = geometry_of(map(Skin.of_data, json.loads(scene.read_text())["scene"]["skins"]))
     expected = SkinGeometry.of(description(world.robot))

@@ -42,14 +42,14 @@ hand = proxy(i.SIMULATION, "Simulation")
 hand.pause()
 for _ in range(30):
     now = hand.step(100)
-until(lambda: frames and frames[-1].time > now - 0.021)
+wait_until(lambda: frames and frames[-1].time > now - 0.021)
 frame, touches = frames[-1], skin.getContacts().contacts
-told = {name: getattr(geometry, name).tolist() for name in ("limb", "x", "y", "z")}
-told["names"] = [one.name for one in geometry.limbs]
-told["force"] = frame.force.tolist()
-told["off"] = frame.offSkin
-told["touches"] = sorted((one.limb, one.force) for one in touches)
-print(json.dumps(told))
+message = {name: getattr(geometry, name).tolist() for name in ("limb", "x", "y", "z")}
+message["names"] = [limb.name for limb in geometry.limbs]
+message["force"] = frame.force.tolist()
+message["off"] = frame.offSkin
+message["touches"] = sorted((touch.limb, touch.force) for touch in touches)
+print(json.dumps(message))
 """
 
 
@@ -130,14 +130,14 @@ def touch(robot: str) -> str:
     """The skin of the robot's lower arm on each of the forearms."""
     values = yaml.safe_load(description_file(robot).read_text())["parts"]["left_arm"]
     limb = values["limbs"]["lower_arm"]
-    (patch,) = (item for item in values["skin"] if item["limb"] == "lower_arm")
+    (patch,) = (patch for patch in values["skin"] if patch["limb"] == "lower_arm")
     parts: dict[str, Any] = {}
     for k in range(COUNT):
-        item = patch | {"patch": f"skin{k}", "first_id": 1000 * k}
+        copy = patch | {"patch": f"skin{k}", "first_id": 1000 * k}
         parts[f"arm{k}"] = {
             "servos": [],
             "limbs": {"lower_arm": limb | on_bodies(robot, f"arm{k}")},
-            "skin": [item],
+            "skin": [copy],
         }
     return str(yaml.safe_dump({"robot": "forearms", "parts": parts}, sort_keys=False))
 
@@ -149,7 +149,7 @@ def on_bodies(robot: str, name: str) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("robot", FOREARMS)
-def test_a_ball_weighs_what_it_weighs_wherever_it_lies(robot: str, tmp_path: Path) -> None:
+def test_skin_measures_weight_of_ball_everywhere(robot: str, tmp_path: Path) -> None:
     (tmp_path / "arms.xml").write_text(world(robot))
     (tmp_path / "arms.yaml").write_text(touch(robot))
     done = rcgen("simulator", "arms.xml", "--tactile", "arms.yaml", cwd=tmp_path)

@@ -47,7 +47,7 @@ parts:
 
 
 @pytest.mark.parametrize("world", [MJCF, INNERMODEL], ids=["MJCF", "InnerModel"])
-def test_the_skin_is_served_with_all_its_taxels(tmp_path: Path, world: str) -> None:
+def test_tactile_description_serves_skin_with_all_taxels(tmp_path: Path, world: str) -> None:
     (tmp_path / "world.xml").write_text(world)
     (tmp_path / "arm.yaml").write_text(ARM)
     values = ("simulator", "world.xml", "--tactile", "arm.yaml")
@@ -80,7 +80,7 @@ def test_the_skin_is_served_with_all_its_taxels(tmp_path: Path, world: str) -> N
         ((ARM[ARM.index("    skin:") :], ""), "no part has a `skin`"),
     ],
 )
-def test_what_does_not_fit_is_told_at_its_place(
+def test_tactile_description_mismatch_is_reported_with_position(
     tmp_path: Path, change: tuple[str, str], message: str
 ) -> None:
     (tmp_path / "world.xml").write_text(MJCF)
@@ -92,7 +92,7 @@ def test_what_does_not_fit_is_told_at_its_place(
     assert not (tmp_path / "world_simulator").exists()
 
 
-def test_a_description_that_is_not_there(tmp_path: Path) -> None:
+def test_tactile_description_that_is_missing_is_reported(tmp_path: Path) -> None:
     (tmp_path / "world.xml").write_text(MJCF)
     done = rcgen("simulator", "world.xml", "--tactile", "arm.yaml", cwd=tmp_path)
     assert done.returncode == 1

@@ -25,7 +25,7 @@ TABLE = """\
 """
 
 
-def test_a_crate_falls_on_a_scale(tmp_path: Path) -> None:
+def test_touch_sensor_measures_falling_crate(tmp_path: Path) -> None:
     world = served(tmp_path, TABLE)
     read = world.ports["TouchSensor"].getValues
     world.simulation.advance(0.02)
@@ -36,13 +36,13 @@ def test_a_crate_falls_on_a_scale(tmp_path: Path) -> None:
     assert values == {"under": 0.0, "foot": 1.0}
 
 
-def test_the_value_stays_in_its_bounds(tmp_path: Path) -> None:
+def test_touch_sensor_value_stays_in_bounds(tmp_path: Path) -> None:
     world = served(tmp_path, TABLE.replace('mass="1.2"', 'mass="12"'))
     world.simulation.advance(2.0)
     assert world.ports["TouchSensor"].getValues()["scale"].value == 20.0
 
 
-def test_a_sensor_feels_only_along_its_normal(tmp_path: Path) -> None:
+def test_touch_sensor_measures_along_its_normal_only(tmp_path: Path) -> None:
     for normal, force in (('ny="1"', 1.2 * 9.81), ('ny="-1"', 0.0), ('nx="1"', 0.0)):
         text = TABLE.replace('id="scale"', f'id="scale" {normal}')
         world = served(tmp_path, text)

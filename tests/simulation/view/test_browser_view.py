@@ -23,7 +23,8 @@ from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
-from tests.support.chromium_tab import PATIENCE, Tab, needs_chromium, opened_tab, red, wait_for
+from tests.support.chromium_tab import Tab, needs_chromium, opened_tab, red
+from tests.support.waiting import TIMEOUT_S, wait_until
 
 MODELS = Path(__file__).parents[1] / "models" / "files"
 
@@ -38,19 +39,21 @@ def page() -> Iterator[BrowserPage]:
     result.close()
 
 
-def test_the_page_is_served_on_this_machine_alone(page: BrowserPage) -> None:
+def test_browser_view_listens_on_loopback_only(page: BrowserPage) -> None:
     assert page.url.startswith(f"http://{LOOPBACK}:")
-    with urllib.request.urlopen(page.url, timeout=PATIENCE) as answer:
+    with urllib.request.urlopen(page.url, timeout=TIMEOUT_S) as answer:
         assert b"<html" in answer.read(2000).lower()
     port = int(page.url.rpartition(":")[2])
     listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
     mine = [line.split()[1] for line in listening.splitlines() if f":{port:04X} " in line]
     assert mine
-    assert all(item.startswith("0100007F") for item in mine if item.endswith(f"{port:04X}"))
+    assert all(
+        address.startswith("0100007F") for address in mine if address.endswith(f"{port:04X}")
+    )
     assert page._server.request_share_url() is None
 
 
-def test_a_port_that_is_taken_is_told() -> None:
+def test_browser_view_reports_occupied_port() -> None:
     model = load_model(MODELS / "crane.xml").model
     with socket.socket() as other:
         other.bind((LOOPBACK, 0))
@@ -59,7 +62,7 @@ def test_a_port_that_is_taken_is_told() -> None:
             BrowserPage("crane", model, mujoco.MjData(model), port=other.getsockname()[1])
 
 
-def test_nodes_hang_as_in_the_model_and_follow_it(page: BrowserPage) -> None:
+def test_browser_view_nodes_follow_model_hierarchy(page: BrowserPage) -> None:
     assert page.stage.paths == [
         "/world",
         "/world/tower",
@@ -78,7 +81,7 @@ def test_nodes_hang_as_in_the_model_and_follow_it(page: BrowserPage) -> None:
     assert slider.value == pytest.approx(1.0, abs=1e-3)
 
 
-def test_relative_poses_give_the_absolute_ones(page: BrowserPage) -> None:
+def test_browser_view_relative_poses_give_absolute_poses(page: BrowserPage) -> None:
     model, data = page.model, page.data
     poses = relative_poses(model, capture(model, data).poses)
     for body in range(1, model.nbody):
@@ -92,24 +95,24 @@ def test_relative_poses_give_the_absolute_ones(page: BrowserPage) -> None:
         assert turn == pytest.approx(data.xmat[body], abs=1e-12)
 
 
-def moved(page: BrowserPage, handle: object, value: object) -> None:
+def move_handle(page: BrowserPage, handle: object, value: object) -> None:
     """As when it is moved in the browser."""
     handle.value = value  # type: ignore[attr-defined]  # viser calls what listens, from here too
 
 
-def test_sliders_move_joints_and_the_button_brings_them_back(page: BrowserPage) -> None:
+def test_browser_view_sliders_move_joints_and_button_resets_them(page: BrowserPage) -> None:
     labels = [slider.label for slider, _ in page.controls._sliders]
     assert labels == ["turn [rad]", "raise [rad]", "extend [m]"]
     slider, address = page.controls._sliders[2]
     assert (slider.min, slider.max) == (0.0, 0.5)
-    moved(page, slider, 0.25)
-    wait_for(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
+    move_handle(page, slider, 0.25)
+    wait_until(lambda: abs(page.data.qpos[address] - 0.25) < 1e-9)
     page.controls.reset()
     assert page.data.qpos[address] == 0.0
     assert slider.value == pytest.approx(0.0)
 
 
-def test_a_node_is_placed(page: BrowserPage) -> None:
+def test_browser_view_moves_node(page: BrowserPage) -> None:
     for name in ("tower", "crate"):
         body = page.model.body(name).id
         page.controls.place(body, np.array([0.5, 0.25, 1.0]), quaternion((0, 0, 1.5)))
@@ -117,10 +120,10 @@ def test_a_node_is_placed(page: BrowserPage) -> None:
         assert page.stage.frames[body - 1].position == pytest.approx([0.5, 0.25, 1.0])
 
 
-def test_time_runs_when_it_is_told_to(page: BrowserPage) -> None:
+def test_browser_view_time_runs_on_request(page: BrowserPage) -> None:
     crate = page.model.body("crate").id
     height = page.data.xpos[crate, 2]
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + TIMEOUT_S
     page.controls.running = True
     page.run(lambda: page.data.time < 0.5 and time.monotonic() < end)
     assert page.data.xpos[crate, 2] < height - 0.05
@@ -131,14 +134,14 @@ def test_time_runs_when_it_is_told_to(page: BrowserPage) -> None:
 
 
 @pytest.mark.parametrize("turn", [(0.1, -0.5, 2.0), (3.0, 1.5, -3.0), (0, 0, 0)])
-def test_roll_pitch_and_yaw_are_found_again(turn: tuple[float, ...]) -> None:
+def test_browser_view_roll_pitch_yaw_round_trip(turn: tuple[float, ...]) -> None:
     quat = quaternion(turn)
     assert quaternion(roll_pitch_yaw(quat)) * np.sign(quat[0]) == pytest.approx(
         quat * np.sign(quat[0]), abs=1e-9
     ) or quaternion(roll_pitch_yaw(quat)) == pytest.approx(-quat, abs=1e-9)
 
 
-def test_the_tree_in_words() -> None:
+def test_browser_view_tree_has_text_form() -> None:
     text = "<mujoco><worldbody><body name='a'><body name='&lt;b&gt;'><joint/><geom size='1'/>"
     model = mujoco.MjModel.from_xml_string(text + "</body></body><body/></worldbody></mujoco>")
     names = [model.body(i).name or f"body{i}" for i in range(model.nbody)]
@@ -158,7 +161,7 @@ KINDS = {
 
 
 @pytest.mark.parametrize("kind", list(KINDS))
-def test_shapes_have_their_size_and_their_outside_is_outside(kind: str) -> None:
+def test_browser_view_shapes_have_size_and_outward_normals(kind: str) -> None:
     written, half = KINDS[kind]
     text = f"<mujoco><asset><mesh name='m' file='{MODELS}/meshes/pyramid.obj'/><hfield name='h' "
     text += "nrow='3' ncol='4' size='2 1 .5 .1' elevation='0 1 2 3 4 5 6 7 8 9 10 11'/></asset>"
@@ -189,7 +192,7 @@ def tab() -> Iterator[Tab]:
 
 
 @needs_chromium
-def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
+def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) -> None:
     start = "from robocomp_dsl.cli.rcgen.main import main; main()"
     arguments = ["view", str(MODELS / "arm.urdf"), "--port", "0", "--names"]
     with subprocess.Popen(
@@ -202,14 +205,14 @@ def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
             tab("Network.enable")
             tab("Page.enable")
             tab("Page.navigate", url=received[1])
-            wait_for(lambda: tab.shows("Frames", "Let time run"))
-            wait_for(lambda: red(tab.picture()) > 0.001)  # the shoulder of the arm
+            wait_until(lambda: tab.shows("Frames", "Let time run"))
+            wait_until(lambda: red(tab.picture()) > 0.001)  # the shoulder of the arm
             for name, words in (
                 ("Joints", ("lift [rad]", "reach [m]")),
                 ("Nodes", ("place [m]", "left_finger (slide)")),
             ):
                 tab.open_panel(name)
-                wait_for(partial(tab.shows, *words))
+                wait_until(partial(tab.shows, *words))
             elsewhere = [
                 url
                 for url in tab.asked
@@ -219,4 +222,4 @@ def test_a_real_browser_shows_the_scene_and_asks_nobody_else(tab: Tab) -> None:
             assert any(url.startswith(received[1]) for url in tab.asked)
         finally:
             served.send_signal(signal.SIGINT)
-        assert served.wait(PATIENCE) == 130
+        assert served.wait(TIMEOUT_S) == 130

@@ -15,7 +15,7 @@ EMPTY = Room()
 IDEAL = Mechanics(encoder_steps=0)
 
 
-def placed(
+def robot_at(
     room: Room = EMPTY, mechanics: Mechanics = IDEAL, **options: float
 ) -> tuple[World, DifferentialRobot]:
     robot = DifferentialRobot(mechanics, START, **options)
@@ -23,12 +23,12 @@ def placed(
 
 
 def test_base_is_a_device() -> None:
-    device: DifferentialRobotDevice = placed()[1]
+    device: DifferentialRobotDevice = robot_at()[1]
     assert device.mechanics is IDEAL
 
 
-def test_base_stands_where_it_was_put_and_stays() -> None:
-    world, robot = placed()
+def test_base_stays_where_it_is_placed() -> None:
+    world, robot = robot_at()
     world.advance(1.0)
     state = robot.state()
     assert state.time == pytest.approx(1.0)
@@ -38,8 +38,8 @@ def test_base_stands_where_it_was_put_and_stays() -> None:
     assert not state.moving
 
 
-def test_base_drives_ahead_as_fast_as_told() -> None:
-    world, robot = placed()
+def test_base_drives_ahead_at_commanded_speed() -> None:
+    world, robot = robot_at()
     robot.set_speed(300, 0)
     world.advance(2.0)
     state = robot.state()
@@ -53,8 +53,8 @@ def test_base_drives_ahead_as_fast_as_told() -> None:
     assert (state.corrected.x, state.corrected.z) == pytest.approx((ahead.x, ahead.z), abs=8)
 
 
-def test_a_positive_turn_is_to_the_right() -> None:
-    world, robot = placed()
+def test_base_turns_right_with_positive_rotation() -> None:
+    world, robot = robot_at()
     robot.set_speed(0, 1.0)
     world.advance(1.0)
     state = robot.state()
@@ -63,8 +63,8 @@ def test_a_positive_turn_is_to_the_right() -> None:
     assert math.hypot(state.corrected.x - 1000, state.corrected.z - 2000) < 5
 
 
-def test_odometry_of_wheels_and_true_motion_agree_within_a_percent() -> None:
-    world, robot = placed()
+def test_base_odometry_agrees_with_true_motion_within_one_percent() -> None:
+    world, robot = robot_at()
     robot.set_speed(400, 0.6)
     world.advance(8.0)
     state = robot.state()
@@ -72,9 +72,9 @@ def test_odometry_of_wheels_and_true_motion_agree_within_a_percent() -> None:
     assert math.hypot(guess.x - state.corrected.x, guess.z - state.corrected.z) < 0.01 * 400 * 8
 
 
-def test_drift_bends_the_odometry_but_not_the_truth() -> None:
+def test_base_drift_changes_odometry_only() -> None:
     def drive(drift: float) -> tuple[Pose, Pose]:
-        world, robot = placed(drift=drift)
+        world, robot = robot_at(drift=drift)
         robot.set_speed(400, 0)
         world.advance(5.0)
         return robot.state().odometry, robot.state().corrected
@@ -84,9 +84,9 @@ def test_drift_bends_the_odometry_but_not_the_truth() -> None:
     assert math.hypot(bent.x - straight.x, bent.z - straight.z) > 10
 
 
-def test_encoders_count_whole_steps() -> None:
+def test_base_encoders_count_whole_steps() -> None:
     coarse = replace(IDEAL, encoder_steps=4, gear_ratio=1)
-    world, robot = placed(mechanics=coarse)
+    world, robot = robot_at(mechanics=coarse)
     robot.set_speed(100, 0)
     seen = set()
     for _ in range(200):
@@ -97,9 +97,9 @@ def test_encoders_count_whole_steps() -> None:
     assert all(abs(z / step - round(z / step)) < 1e-6 for z in seen)
 
 
-def test_a_wall_stops_it_while_the_wheels_slip() -> None:
+def test_base_is_stopped_by_wall_while_wheels_slip() -> None:
     room = Room(walls=(Wall(-5000, 3000, 5000, 3000, 100, 1000),))
-    world, robot = placed(room)
+    world, robot = robot_at(room)
     robot.set_speed(500, 0)
     world.advance(6.0)
     state = robot.state()
@@ -109,7 +109,7 @@ def test_a_wall_stops_it_while_the_wheels_slip() -> None:
 
 
 def test_base_stops() -> None:
-    world, robot = placed()
+    world, robot = robot_at()
     robot.set_speed(800, 0)
     world.advance(1.0)
     robot.stop()
@@ -118,8 +118,8 @@ def test_base_stops() -> None:
     assert not robot.state().moving
 
 
-def test_the_watchdog_stops_a_forgotten_base() -> None:
-    world, robot = placed(watchdog=0.3)
+def test_base_is_stopped_by_watchdog() -> None:
+    world, robot = robot_at(watchdog=0.3)
     robot.set_speed(300, 0)
     world.advance(0.3)
     assert robot.state().moving
@@ -139,10 +139,8 @@ def test_the_watchdog_stops_a_forgotten_base() -> None:
         (0, -2.5, "`rot` is -2.5 rad/s, the limit is ±2 rad/s"),
     ],
 )
-def test_a_senseless_command_is_refused_and_changes_nothing(
-    adv: float, rot: float, message: str
-) -> None:
-    world, robot = placed()
+def test_base_refuses_invalid_command_unchanged(adv: float, rot: float, message: str) -> None:
+    world, robot = robot_at()
     robot.set_speed(200, 0)
     with pytest.raises(CommandRefused) as refusal:
         robot.set_speed(adv, rot)
@@ -151,8 +149,8 @@ def test_a_senseless_command_is_refused_and_changes_nothing(
     assert robot.state().adv == pytest.approx(200, rel=1e-2)
 
 
-def test_odometry_goes_on_from_where_it_is_set() -> None:
-    world, robot = placed()
+def test_base_odometry_continues_from_set_pose() -> None:
+    world, robot = robot_at()
     robot.set_odometry(Pose(10, 20, math.pi / 2))
     robot.set_speed(200, 0)
     world.advance(1.0)
@@ -162,8 +160,8 @@ def test_odometry_goes_on_from_where_it_is_set() -> None:
         robot.set_odometry(Pose(math.nan, 0, 0))
 
 
-def test_a_correction_moves_the_corrected_pose_alone() -> None:
-    world, robot = placed()
+def test_base_correction_moves_corrected_pose_only() -> None:
+    world, robot = robot_at()
     robot.correct(Pose(0, 0, 0))
     corrected = robot.state().corrected
     assert (corrected.x, corrected.z, corrected.alpha) == pytest.approx((0, 0, 0), abs=1e-9)
@@ -180,4 +178,4 @@ def test_a_correction_moves_the_corrected_pose_alone() -> None:
 def test_base_cannot_start_inside_something() -> None:
     room = Room(pillars=(Pillar("lamp", 1000, 2100, 150, 1000),))
     with pytest.raises(SceneError, match=r"the robot starts inside `pillar 1 lamp`: x 1000 mm"):
-        placed(room)
+        robot_at(room)

@@ -26,7 +26,7 @@ def scanned(
     return World(room.spec(), (robot, laser), seed=3), robot, laser
 
 
-def test_rays_go_from_left_to_right() -> None:
+def test_laser_rays_go_from_left_to_right() -> None:
     angles = LaserSettings(measures=5, degrees=180).angles()
     assert angles.tolist() == pytest.approx(
         [-math.pi / 2, -math.pi / 4, 0, math.pi / 4, math.pi / 2]
@@ -34,7 +34,7 @@ def test_rays_go_from_left_to_right() -> None:
     assert LaserSettings(measures=1).angles().tolist() == [0]
 
 
-def test_a_wall_ahead_is_measured_at_every_angle() -> None:
+def test_laser_measures_wall_at_every_angle() -> None:
     laser: LaserDevice = scanned(AHEAD)[2]
     scan = laser.scan()
     expected = np.minimum(3000 / np.maximum(np.cos(scan.angles.astype(float)), 1e-9), 6000)
@@ -42,13 +42,13 @@ def test_a_wall_ahead_is_measured_at_every_angle() -> None:
     assert scan.distances.dtype == scan.angles.dtype == np.float32
 
 
-def test_what_is_to_the_right_has_a_positive_angle() -> None:
+def test_laser_angle_is_positive_to_the_right() -> None:
     scan = scanned(Room(pillars=(Pillar("", 2000, 2000, 100, 1000),)))[2].scan()
     assert scan.angles[scan.distances.argmin()] == pytest.approx(math.pi / 4, abs=0.01)
     assert scan.distances.min() == pytest.approx(math.hypot(2000, 2000) - 100, abs=2)
 
 
-def test_too_near_and_too_far_read_the_limits() -> None:
+def test_laser_clips_distances_to_its_range() -> None:
     near = replace(WIDE, min_range=3500.0)
     assert scanned(AHEAD, near)[2].scan().distances.min() == 3500
     far = replace(WIDE, max_range=2500.0)
@@ -72,7 +72,7 @@ def test_laser_turns_with_the_robot() -> None:
     assert -straight == pytest.approx(robot.true_pose().alpha, abs=0.05)
 
 
-def test_noise_is_as_wide_as_declared_and_repeats_with_the_seed() -> None:
+def test_laser_noise_has_declared_width_and_repeats_with_seed() -> None:
     noisy = replace(WIDE, noise=20.0)
     first = scanned(AHEAD, noisy)[2].scan().distances
     again = scanned(AHEAD, noisy)[2].scan().distances
@@ -83,7 +83,7 @@ def test_noise_is_as_wide_as_declared_and_repeats_with_the_seed() -> None:
     assert np.array_equal(first[clean == 6000], clean[clean == 6000])  # no echo, no noise
 
 
-def test_scans_come_at_their_period_whoever_asks() -> None:
+def test_laser_scans_come_at_their_period_for_all_readers() -> None:
     world, robot, laser = scanned(AHEAD, replace(WIDE, period=0.1, noise=5.0))
     robot.set_speed(300, 0)
     seen = []
@@ -99,12 +99,12 @@ def test_scans_come_at_their_period_whoever_asks() -> None:
     assert np.array_equal(rare.scan().distances, laser.scan().distances)
 
 
-def test_a_scan_cannot_be_written_to() -> None:
+def test_laser_scan_is_read_only() -> None:
     scan = scanned(AHEAD)[2].scan()
     with pytest.raises(ValueError, match="read-only"):
         scan.distances[0] = 1
 
 
-def test_laser_needs_a_body_to_sit_on() -> None:
+def test_laser_requires_a_body() -> None:
     with pytest.raises(SceneError, match="mounted on `mast`, which is no body"):
         scanned(AHEAD, mount=LaserMount(body="mast"))

@@ -20,7 +20,7 @@ start: {x: 500, z: 600, alpha: 0.25}
 """
 
 
-def test_a_room_is_read(tmp_path: Path) -> None:
+def test_room_file_is_read(tmp_path: Path) -> None:
     path = tmp_path / "room.yaml"
     path.write_text(TEXT)
     assert Room.read(path) == Room(
@@ -42,7 +42,7 @@ def test_room_errors_name_their_lines(tmp_path: Path) -> None:
     assert "did you mean `radius`?" in message
 
 
-def test_outlines_are_the_room_from_above(tmp_path: Path) -> None:
+def test_room_outlines_are_seen_from_above(tmp_path: Path) -> None:
     path = tmp_path / "room.yaml"
     path.write_text(TEXT)
     wall, table, pillar = outlines(World(Room.read(path).spec()).model)
@@ -57,14 +57,14 @@ def test_outlines_are_the_room_from_above(tmp_path: Path) -> None:
     )
 
 
-def test_a_turned_box_turns_to_the_right() -> None:
+def test_room_box_with_positive_angle_turns_right() -> None:
     room = Room(boxes=(RoomBox("", 0, 0, 200, 2000, 100, 0.3),))
     (box,) = outlines(World(room.spec()).model)
     end = box.corners[box.corners[:, 1] > 800].mean(axis=0)
     assert end == pytest.approx([1000 * np.sin(0.3), 1000 * np.cos(0.3)], abs=1e-3)
 
 
-def test_clearance_is_the_distance_to_the_nearest_outline() -> None:
+def test_room_clearance_is_distance_to_nearest_outline() -> None:
     room = Room(
         walls=(Wall(0, 0, 4000, 0, 100, 1000),), pillars=(Pillar("", 3000, 1000, 250, 1000),)
     )

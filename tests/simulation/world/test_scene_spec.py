@@ -34,7 +34,7 @@ def random_scene(seed: int, count: int) -> Scene:
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_bodies_are_where_the_tree_has_its_frames(seed: int) -> None:
+def test_scene_spec_bodies_match_transform_tree(seed: int) -> None:
     scene = random_scene(seed, 60)
     spec, notes = build_spec(scene)
     model = spec.compile()
@@ -58,7 +58,7 @@ def test_bodies_are_where_the_tree_has_its_frames(seed: int) -> None:
             assert found[:3, 3] == pytest.approx(tree.matrix(frame.id, "root")[:3, 3], abs=1e-6)
 
 
-def test_limits_and_the_value_at_the_start_are_those_of_the_joint() -> None:
+def test_scene_spec_joint_has_limits_and_start_value() -> None:
     hinge = Frame("h", "root", turn=(0, 0.5, 0), motion=Motion("hinge", "y", -1.0, 2.0))
     slide = Frame("s", "h", (0, 0, 40), motion=Motion("slide", "z", 0, 300, offset=15))
     free = Frame("f", "s", motion=Motion("hinge", "z"))
@@ -69,7 +69,7 @@ def test_limits_and_the_value_at_the_start_are_those_of_the_joint() -> None:
     assert model.qpos0 == pytest.approx([0.5, 0.025, 0])
 
 
-def test_a_base_drives_on_the_floor() -> None:
+def test_scene_spec_base_drives_on_floor() -> None:
     base = Frame("robot", "root", (1000, 0, 0), drives=True)
     model = build_spec(Scene((ROOT, base)))[0].compile()
     data = mujoco.MjData(model)
@@ -87,14 +87,14 @@ def test_a_base_drives_on_the_floor() -> None:
 @pytest.mark.parametrize(
     "normal", [(0, 0, -1), (0, 0, 1), (1, 0, 0), (0, -1, 0), (1, 2, 3), (0, 0, 5), (1e-9, 0, 1)]
 )
-def test_a_plane_stands_along_its_normal(normal: tuple[float, float, float]) -> None:
+def test_scene_spec_plane_stands_along_normal(normal: tuple[float, float, float]) -> None:
     turned = rotation_to_normal(normal)
     assert turned @ [0, 0, -1] == pytest.approx(np.array(normal) / np.linalg.norm(normal), abs=1e-6)
     assert turned @ turned.T == pytest.approx(np.eye(3), abs=1e-9)
     assert np.linalg.det(turned) == pytest.approx(1)
 
 
-def test_boxes_have_their_size_along_their_axes() -> None:
+def test_scene_spec_boxes_have_size_along_axes() -> None:
     floor = Box("floor", "root", (4000, 3000, 10), (0, -5, 0), (0, 1, 0), "#102030", collide=True)
     upright = Box("wall", "root", (4000, 2500, 100), (0, 1250, 2000))
     model = build_spec(Scene((ROOT,), (floor, upright)))[0].compile()
@@ -121,7 +121,7 @@ def cube(tmp_path) -> str:  # type: ignore[no-untyped-def]
     return str(path)
 
 
-def test_a_mesh_is_where_the_viewer_has_it(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_scene_spec_mesh_is_placed_like_in_viewer(tmp_path) -> None:  # type: ignore[no-untyped-def]
     mesh = Mesh("m", "root", cube(tmp_path), (100, 200, 300), scale=(10, 10, 20))
     spec, notes = build_spec(Scene((ROOT,), meshes=(mesh,)))
     assert notes == []
@@ -142,7 +142,7 @@ def test_a_mesh_is_where_the_viewer_has_it(tmp_path) -> None:  # type: ignore[no
         ("a.osg", "VertexArray Vec3Array 2 { 0 0 0 1 2 3 }", "is its bounding box"),
     ],
 )
-def test_a_mesh_that_cannot_be_had_is_a_box(  # type: ignore[no-untyped-def]
+def test_scene_spec_replaces_unreadable_mesh_by_box(  # type: ignore[no-untyped-def]
     tmp_path, file: str, content: str | None, message: str
 ) -> None:
     path = tmp_path / file
@@ -159,7 +159,7 @@ def test_a_mesh_that_cannot_be_had_is_a_box(  # type: ignore[no-untyped-def]
         assert model.geom("m").pos == pytest.approx([0.05, -0.15, 0.1])
 
 
-def test_a_flat_mesh_and_a_flat_plane_can_be_built(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_scene_spec_builds_flat_mesh_and_flat_plane(tmp_path) -> None:  # type: ignore[no-untyped-def]
     path = tmp_path / "flat.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\n")
     shapes = Scene(
@@ -178,12 +178,12 @@ def test_a_flat_mesh_and_a_flat_plane_can_be_built(tmp_path) -> None:  # type: i
     ]
 
 
-def test_a_frame_needs_its_parent_before_it() -> None:
+def test_scene_spec_refuses_frame_before_its_parent() -> None:
     with pytest.raises(SceneError, match="`a` is in `b`, which is not a frame before it"):
         build_spec(Scene((ROOT, Frame("a", "b"), Frame("b", "root"))))
 
 
-def test_a_body_with_physics_falls_and_the_others_stay() -> None:
+def test_scene_spec_body_with_physics_falls_and_others_stay() -> None:
     ball = Frame("ball", "root", (0, 1000, 0), physics=True, mass=2.0)
     lamp = Frame("lamp", "root", (500, 1000, 0), mass=2.0, motion=Motion("slide", "y"))
     model = build_spec(Scene((ROOT, ball, lamp)))[0].compile()
@@ -195,7 +195,7 @@ def test_a_body_with_physics_falls_and_the_others_stay() -> None:
     assert data.body("lamp").xpos[2] == pytest.approx(1.0)
 
 
-def test_a_picture_on_a_plane_leaves_the_plane_where_it_is(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_scene_spec_texture_leaves_plane_in_place(tmp_path) -> None:  # type: ignore[no-untyped-def]
     from PIL import Image  # noqa: PLC0415
 
     picture = Image.new("RGB", (16, 16), (10, 10, 240))
@@ -235,7 +235,7 @@ def test_scene_spec_notes_falling_body_without_mass() -> None:
 
 
 @pytest.mark.parametrize("scale", [(float("inf"), 1, 1), (1e300, 1, 1), (float("nan"), 1, 1)])
-def test_a_mesh_of_impossible_scale_is_a_box(tmp_path, scale) -> None:  # type: ignore[no-untyped-def]
+def test_scene_spec_replaces_mesh_of_invalid_scale_by_box(tmp_path, scale) -> None:  # type: ignore[no-untyped-def]
     mesh = Mesh("m", "root", cube(tmp_path), scale=scale)
     spec, notes = build_spec(Scene((ROOT,), meshes=(mesh,)))
     assert "is a box: no world holds it with the scale" in notes[0]

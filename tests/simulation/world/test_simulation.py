@@ -22,7 +22,7 @@ def world(tmp_path: Path) -> Served:
     return served(tmp_path, NOISY)
 
 
-def observed(world: Served) -> tuple[Any, ...]:
+def observable_state(world: Served) -> tuple[Any, ...]:
     """Everything that a client can see of the robot, as it is."""
     state = world.ports["robot"].getBaseState()
     laser = world.ports["laser"].getLaserData().dist.tobytes()
@@ -34,7 +34,7 @@ def driven(world: Served) -> tuple[Any, ...]:
     world.ports["robot"].setSpeedBase(300.0, 0.4)
     world.ports["JointMotor"].setPosition(world.types.MotorGoalPosition("neck", 0.5, 1.0))
     world.simulation.advance(1.0)
-    return observed(world)
+    return observable_state(world)
 
 
 def test_simulation_is_bit_identical_for_same_seed_only(tmp_path: Path, world: Served) -> None:
@@ -59,12 +59,12 @@ def test_snapshot_restores_state_and_random_generators(world: Served) -> None:
     driven(world)
     saved = hand.snapshot()
     world.simulation.advance(0.7)
-    first = observed(world)
+    first = observable_state(world)
     for _ in range(2):
         hand.restore(saved)
         assert hand.getState().time == pytest.approx(1.0)
         world.simulation.advance(0.7)
-        assert str(observed(world)) == str(first)
+        assert str(observable_state(world)) == str(first)
     hand.forget(saved)
     with pytest.raises(world.types.RoboCompSimulation_Refused, match="no snapshot"):
         hand.restore(saved)
@@ -74,11 +74,11 @@ def test_fork_predicts_without_changing_the_world(world: Served) -> None:
     hand = world.ports["Simulation"]
     world.ports["robot"].setSpeedBase(300.0, 0.0)
     world.simulation.advance(0.5)
-    before = str(observed(world))
+    before = str(observable_state(world))
     fork = hand.fork()
     assert hand.advance(fork, 2.0) == pytest.approx(2.5)
     predicted = hand.getPoses(fork, ["robot"])[0]
-    assert str(observed(world)) == before
+    assert str(observable_state(world)) == before
     world.simulation.advance(2.0)
     real = hand.getPoses(0, ["robot"])[0]
     assert (predicted.x, predicted.z, predicted.ry) == (real.x, real.z, real.ry)
@@ -138,7 +138,7 @@ def test_simulation_refuses_invalid_arguments(
         getattr(hand, operation)(*values)
 
 
-def test_noise_can_be_switched_off(world: Served) -> None:
+def test_simulation_noise_can_be_switched_off(world: Served) -> None:
     world.ports["Simulation"].setNoise(0.0)
     driven(world)
     state = world.ports["robot"].getBaseState()
@@ -149,7 +149,7 @@ def test_noise_can_be_switched_off(world: Served) -> None:
     )
 
 
-def test_without_physics_nothing_falls(tmp_path: Path) -> None:
+def test_simulation_without_physics_has_no_gravity(tmp_path: Path) -> None:
     text = '<innerModel><transform id="ball" engine="bullet" mass="1" ty="1000"/></innerModel>'
     world = served(tmp_path, text)
     hand = world.ports["Simulation"]
@@ -180,7 +180,7 @@ def test_simulation_handles_divergence_as_configured(tmp_path: Path, choice: Any
     assert world.ports["laser"].getLaserData().dist[50] == pytest.approx(3100, abs=1)
 
 
-def test_a_world_that_always_diverges_stops(tmp_path: Path) -> None:
+def test_simulation_stops_after_repeated_divergence(tmp_path: Path) -> None:
     world = served(tmp_path, NOISY)
     it, hand = world.simulation, world.ports["Simulation"]
     for _ in range(2):
@@ -240,7 +240,7 @@ def test_visual_state_contains_contacts(tmp_path: Path) -> None:
       <plane id="side" ny="1" size="100,100,100" collide="1"/></transform></innerModel>"""
     world = served(tmp_path, text)
     assert len(world.ports["Simulation"].getSight().contacts) == 0
-    world.until(lambda: len(world.ports["Simulation"].getSight().contacts))
+    world.advance_until(lambda: len(world.ports["Simulation"].getSight().contacts))
     contacts = world.ports["Simulation"].getSight().contacts.reshape(-1, 6)
     assert contacts[:, 2] == pytest.approx(0, abs=0.01)
     assert np.abs(contacts[:, 3:]) == pytest.approx(np.tile([0, 0, 1], (len(contacts), 1)), abs=0.1)

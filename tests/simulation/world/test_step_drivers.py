@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 import threading
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +16,12 @@ from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 from robocomp_dsl.simulation.stepping.clock_leader import ClockLeader
 from robocomp_dsl.simulation.world.simulation import SimulationOptions
 from tests.simulation.served_worlds import ROOM, Served, served
+from tests.support.waiting import wait_until
 
 DEADLINE = 120.0
 
 
-class Life:
+class LifecycleThread:
     """The life cycle of the simulator in a thread: a moment every 10 ms, until `stop`."""
 
     def __init__(self, clock: ClockSource) -> None:
@@ -46,7 +45,7 @@ class Life:
         self._thread.join()
 
 
-class Source:
+class ClockSourceWorld:
     """A world that makes the time; `apart` is by how much it was ever behind a tick."""
 
     def __init__(self, folder: Path, options: SimulationOptions) -> None:
@@ -56,34 +55,29 @@ class Source:
         self.clock = ClockSource(self._tell)
         self.world.simulation.start(self.clock)
         self.hand = self.world.ports["Simulation"]
-        self.life: Life | None = None
+        self.life: LifecycleThread | None = None
 
     def _tell(self, tick: Tick) -> None:
         self.ticks.append(tick)
         self.apart = max(self.apart, tick.time / 1e9 - self.world.simulation.world.advanced_to)
 
     def live(self) -> None:
-        self.life = Life(self.clock)
+        self.life = LifecycleThread(self.clock)
 
 
 @pytest.fixture
 def source(tmp_path: Path, request: pytest.FixtureRequest) -> Any:
-    result = Source(tmp_path, getattr(request, "param", SimulationOptions(speed=0)))
-    yield result
-    if result.life:
-        result.life.stop()
+    clock_source_world = ClockSourceWorld(
+        tmp_path, getattr(request, "param", SimulationOptions(speed=0))
+    )
+    yield clock_source_world
+    if clock_source_world.life:
+        clock_source_world.life.stop()
 
 
-def until(condition: Callable[[], Any]) -> None:
-    end = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < end, "it did not come to pass"
-        time.sleep(0.002)
-
-
-def test_clock_leader_advances_world_before_tick(source: Source) -> None:
+def test_clock_leader_advances_world_before_tick(source: ClockSourceWorld) -> None:
     source.live()
-    until(lambda: source.clock.now() > 1.0)
+    wait_until(lambda: source.clock.now() > 1.0)
     source.hand.pause()
     state = source.hand.getState()
     assert state.paused
@@ -91,31 +85,35 @@ def test_clock_leader_advances_world_before_tick(source: Source) -> None:
     assert state.time == pytest.approx(source.clock.now(), abs=1e-9)
 
 
-def test_clock_leader_steps_world_with_clock(source: Source) -> None:
+def test_clock_leader_steps_world_with_clock(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     assert source.hand.step(3) == pytest.approx(0.006)
     assert source.ticks[-1].time == 6_000_000
     assert source.hand.step(100) == pytest.approx(0.206)
-    until(lambda: len(source.life.computed) == 21)  # type: ignore[union-attr]
+    wait_until(lambda: len(source.life.computed) == 21)  # type: ignore[union-attr]
     assert source.life.computed == [n / 100 for n in range(21)]  # type: ignore[union-attr]
     assert source.clock.paused
 
 
-def test_clock_leader_step_times_out(source: Source, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_clock_leader_step_times_out(
+    source: ClockSourceWorld, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("robocomp_dsl.simulation.stepping.clock_leader.STEP_TIMEOUT_S", 0.01)
     source.clock.pause()
-    with pytest.raises(source.world.types.RoboCompSimulation_Refused, match="step timed out after 0.01 s"):
+    with pytest.raises(
+        source.world.types.RoboCompSimulation_Refused, match=r"step timed out after 0\.01 s"
+    ):
         source.hand.step(1)
     assert isinstance(source.world.simulation.step_driver, ClockLeader)
     assert source.clock.current_tick.time == 0
 
 
-def test_clock_leader_resets_clock_with_world(source: Source) -> None:
+def test_clock_leader_resets_clock_with_world(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.hand.step(20)
     saved = source.hand.snapshot()
     source.hand.step(30)
@@ -131,23 +129,23 @@ def test_clock_leader_resets_clock_with_world(source: Source) -> None:
     assert source.ticks[-1].epoch == 2
 
 
-def test_clock_leader_resets_world_with_clock(source: Source) -> None:
+def test_clock_leader_resets_world_with_clock(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.world.ports["robot"].setSpeedBase(300.0, 0.0)
     source.hand.step(250)
     assert source.world.ports["robot"].getBaseState().z > 100
     source.clock.reset()
-    until(lambda: source.ticks[-1].epoch == 1)
+    wait_until(lambda: source.ticks[-1].epoch == 1)
     assert source.hand.step(1) == pytest.approx(0.002)
     assert source.world.ports["robot"].getBaseState().z == 0
 
 
-def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
+def test_clock_leader_reports_speed_and_factor_of_clock(source: ClockSourceWorld) -> None:
     source.hand.setSpeed(4.0)
     source.live()
-    until(lambda: source.hand.getState().realTimeFactor > 0)
+    wait_until(lambda: source.hand.getState().realTimeFactor > 0)
     state = source.hand.getState()
     assert state.speed == source.clock.speed == 4.0
     assert state.realTimeFactor == pytest.approx(source.clock.current_tick.realTimeFactor, abs=2)
@@ -160,19 +158,19 @@ def test_clock_leader_reports_speed_and_factor_of_clock(source: Source) -> None:
     [SimulationOptions(speed=0), SimulationOptions(speed=0, diverged="stop")],
     indirect=True,
 )
-def test_clock_leader_resets_or_pauses_after_divergence(source: Source) -> None:
+def test_clock_leader_resets_or_pauses_after_divergence(source: ClockSourceWorld) -> None:
     source.clock.pause()
     source.live()
-    until(lambda: source.clock.reset_count == 0)
+    wait_until(lambda: source.clock.reset_count == 0)
     source.hand.step(50)
     source.world.simulation.world.data.qvel[0] = math.inf
     source.clock.resume()
     if source.world.simulation.options.diverged == "stop":
-        until(lambda: source.hand.getState().failure)
-        until(lambda: source.ticks[-1].paused)
+        wait_until(lambda: source.hand.getState().failure)
+        wait_until(lambda: source.ticks[-1].paused)
         assert source.clock.reset_count == 0
         source.hand.reset()
-    until(lambda: source.ticks[-1].epoch == 1 and source.ticks[-1].time > 0)
+    wait_until(lambda: source.ticks[-1].epoch == 1 and source.ticks[-1].time > 0)
     state = source.hand.getState()
     assert (state.failure, state.paused) == ("", False)
 
@@ -209,7 +207,7 @@ def test_wall_clock_selects_real_time_driver(tmp_path: Path) -> None:
     world = served(tmp_path, ROOM, SimulationOptions(speed=0))
     world.simulation.start(WallClock())
     try:
-        until(lambda: world.ports["Simulation"].getState().time > 1.0)
+        wait_until(lambda: world.ports["Simulation"].getState().time > 1.0)
         world.ports["Simulation"].reset()
         assert world.ports["Simulation"].getState().failure == ""
     finally:

@@ -1,6 +1,6 @@
 """`rcgen config diff`: compares the user's files with the installed ones.
 
-In: a context, or one file of it. Out: a unified diff; exit code 1 where there are differences.
+In: a context, or one file of it. Out: a unified diff; exit code 1 if there are differences.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import click
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.config import lookup
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.runtime.config import files_of
 
 
@@ -59,7 +60,7 @@ def _difference(old: Path, new: Path) -> Iterator[str]:
 
 def _bytes(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_bytes(path)
     except OSError as error:
         raise CliError(
             EXIT_FINDINGS, f"`{path}` cannot be read: {error.strerror or error}"

@@ -1,7 +1,7 @@
 """`rcgen config import`: copies installed configurations into the user's folder.
 
-In: a context, or one file of it. Out: files in the user's folder, all of them or none; what is
-there already stays, unless `--force` is given.
+In: a context, or one file of it. Out: files in the user's folder, all or none; existing files are
+kept without `--force`.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcgen.config import lookup
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.runtime.config import CONTEXTS, context_names, files_of
 
 Copy = tuple[Path, Path]
@@ -78,7 +79,7 @@ def _copies(folders: lookup.Folders, context: str, file: str | None) -> list[Cop
 
 def _same(copy: Copy) -> bool:
     try:
-        return copy[0].read_bytes() == copy[1].read_bytes()
+        return read_bytes(copy[0]) == read_bytes(copy[1])
     except OSError:
         return False
 
@@ -95,7 +96,7 @@ def _write(copies: Sequence[Copy], *, force: bool) -> None:
         for new, target in ready:
             if force:
                 new.replace(target)
-            else:  # a link, other than a rename, fails where a file has appeared meanwhile
+            else:  # unlike a rename, a link fails if the file exists meanwhile
                 target.hardlink_to(new)
                 created.append(target)
     except OSError:

@@ -15,6 +15,7 @@ import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.diagnostics import did_you_mean
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.runtime.config import (
     InvalidName,
     Origin,
@@ -26,7 +27,6 @@ from robocomp_dsl.runtime.config import (
     validate_context,
     validate_file,
 )
-from robocomp_dsl.runtime.parameters import ConfigFinding
 
 output_format = click.option(
     "--format",
@@ -56,10 +56,10 @@ class Folders:
 def folders() -> Folders:
     """All folders; drop-in files that cannot be used are reported as warnings."""
     around = SearchEnvironment.from_environ()
-    findings: list[ConfigFinding] = []
+    findings: list[Finding] = []
     roots = (*around.roots, *drop_in_roots(around, findings))
     for finding in findings:
-        print(str(finding).replace("error:", "warning:", 1), file=sys.stderr)
+        print(finding.render("warning"), file=sys.stderr)
     return Folders(around, roots)
 
 

@@ -1,7 +1,7 @@
 """`rcgen hardware`: generates a component for a real device from a simulated one.
 
-In: a name, and a device of a world. Out: a folder with a component that serves what the simulated
-device serves, with a driver to fill in; findings on standard error.
+In: a name, and a device of a world. Out: a folder with a component that serves the same interfaces
+as the simulated device, with a driver to implement; findings on standard error.
 """
 
 from __future__ import annotations
@@ -55,9 +55,9 @@ def command(
 ) -> None:
     """Generate a component for a real device that serves what a simulated one does.
 
-    Code written against the simulated device runs unchanged on it. `driver.py` is to be filled in;
-    a test holds it against the rules that the simulated twin keeps to. `NAME_generated/` and
-    `main.py` are rewritten the next time, all else is yours.
+    Code written for the simulated device runs unchanged on it. You implement `driver.py`; a test
+    checks it with the conformance rules of the simulated device. `NAME_generated/` and `main.py`
+    are rewritten in later runs; all other files are yours.
     """
     file, _, names = like.rpartition("#")
     ids = [item.strip() for item in names.split(",") if item.strip()]

@@ -10,15 +10,16 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from robocomp_dsl.diagnostics import Code, Report
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.generate import codes_model as codes
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.source import Source, Span, UnreadableSource
 
 
 def read_source(path: Path) -> Source:
     """The text of the file; empty if it is unreadable.
 
-    MuJoCo takes what is not UTF-8, or very large; lines are left out then.
+    MuJoCo also accepts large files and text other than UTF-8; findings then have no lines.
     """
     try:
         return Source.read(path)
@@ -26,35 +27,28 @@ def read_source(path: Path) -> Source:
         return Source(path, "")
 
 
-def report_faults(error: ModelFileError, source: Source, report: Report) -> None:
-    """All reasons why there is no model."""
-    for fault in error.faults:
-        report.add(codes.MODEL_FILE, at_line(source, fault.line), fault.message)
+def report_error(error: ModelFileError, source: Source, report: Report) -> None:
+    """All errors that prevent a model."""
+    for finding in error.findings:
+        report.add_finding(codes.MODEL_FILE, finding, source)
 
 
-def report_findings(findings: Iterable[ModelFinding], source: Source, report: Report) -> None:
-    """What is not as described, at its line or where its link or body begins."""
+def report_findings(findings: Iterable[Finding], source: Source, report: Report) -> None:
+    """Deviations from the file, at their line, or where their link or body starts."""
     for finding in findings:
-        place = at_line(source, finding.line) if finding.line else _named(source, finding)
-        report.add(code_of(finding), place, finding.message)
+        if finding.location.line:
+            report.add_finding(code_of(finding), finding, source)
+        else:
+            report.add(code_of(finding), _named(source, finding), finding.message)
 
 
-def code_of(finding: ModelFinding) -> Code:
+def code_of(finding: Finding) -> Code:
     """The code of a finding."""
     return codes.MODEL_OVERLAP if finding.kind == "overlap" else codes.MODEL_SIMPLIFIED
 
 
-def at_line(source: Source, number: int) -> Span:
-    """A line without its blanks; the whole text for one that is not there."""
-    if not 0 < number <= len(source.line_starts):
-        return source.file_span
-    text = source.line(number)
-    start = source.line_starts[number - 1] + len(text) - len(text.lstrip())
-    return source.span(start, start + len(text.strip()))
-
-
-def _named(source: Source, finding: ModelFinding) -> Span:
-    """The tag of what a finding is about."""
+def _named(source: Source, finding: Finding) -> Span:
+    """The tag of a finding's subject."""
     tags = "joint" if finding.kind == "joint" else "link|body"
     tag = rf"<(?:{tags})\b[^<>]*\bname\s*=\s*([\"']){re.escape(finding.subject)}\1"
     found = re.search(tag, source.text) if finding.subject else None

@@ -1,6 +1,6 @@
 """Summarises how errors in a world were repaired for its simulation.
 
-In: the findings of a body. Out: one line that counts what was done.
+In: the findings of a body. Out: one line with the counts of repairs.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ _DONE = {
     codes.INNERMODEL_RULE: ("node", "simplified"),
 }
 _FORM = ("place", "repaired in its XML")
-"""All that is wrong with the form."""
+"""All syntax errors."""
 
 _SKIN = ("place of skin", "simplified")
 _SKIN_CODES = "RC82"
 
 
 def summarise_recovery(findings: Iterable[Diagnostic]) -> str:
-    """`2 nodes renamed, 1 tag left out`; the errors alone are counted."""
+    """`2 nodes renamed, 1 tag left out`; only errors are counted."""
     counts = Counter(
         _done(finding.code) for finding in findings if finding.severity is Severity.ERROR
     )

@@ -1,7 +1,7 @@
 """`rcgen simulator`: generates a component that simulates a world and serves its devices.
 
 In: a file in InnerModel, URDF or MJCF. Out: a folder with the component, or with `--dry-run` the
-list of what would be served; findings on standard error.
+list of the interfaces that would be served; findings on standard error.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from robocomp_dsl.cli.rcgen.simulation.recovery_summary import summarise_recover
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate import codes, codes_model
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.source import Source, Span
 
 if TYPE_CHECKING:
@@ -75,11 +76,10 @@ def command(
     """Generate a simulator from a world: a component that serves its devices.
 
     The file is InnerModel, URDF or MJCF. In MJCF, a tuple of joints is a control board, and a
-    number `speed_<joint>` tells the largest speed of a joint.
+    number `speed_<joint>` is the maximum speed of a joint.
 
-    The world is built once to see that it can be; one with errors is simulated as far as it is
-    understood. All is rewritten the next time but `specificworker.py`, `README.md` and
-    `etc/config.yaml`.
+    The world is built once as a check; a world with errors is simulated with repairs. Later runs
+    rewrite all files except `specificworker.py`, `README.md` and `etc/config.yaml`.
     """
     input_report, report = Report(), Report()
     workspace = Workspace(folders)
@@ -154,7 +154,7 @@ def _world(
 
 def _kind(file: Path) -> str:
     try:
-        return root_tag(file.read_bytes())
+        return root_tag(read_bytes(file))
     except OSError:  # the next reader reports it
         return ""
 

@@ -1,6 +1,6 @@
 """`rcgen simulator` of a model file in URDF or MJCF.
 
-In: its path. Out: what is simulated and served, built once to see that it can be; findings.
+In: its path. Out: the simulator, whose world is built once as a check; findings.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from pathlib import Path
 
 from robocomp_dsl.cli.rcgen.simulation.model_findings import (
     read_source,
-    report_faults,
+    report_error,
     report_findings,
 )
 from robocomp_dsl.diagnostics import Report
@@ -21,6 +21,7 @@ from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import HardwareError
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.model_copy import copy_model
 from robocomp_dsl.simulation.models.model_scene import describe
 from robocomp_dsl.simulation.world.simulation import Simulation
@@ -33,14 +34,14 @@ def model_world(
     report: Report,
     complete: Callable[[Simulator], Simulator],
 ) -> Simulator | None:
-    """The simulator of the model at `path`, as `complete` makes it whole; None after errors."""
+    """The simulator of the model at `path`, finished by `complete`; None after errors."""
     source = read_source(path)
     try:
-        file = f"model{MODELS.get(root_tag(path.read_bytes()), '.xml')}"
+        file = f"model{MODELS.get(root_tag(read_bytes(path)), '.xml')}"
         described = describe(path, file, packages)
         text = copy_model(path, packages)
     except ModelFileError as error:
-        report_faults(error, source, report)
+        report_error(error, source, report)
         return None
     except OSError as error:
         message = f"`{error.filename or path}` cannot be read: {error.strerror or error}"
@@ -53,7 +54,7 @@ def model_world(
 
 
 def _build(simulator_: Simulator, file: str, source: Source, report: Report) -> None:
-    """Build the world of the copy, as the component will."""
+    """Build the world of the copy, like the component."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, file).write_text(simulator_.model, "utf-8")
         try:

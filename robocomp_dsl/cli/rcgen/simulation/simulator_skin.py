@@ -1,7 +1,7 @@
 """`rcgen simulator --tactile`: the skin of a description on the bodies of a simulated world.
 
-In: what is simulated, and the path of a description in YAML. Out: the same with a skin; findings
-where the description does not fit the world.
+In: a simulator, and the path of a description in YAML. Out: the simulator with a skin; findings if
+the description does not fit the world.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from robocomp_dsl.tactile.description.check import RobotStructure
 def with_described_skin(
     simulator_: Simulator, path: Path, workspace: Workspace, report: Report
 ) -> Simulator:
-    """The simulator with the skin that the file describes, or as it was after errors."""
+    """The simulator with the skin of the file, or unchanged after errors."""
     try:
         source = workspace.sources.read(path)
     except UnreadableSource as error:

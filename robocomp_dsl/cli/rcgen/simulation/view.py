@@ -1,7 +1,7 @@
 """`rcgen view`: a world, a robot or a running simulation in the browser, or as a picture.
 
-In: a file in InnerModel, URDF or MJCF, the name of a robot that ships, or that of a simulator that
-runs. Out: a page on this machine, or a PNG file; findings on standard error.
+In: a file in InnerModel, URDF or MJCF, the name of a shipped robot, or of a running simulator. Out:
+a page on this machine, or a PNG file; findings on standard error.
 """
 
 from __future__ import annotations
@@ -93,9 +93,9 @@ def command(
 ) -> None:
     """Show a world, a robot or a running simulation in the browser, or save a screenshot.
 
-    FILE is InnerModel, URDF or MJCF, or a robot that ships: nao_h21, nao_h25, icub_v2. The page is
-    served on this machine alone. A model with errors is shown as far as it is understood. With
-    `--live` the page follows a simulation that runs, and its time can be held there.
+    FILE is InnerModel, URDF or MJCF, or a shipped robot: nao_h21, nao_h25, icub_v2. The page is
+    served on this machine only. Of a model with errors the valid part is shown. With `--live` the
+    page follows a running simulation, and can pause it.
     """
     if file is None and not live:
         raise click.UsageError("Missing argument 'FILE'; `--live` shows a simulation that runs.")

@@ -1,4 +1,4 @@
-"""`rcgen view --live`: a simulation that runs, on a page or as a picture.
+"""`rcgen view --live`: a running simulation, on a page or as a picture.
 
 In: the name of a component or none, a domain or a deployment or none. Out: a page that follows it
 until Ctrl-C, or a PNG file.
@@ -23,8 +23,8 @@ from robocomp_dsl.simulation.simulation_interface import (
     InnerModelManagerProxy,
     SimulationProxy,
 )
+from robocomp_dsl.simulation.view.live_state import UnsupportedSimulation, fetch_live_state
 from robocomp_dsl.simulation.view.picture import Viewpoint
-from robocomp_dsl.simulation.view.running import UnsupportedSimulation, fetch_live_state
 
 CLIENT_NAME = f"rcgen-view-{os.getpid()}"
 DEFAULT_DOMAIN = "default"
@@ -41,7 +41,7 @@ def show(
     size: tuple[int, int],
     port: int,
 ) -> None:
-    """See the module; ends with exit code 1 where there is none, or several."""
+    """See the module; exits with code 1 unless exactly one simulation matches."""
     with _simulation(component, domain) as (simulation, nodes):
         try:
             if screenshot:
@@ -110,7 +110,7 @@ def _connected(component: str, domain: str) -> Iterator[Proxies]:
 
 
 def _domains(requested: str | None) -> Sequence[str]:
-    """The domains to search; the name of a deployment means its domain."""
+    """The domains to search; the name of a deployment selects its domain."""
     try:
         running = {item.name: item.domain for item in instances.running()}
     except instances.Unavailable:

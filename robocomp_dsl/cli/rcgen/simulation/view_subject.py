@@ -1,6 +1,6 @@
-"""What `rcgen view` looks at: a file in InnerModel, URDF or MJCF, or a robot that ships.
+"""Loads the subject of `rcgen view`: a file in InnerModel, URDF or MJCF, or a shipped robot.
 
-In: what the user named. Out: a compiled model, and findings with their places.
+In: the user's argument. Out: a compiled model, and findings with locations.
 """
 
 from __future__ import annotations
@@ -15,17 +15,19 @@ from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.cli.rcgen.simulation.model_findings import (
     code_of,
     read_source,
-    report_faults,
+    report_error,
     report_findings,
 )
 from robocomp_dsl.diagnostics import Report
+from robocomp_dsl.finding import Finding
 from robocomp_dsl.generate import codes_model as codes
 from robocomp_dsl.generate.scene.scene import lower_body
 from robocomp_dsl.generate.scene.scene_files import resolve_files
-from robocomp_dsl.hardware.description.findings import ModelFileError, ModelFinding
+from robocomp_dsl.hardware.description.findings import ModelFileError
 from robocomp_dsl.hardware.description.model_kind import MODELS, root_tag
 from robocomp_dsl.hardware.description.scene import Scene
 from robocomp_dsl.hardware.devices.errors import SceneError
+from robocomp_dsl.regular_file import read_bytes
 from robocomp_dsl.simulation.models.model_file import compiled, read_spec
 from robocomp_dsl.simulation.models.model_state import initial_data
 from robocomp_dsl.simulation.robots.build import add_robot, new_world
@@ -38,7 +40,7 @@ from robocomp_dsl.source import Source, Span
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """`start` is what the joints have at first, by name, where that is not 0.
+    """`start` has the initial joint positions by name, if they are not 0.
 
     A model file starts at the first of its key frames.
     """
@@ -48,16 +50,16 @@ class Subject:
     start: dict[str, float]
 
     def data(self) -> Any:
-        """Its state at the start, an `MjData`."""
+        """Its initial state, an `MjData`."""
         return initial_data(self.model, self.start)
 
 
 def read_subject(path: Path, packages: Sequence[Path], report: Report) -> Subject | None:
-    """The model that `path` names; None after errors that leave nothing to look at."""
+    """The model that `path` names; None if no part of it is valid."""
     if not path.exists() and str(path) in ROBOTS:
         return _robot(str(path))
     try:
-        data = path.read_bytes()
+        data = read_bytes(path)
     except OSError as error:
         message = f"`{path}` cannot be read: {error.strerror or error}"
         report.add(codes.MODEL_FILE, Source(path, "").file_span, message)
@@ -82,7 +84,7 @@ def _model(path: Path, packages: Sequence[Path], report: Report) -> Subject | No
         add_lighting(spec)
         model = compiled(spec, findings)
     except ModelFileError as error:
-        report_faults(error, source, report)
+        report_error(error, source, report)
         return None
     report_findings(findings, source, report)
     return Subject(path.stem, model, {})
@@ -96,7 +98,7 @@ def _world(path: Path, report: Report) -> Subject | None:
     if not body.root.children:
         return _empty(path)
     spans = {node.id: node.span for node, _ in body.nodes()}
-    findings: list[ModelFinding] = []
+    findings: list[Finding] = []
     try:
         data = lower_body(body)
         resolve_files(data, path.parent)
@@ -121,7 +123,7 @@ def _empty(path: Path) -> Subject:
 
 
 def _named(message: str, spans: dict[str, Span], otherwise: Span) -> Span:
-    """The tag of the node whose id a message names first."""
+    """The tag of the first node whose id a message contains."""
     found = next((spans[name] for name in message.split("`")[1::2] if name in spans), otherwise)
     line = found.source.text.find("\n", found.start, found.end)
     return found.source.span(found.start, found.end if line < 0 else line)

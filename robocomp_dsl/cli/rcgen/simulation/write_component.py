@@ -1,4 +1,4 @@
-"""A generated component put on the disk, for commands that make one of a world."""
+"""Writes a generated component to disk, for commands that generate one from a world."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Columns of a graph: nodes, and a slot for each edge in each column that it passes.
 
-In: ranks. Out: columns; nodes stand in the even ones, labels in odd ones.
+In: ranks. Out: columns; nodes are in even columns, labels in odd ones.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from robocomp_dsl.generate.doc.layered.ranks import Ranks
 
 @dataclass(slots=True)
 class ColumnItem:
-    """A node, or where an edge passes a column; `node` and `edge` are -1 for the other.
+    """A node, or the slot of an edge in a column; the other of `node` and `edge` is -1.
 
     `before` and `after` are the connected items in the neighbouring columns.
     """

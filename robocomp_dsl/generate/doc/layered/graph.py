@@ -10,7 +10,7 @@ Point: TypeAlias = tuple[float, float]
 
 @dataclass(frozen=True, slots=True)
 class LayoutNode:
-    """A box. `border` "first" or "last" puts it left or right of all nodes that have none."""
+    """A box. `border` "first" or "last" places it left or right of all other nodes."""
 
     width: float
     height: float
@@ -19,9 +19,9 @@ class LayoutNode:
 
 @dataclass(frozen=True, slots=True)
 class LayoutEdge:
-    """From one node to another, by their indices; `width` and `height` are those of its label.
+    """An edge between nodes, by their indices; `width` and `height` are the size of its label.
 
-    `leaves` and `enters` fix where it touches its nodes, as distances from their tops.
+    `leaves` and `enters` fix its end points on the nodes, as distances from their tops.
     """
 
     source: int
@@ -34,9 +34,9 @@ class LayoutEdge:
 
 @dataclass(frozen=True, slots=True)
 class EdgeRoute:
-    """Cubic Bézier curves, one after the other: begin, control, control, end, control, ….
+    """Cubic Bézier curves, concatenated: start, control, control, end, control, ….
 
-    `label` is the centre of the label's place.
+    `label` is the centre of the label.
     """
 
     points: tuple[Point, ...]
@@ -45,7 +45,7 @@ class EdgeRoute:
 
 @dataclass(frozen=True, slots=True)
 class GraphLayout:
-    """The upper left corners of the nodes and the routes of the edges, in the order given."""
+    """The upper left corners of the nodes and the routes of the edges, in input order."""
 
     width: float
     height: float

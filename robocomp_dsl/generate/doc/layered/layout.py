@@ -1,7 +1,7 @@
-"""Layered drawing of graphs: columns from left to right, as few crossings and bends as is easy.
+"""Layered drawing of graphs: columns from left to right, with few crossings and bends.
 
-In: boxes with sizes, and edges with labels. Out: where they are. The stages: `ranks` (columns),
-`columns` (slots for the lines), `order` (crossings), `place` (places), `routes` (curves).
+In: boxes with sizes, and edges with labels. Out: their positions. The stages: `ranks` (columns),
+`columns` (slots for the lines), `order` (crossings), `place` (coordinates), `routes` (curves).
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ __all__ = [
 def layout(
     nodes: Sequence[LayoutNode], edges: Sequence[LayoutEdge], ranks: Ranks | None = None
 ) -> GraphLayout:
-    """Places for everything; `ranks` where they are known already. No two nodes overlap."""
+    """Positions of all parts, without overlap of nodes; `ranks` may be passed if known."""
     ranks = ranks or assign_ranks(nodes, edges)
     loops = measure_self_loops(len(nodes), edges)
     sizes = [

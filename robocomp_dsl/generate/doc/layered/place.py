@@ -46,7 +46,7 @@ def _neighbour_mean(
     neighbours = item.before if forth else item.after
     if not neighbours:
         return None
-    if len(neighbours) == 1:  # as of every place where a line only passes
+    if len(neighbours) == 1:  # as of every slot of a passing line
         return centres[neighbours[0]], 1.0 + 3.0 * (item.node < 0) + 3.0 * (
             items[neighbours[0]].node < 0
         )

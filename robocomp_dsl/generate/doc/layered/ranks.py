@@ -1,6 +1,6 @@
 """Assign nodes to columns: an edge goes to the right, unless it closes a cycle.
 
-In: nodes and edges. Out: ranks, and the edges that are reversed for it. After Sugiyama, Tagawa
+In: nodes and edges. Out: ranks, and the edges that are reversed. After Sugiyama, Tagawa
 and Toda, "Methods for visual understanding of hierarchical system structures" (1981), with
 depth-first search for the cycles and longest paths for the ranks.
 """
@@ -14,12 +14,12 @@ from dataclasses import dataclass, replace
 from robocomp_dsl.generate.doc.layered.graph import LayoutEdge, LayoutNode
 
 PORT_SPACING = 10.0
-"""Distance of two edges where they touch a node."""
+"""Distance between the end points of two edges on a node."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ranks:
-    """The rank of each node; `reversed_edges` are the indices of edges to the left."""
+    """The rank of each node; `reversed_edges` are the indices of edges that go to the left."""
 
     by_node: list[int]
     reversed_edges: frozenset[int]
@@ -74,7 +74,7 @@ def _cycle_edges(count: int, edges: Sequence[LayoutEdge], fixed: set[int]) -> se
             out[edge.source].append((i, edge.target))
             entered[edge.target] = True
     closing: set[int] = set()
-    state = [0] * count  # 0 not seen, 1 on the way, 2 done
+    state = [0] * count  # 0 unvisited, 1 on the search path, 2 finished
     for start in sorted(range(count), key=lambda node: entered[node]):
         path = [(start, iter(out[start]))] if not state[start] else []
         state[start] = state[start] or 1

@@ -1,7 +1,7 @@
 """The curves of the edges.
 
-In: where nodes are and which slots an edge passes. Out: a `Route` for each edge. The edges on one
-side of a node are spread over its height in the order of where they lead to.
+In: positions of nodes, and the slots of each edge. Out: a `Route` for each edge. The edges on one
+side of a node are spread over its height, ordered by the positions of their other ends.
 """
 
 from __future__ import annotations
@@ -14,20 +14,20 @@ from robocomp_dsl.generate.doc.layered.graph import EdgeRoute, LayoutEdge, Layou
 from robocomp_dsl.generate.doc.layered.ranks import Ranks
 
 LOOP_HEIGHT = 16.0
-"""How high an edge from a node to itself rises above it, without its label."""
+"""Height of a self-loop above its node, without its label."""
 LOOP_HALF_WIDTH = 12.0
 
 
 @dataclass(slots=True)
 class SelfLoops:
-    """Room above a node for the edges that lead from it to itself."""
+    """Space above a node for its self-loops."""
 
     width: float = 0.0
     height: float = 0.0
 
 
 def measure_self_loops(count: int, edges: Sequence[LayoutEdge]) -> list[SelfLoops]:
-    """The room that each node needs."""
+    """The space that each node needs."""
     loops = [SelfLoops() for _ in range(count)]
     for edge in edges:
         if edge.source == edge.target:
@@ -79,7 +79,7 @@ def _assign_ports(
     ranks: Ranks,
     centres: Sequence[float],
 ) -> list[tuple[float, float]]:
-    """For each edge the y at which it leaves its left and enters its right node."""
+    """For each edge the y of its end at the left and at the right node."""
     sides: dict[tuple[int, int], list[tuple[float, int]]] = {}
     for i, edge in enumerate(edges):
         if edge.source != edge.target:
@@ -98,7 +98,7 @@ def _assign_ports(
 
 
 def _curve(spans: Sequence[tuple[float, float, float]]) -> tuple[Point, ...]:
-    """Through level stretches (from x, to x, y), with an S between each two."""
+    """Through horizontal segments (from x, to x, y), joined by S-curves."""
     points: list[Point] = [(spans[0][0], spans[0][2])]
     for start, end, y in spans:
         x, held = points[-1]
@@ -112,11 +112,11 @@ def _curve(spans: Sequence[tuple[float, float, float]]) -> tuple[Point, ...]:
 
 
 def _loop(edge: LayoutEdge, node: LayoutNode, corner: Point, risen: list[float]) -> EdgeRoute:
-    """Out of the top of a node and back into it; each further one is outside of the last."""
+    """A self-loop at the top of a node; each further one encloses the previous one."""
     low = risen[edge.source]
     risen[edge.source] += LOOP_HEIGHT + edge.height
     foot = min(LOOP_HALF_WIDTH * (1 + low / (LOOP_HEIGHT + edge.height)), node.width / 2)
     x, y = corner[0] + node.width / 2, corner[1]
-    peak = y - low - LOOP_HEIGHT  # the curve itself rises to three quarters of it
+    peak = y - low - LOOP_HEIGHT  # the curve itself reaches three quarters of it
     points = ((x - foot, y), (x - foot, peak), (x + foot, peak), (x + foot, y))
     return EdgeRoute(points, (x, y - low - LOOP_HEIGHT - edge.height / 2))

@@ -57,7 +57,7 @@ class list_(rt.StructArray[RoboCompA_Pose]):
     rt_ = rt.Int32Column()
 
 
-_list_ = list_  # a field is called as the type
+_list_ = list_  # a field has the name of the type
 
 
 dict_ = rt.Int32Array
@@ -81,7 +81,7 @@ class Wheel(rt.Struct):
     r: rt.Int = 0
 
 
-_Wheel = Wheel  # a field is called as the type
+_Wheel = Wheel  # a field has the name of the type
 
 
 class request(rt.Struct):

@@ -1,0 +1,1 @@
+"""What protects joints and motors: limits, fault detection, the watchdog of streamed references."""

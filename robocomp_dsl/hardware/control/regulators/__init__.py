@@ -1,0 +1,1 @@
+"""From references to joint torques: PID banks, impedance, currents, the control law."""

@@ -1,0 +1,1 @@
+"""References of n joints over time: minimum-jerk motions, velocity ramps, direct positions."""

@@ -1,0 +1,1 @@
+"""Servants of cameras and screens."""

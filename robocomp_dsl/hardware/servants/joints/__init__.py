@@ -1,0 +1,1 @@
+"""Servants of control boards and hands."""
