@@ -26,8 +26,8 @@ try:
     from pressing import park, press
     from recording import Place, Press, Recording, save
     from report import report
+    from robot_under_test import RobotUnderTest
     from subject import PART, SUBJECTS, Subject
-    from wait_for import RobotUnderTest
 except ModuleNotFoundError as error:
     python = Path(which("rcgen") or "rcgen").resolve().with_name("python3")
     other = python.is_file() and python.parent != Path(sys.executable).parent
@@ -100,7 +100,7 @@ def touched(subject: Subject, touches: int) -> Recording:
             print(f"{subject.name}: touching the {words(place.name)}", flush=True)
             presses.append(pressed(subject.name, stage, body, place))
         park(stage, body, home)
-        recording = stage.heard.recording(subject.name, presses, places=places, rest=rest)
+        recording = stage.buffer.recording(subject.name, presses, places=places, rest=rest)
     save(recording, subject.recording_path.with_suffix(".npz"))
     return recording
 
@@ -108,9 +108,9 @@ def touched(subject: Subject, touches: int) -> Recording:
 def pressed(name: str, stage: RobotUnderTest, body: Body, place: Place) -> Press:
     """One touch; repeated if the reflex was frozen meanwhile, as on an overloaded machine."""
     for _ in range(ATTEMPTS - 1):
-        result = press(stage, body, place)
-        if not stage.heard.frozen_since(result.began):
-            return result
+        touch = press(stage, body, place)
+        if not stage.buffer.frozen_since(touch.began):
+            return touch
         print(f"{name}: the reflex was frozen meanwhile, data came too late; again", flush=True)
     return press(stage, body, place)
 
@@ -124,7 +124,7 @@ def watch_live(subject: Subject, port: int) -> None:
         rest, places = stage.joints(), stage.places()
         body = Body(subject.world, stage.skin, subject.part)
         body.pose(rest)
-        page = Live(subject.name, stage.simulation(), stage.skin, stage.heard, port)
+        page = Live(subject.name, stage.simulation(), stage.skin, stage.buffer, port)
         with closing(page) as live:
             message = f"{live.url} shows {subject.name} and what its skin feels; Ctrl-C ends it"
             print(message, flush=True)

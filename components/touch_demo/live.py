@@ -34,12 +34,12 @@ log = logging.getLogger("touch_demo")
 class Live:
     """The page, open until `close`. `hand` is a proxy of `Simulation`. Raises `DemoFailed`."""
 
-    def __init__(self, name: str, hand: Any, skin: Skin, heard: TopicBuffer, port: int) -> None:
+    def __init__(self, name: str, hand: Any, skin: Skin, buffer: TopicBuffer, port: int) -> None:
         try:
             from robocomp_dsl.simulation.view.live import LivePage  # noqa: PLC0415 - an extra
         except ImportError as missing:
             raise DemoFailed(str(missing)) from None
-        self._skin, self._heard = skin, heard
+        self._skin, self._buffer = skin, buffer
         try:
             self._page = LivePage(name, hand, port=port)
         except OSError as error:
@@ -56,7 +56,7 @@ class Live:
 
     def _look(self) -> None:
         """A camera ahead on the touched side, close enough to see taxels."""
-        limb = self._skin.limbs.index(f"{self._heard.part}/lower_arm")
+        limb = self._skin.limbs.index(f"{self._buffer.part}/lower_arm")
         page = self._page.page
         middle = page.data.body(self._skin.bodies[limb]).xpos
         camera = page.stage.server.initial_camera
@@ -68,13 +68,13 @@ class Live:
             try:
                 self._page.refresh()
             except UnsupportedSimulation as error:
-                log.warning("the page stands still: %s", error)
+                log.warning("the page is not updated: %s", error)
                 return
             self.show()
 
     def show(self) -> None:
         """Colour the taxels; unchanged colours are not sent."""
-        force = self._heard.felt_within(_GLOW_S)
+        force = self._buffer.felt_within(_GLOW_S)
         for name in self._skin.limbs:
             mine = self._skin.of(name)
             colours = _bytes(force[mine])

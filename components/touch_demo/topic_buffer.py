@@ -18,17 +18,17 @@ _BACK_S = 1.0
 
 
 class TopicBuffer:
-    """`news` is notified of data about `part`. Stores all, or the `most` latest of each kind."""
+    """Notifies `changed` about data of `part`; stores all or the `capacity` latest of a kind."""
 
-    def __init__(self, skin: Skin, part: str, most: int | None = None) -> None:
+    def __init__(self, skin: Skin, part: str, capacity: int | None = None) -> None:
         limbs = [i for i, name in enumerate(skin.limbs) if name.startswith(f"{part}/")]
-        self.news = threading.Condition()
+        self.changed = threading.Condition()
         self._skin, self.part = skin, part
         self._mine = np.isin(skin.limb, limbs)
-        self._frames: deque[tuple[float, Floats]] = deque(maxlen=most)
-        self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=most)
-        self._fingers: deque[tuple[float, Floats]] = deque(maxlen=most)
-        self._answers: deque[Answer] = deque(maxlen=most)
+        self._frames: deque[tuple[float, Floats]] = deque(maxlen=capacity)
+        self._arm: deque[tuple[float, Floats, bool]] = deque(maxlen=capacity)
+        self._fingers: deque[tuple[float, Floats]] = deque(maxlen=capacity)
+        self._answers: deque[Answer] = deque(maxlen=capacity)
         self._frozen = float("-inf")
         self.free_since = float("inf")
         """Time since which the arm's skin has felt nothing; infinite while it feels something."""
@@ -40,39 +40,39 @@ class TopicBuffer:
         force = np.array(frame.force, dtype=np.float64)
         if len(force) != len(self._mine):
             return
-        with self.news:
+        with self.changed:
             self._from(float(frame.time))
             self._frames.append((float(frame.time), force))
             if force[self._mine].any():
                 self.free_since = float("inf")
             elif self.free_since == float("inf"):
                 self.free_since = float(frame.time)
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def arm_state(self, state: Any) -> None:
         """`GenericArmState`."""
-        with self.news:
+        with self.changed:
             self._from(float(state.time))
             angles = np.array(state.position, dtype=np.float64)
             self._arm.append((float(state.time), angles, bool(state.moving)))
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def answer(self, event: Any) -> None:
         """`ReflexEvents`."""
-        with self.news:
+        with self.changed:
             response = Answer(float(event.time), event.field, float(event.gain), float(event.force))
             self._answers.append(response)
-            self.news.notify_all()
+            self.changed.notify_all()
 
     def reflex_state(self, state: Any) -> None:
         """`ReflexEvents`: the new state of the reflex."""
-        with self.news:
+        with self.changed:
             if state.name == _FROZEN and self._frames:
                 self._frozen = self.now
 
     def finger_at(self, time: float, joints: Floats) -> None:
         """Store a position of the finger."""
-        with self.news:
+        with self.changed:
             if not self._fingers or time > self._fingers[-1][0]:
                 self._fingers.append((time, joints))
 
@@ -100,7 +100,7 @@ class TopicBuffer:
 
     def felt_within(self, seconds: float) -> Floats:
         """The maximum force on each taxel within the last seconds, (n,) in N."""
-        with self.news:
+        with self.changed:
             since = self._frames[-1][0] - seconds
             latest = [force for time, force in self._frames if time >= since]
         felt: Floats = np.max(latest, axis=0)
@@ -125,9 +125,9 @@ class TopicBuffer:
         """The latest position of the finger, (3,)."""
         return self._fingers[-1][1]
 
-    def stands(self, seconds: float, way: float) -> bool:
-        """Whether the arm has moved by at most `way` rad within the last seconds."""
-        with self.news:
+    def is_at_rest(self, seconds: float, way: float) -> bool:
+        """Whether the arm has moved by at capacity `way` rad within the last seconds."""
+        with self.changed:
             latest = [sample for sample in self._arm if sample[0] >= self._arm[-1][0] - seconds]
         if latest[-1][2] or latest[-1][0] - latest[0][0] < 0.5 * seconds:
             return False
@@ -135,7 +135,7 @@ class TopicBuffer:
 
     def recording(self, robot: str, presses: list[Press], **others: Any) -> Recording:
         """All data; `others` are the other fields of a `Recording`."""
-        with self.news:
+        with self.changed:
             frames, arm, fingers = list(self._frames), list(self._arm), list(self._fingers)
             answers = tuple(self._answers)
         return Recording(

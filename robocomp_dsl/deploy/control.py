@@ -12,6 +12,7 @@ import asyncio
 import contextlib
 import json
 import socket
+import time
 from collections import deque
 from collections.abc import Awaitable, Callable, Iterator
 from dataclasses import asdict, replace
@@ -24,6 +25,10 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
+REPLY_TIMEOUT_S = 0.5
+"""rcdeploy answers within a millisecond; one that is stopped never."""
+_CONNECT_PERIOD_S = 0.01
+_STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
 RequestHandler: TypeAlias = Callable[
     [str, list[str], Callable[[str], Awaitable[None]]], Awaitable[bool]
@@ -188,18 +193,42 @@ async def _send(writer: asyncio.StreamWriter, reply: dict[str, Any]) -> None:
 def send_request(name: str, request: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Send `request` to the deployment that runs under `name`; yields its replies.
 
-    Raises `instances.Unavailable` if the deployment does not reply.
+    Raises `instances.Unavailable` if the deployment does not reply. Whether it replies at all is
+    known after `REPLY_TIMEOUT_S`, also for requests whose reply comes late.
     """
+    late_reply = request != _STATUS
+    if late_reply:
+        for _ in send_request(name, _STATUS):
+            pass
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
+        connection.settimeout(REPLY_TIMEOUT_S)
         try:
-            with instances.shorten_socket_path(
-                instances.folder_of(name) / instances.SOCKET
-            ) as address:
-                connection.connect(address)
+            _connect(connection, instances.folder_of(name) / instances.SOCKET)
             connection.sendall(json.dumps(request).encode() + b"\n")
+            if late_reply:
+                connection.settimeout(None)
+            with connection.makefile("rb") as replies:
+                for line in replies:
+                    yield json.loads(line)
+        except TimeoutError:
+            message = f"`{name}` does not respond within {REPLY_TIMEOUT_S:g} s"
+            hint = "its rcdeploy may be stopped (`kill -CONT` with its pid continues it)"
+            raise instances.Unavailable(f"{message}; {hint}") from None
         except OSError as error:
             message = f"`{name}` does not respond: {error.strerror}"
             raise instances.Unavailable(message) from None
-        with connection.makefile("rb") as replies:
-            for line in replies:
-                yield json.loads(line)
+
+
+def _connect(connection: socket.socket, path: Path) -> None:
+    """Connect within the timeout of `connection`, also while the backlog of the server is full."""
+    deadline = time.monotonic() + REPLY_TIMEOUT_S
+    with instances.shorten_socket_path(path) as address:
+        while True:
+            try:
+                connection.connect(address)
+            except BlockingIOError:
+                if time.monotonic() > deadline:
+                    raise TimeoutError from None
+                time.sleep(_CONNECT_PERIOD_S)
+            else:
+                return

@@ -111,7 +111,7 @@ def _compared(folder: Path, file: OutputFile) -> Change:
     if file.is_removed and old == file.expected_bytes:
         return Change(file, FileAction.DELETE, old)
     if file.expected_bytes is not None and old not in (file.expected_bytes, file.data):
-        raise CannotWrite(f"`{path}` was saved by somebody else meanwhile; run rcgen again")
+        raise CannotWrite(f"`{path}` was changed by another program meanwhile; run rcgen again")
     return Change(file, FileAction.SAME if old == file.data else FileAction.UPDATE, old)
 
 

@@ -62,7 +62,7 @@ def test_topic_buffer_reports_largest_recent_force(buffer) -> None:
 
 
 @pytest.mark.parametrize(
-    ("angles", "moving", "stands"),
+    ("angles", "moving", "at_rest"),
     [
         ([0, 0, 0, 0, 0], False, True),
         ([0, 0, 0, 0, 0], True, False),  # it says that it moves
@@ -71,15 +71,15 @@ def test_topic_buffer_reports_largest_recent_force(buffer) -> None:
         ([0.5, 0, 0, 0, 0], False, False),
     ],
 )
-def test_topic_buffer_reports_resting_arm(buffer, angles, moving, stands) -> None:
+def test_topic_buffer_reports_resting_arm(buffer, angles, moving, at_rest) -> None:
     for i, angle in enumerate(angles):
         buffer.arm_state(state(0.01 * i, angle, moving=moving))
-    assert buffer.stands(0.04, 0.004) is stands
+    assert buffer.is_at_rest(0.04, 0.004) is at_rest
 
 
 def test_topic_buffer_needs_enough_time_to_report_rest(buffer) -> None:
     buffer.arm_state(state(0.0, 0.1))
-    assert not buffer.stands(0.04, 0.004)
+    assert not buffer.is_at_rest(0.04, 0.004)
 
 
 def test_topic_buffer_stores_frozen_reflex(buffer) -> None:
@@ -103,7 +103,7 @@ def test_topic_buffer_accepts_restarted_time(buffer) -> None:
     assert buffer.now == pytest.approx(0.02)
     assert buffer.felt_within(10.0)[taxel_of_arm()] == 0.5
     assert buffer.angles[0] == 0.1
-    assert not buffer.stands(0.04, 0.004)  # too short to tell
+    assert not buffer.is_at_rest(0.04, 0.004)  # too short to tell
     buffer.finger_at(0.03, np.zeros(3))
     assert buffer.finger.tolist() == [0, 0, 0]
 

@@ -84,7 +84,7 @@ def test_touch_report_repeats_touch_of_frozen_reflex(
     repeated = []
 
     class Stage:
-        class heard:  # noqa: N801
+        class buffer:  # noqa: N801
             @staticmethod
             def frozen_since(time: float) -> bool:
                 return frozen[int(time)]

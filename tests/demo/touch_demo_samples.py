@@ -15,7 +15,8 @@ from robocomp_dsl.tactile.skin.geometry import SkinGeometry
 from tests.demo.component_modules import COMPONENTS
 
 NAMES = ("recording", "path_planner", "metrics", "body", "topic_buffer", "skin_map", "colours",
-         "photograph", "panel", "curves", "figure", "pressing", "deployed", "failure", "wait_for",
+         "photograph", "panel", "curves", "figure", "pressing", "deployed", "failure",
+         "robot_under_test",
          "live", "subject", "report", "demo")  # fmt: skip
 ARM = "left_arm"
 STEP = 0.02

@@ -14,7 +14,9 @@ import pytest
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.errors import RemoteError
+from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure, encode_failure
 from tests.middleware.network import Network
+from tests.middleware.probe_types import PROBE
 from tests.support.waiting import wait_until
 
 
@@ -34,7 +36,6 @@ FAILURES = (
     GeneratorExit(),
     PlainBaseError("plain"),
     UnprintableError(),
-    RuntimeError("a lone surrogate \udcff"),
 )
 
 
@@ -59,6 +60,14 @@ def test_handler_failure_of_any_class_is_remote_error(
     assert f"{Path(__file__).name}:{line}" in caplog.text
 
 
+def test_encode_failure_replaces_what_utf8_has_not() -> None:
+    error = OSError("no file \udcff")
+    data = encode_failure(PROBE.operation("fail"), error)
+    assert str(decode_failure(PROBE.operation("fail"), "a.Probe", data, 1.0)) == (
+        "a.Probe.fail failed: OSError: no file ?"
+    )
+
+
 def test_subscriber_survives_system_exit_of_handler(network: Network) -> None:
     received: list[int] = []
 
@@ -67,13 +76,13 @@ def test_subscriber_survives_system_exit_of_handler(network: Network) -> None:
         raise SystemExit(number)
 
     listener = network.node("listener")
-    listener.hear(hear)
+    listener.subscribe(hear)
     news = network.node("speaker").news()
     assert news.wait_for_server(30)
     for number in range(3):
-        news.spoke("me", number)
+        news.announced("me", number)
     wait_until(lambda: received == [0, 1, 2], lambda: str(received))
-    wait_until(lambda: listener.count("spoke", "News").failures == 3)
+    wait_until(lambda: listener.count("announced", "News").failures == 3)
 
 
 @pytest.mark.parametrize("dying", ["take", "handle"])

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Iterator
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component_interface import ComponentProxy, ParameterInfo
 
 CALL_TIMEOUT_S = 5.0
+CONNECT_TIMEOUT_S = 0.3
+"""For all components of a command together; the tokens of components arrive within 10 ms."""
 
 which = click.argument("which", metavar="APP.ddsl|NAME")
 output_format = click.option(
@@ -47,14 +50,19 @@ def list_(which: str, components: tuple[str, ...], output_format: str) -> None:
     known = running.components(deployment)
     selected = [running.resolve_component(name, known) for name in components] or known
     found = {}
+    deadline = time.monotonic() + CONNECT_TIMEOUT_S
     with _proxies(deployment) as proxy_of:
         for name in selected:
-            found[name] = _parameters(proxy_of, name)
+            proxy = proxy_of(name)
+            if proxy.wait_for_server(max(deadline - time.monotonic(), 0.0)):
+                found[name] = list(proxy.getParameters())
     if output_format == "json":
         data = {name: [_data(p) for p in parameters] for name, parameters in found.items()}
         print(json.dumps(data, indent=1))
     else:
         print("\n".join(_table(found)))
+    if silent := [name for name in selected if name not in found]:
+        raise CliError(EXIT_FINDINGS, _no_answer(silent))
 
 
 @command.command()
@@ -179,12 +187,16 @@ def _proxies(deployment: instances.RunningDeployment) -> Iterator[ProxyFactory]:
 
 def _connect(proxy_of: ProxyFactory, name: str) -> ComponentProxy:
     proxy = proxy_of(name)
-    if not proxy.wait_for_server(CALL_TIMEOUT_S):
-        hint = "see `rcdeploy status`; components of other middlewares than zenoh are not reached"
-        raise CliError(
-            EXIT_FINDINGS, f"`{name}` does not answer within {CALL_TIMEOUT_S:g} s; {hint}"
-        )
+    if not proxy.wait_for_server(CONNECT_TIMEOUT_S):
+        raise CliError(EXIT_FINDINGS, _no_answer([name]))
     return proxy
+
+
+def _no_answer(names: Sequence[str]) -> str:
+    listed = " and ".join(f"`{name}`" for name in names)
+    verb = "does" if len(names) == 1 else "do"
+    hint = "see `rcdeploy status`; components of other middlewares than zenoh are not reached"
+    return f"{listed} {verb} not answer within {CONNECT_TIMEOUT_S:g} s; {hint}"
 
 
 def _parameters(proxy_of: ProxyFactory, name: str) -> list[ParameterInfo]:

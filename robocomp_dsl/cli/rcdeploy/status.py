@@ -22,8 +22,8 @@ from robocomp_dsl.deploy import control, instances, status
 if TYPE_CHECKING:
     from robocomp_dsl.deploy.component_queries import ComponentState
 
-CALL_TIMEOUT_S = 1.0
-"""Time-out of a reply; a running component replies within milliseconds."""
+CALL_TIMEOUT_S = 0.5
+"""For all components together; a running component replies within milliseconds."""
 
 
 @click.command()

@@ -23,6 +23,8 @@ from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
 from robocomp_dsl.deploy.supervisor.system import unsupported_reason
+from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, reserve
+from robocomp_dsl.runtime.private_folder import UnsafeFolder
 
 MEGABYTE = 1_000_000
 
@@ -151,8 +153,13 @@ def _run(
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
+        reservation = reserve(plan.domain, (process.name for process in plan.processes), plan.name)
+    except (NameTaken, UnsafeFolder, OSError) as error:
+        return Outcome(EXIT_FINDINGS, str(error))
+    try:
         watch = ZenohMonitor(plan.domain)
     except MiddlewareError as error:
+        reservation.release()
         return Outcome(EXIT_FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
@@ -167,6 +174,7 @@ def _run(
         return session.run(plan, claim, watch, terminal, how, replan, store)
     finally:
         terminal.close()
+        reservation.release()
 
 
 def _open_log_store(plan: Plan, limits: LogLimits) -> LogStore | None:

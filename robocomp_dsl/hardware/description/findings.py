@@ -19,7 +19,7 @@ Kind: TypeAlias = Literal[
 ]
 
 MODEL_TEXT = SourceText("")
-"""The text of a model file: whoever reads one knows its path, findings hold only the line."""
+"""The text of a model file: its reader knows the path; findings contain only the line."""
 
 
 def model_finding(kind: Kind, subject: str, message: str, line: int = 0) -> Finding:

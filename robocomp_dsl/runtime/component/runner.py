@@ -32,7 +32,7 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
-from robocomp_dsl.runtime.component.watchdog import Watchdog
+from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
 from robocomp_dsl.runtime.middleware.calling import describe_error
@@ -83,7 +83,8 @@ class Runner:
             self.callback_group,
             self.statistics,
             settings.listen_port,
-            self.fail,
+            fail=self.fail,
+            unique_name=True,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
@@ -114,7 +115,7 @@ class Runner:
         limit = self._watchdog_limit()
         group = self.callback_group
         self.watchdog = (
-            Watchdog(limit, group, self._activity_of, self._on_hang, self._on_beat)
+            CallbackWatchdog(limit, group, self._activity_of, self._on_hang, self._on_beat)
             if limit
             else None
         )

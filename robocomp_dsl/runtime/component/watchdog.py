@@ -28,7 +28,7 @@ MIN_INTERVAL_S = 0.02
 MAX_INTERVAL_S = 1.0
 
 
-class Watchdog:
+class CallbackWatchdog:
     """Checks the callbacks of one component in a thread, and calls `on_hang` at the first hang.
 
     `activity_of` describes what a thread (by its identifier) does; "" exempts it. `on_beat` is
@@ -92,7 +92,8 @@ class Watchdog:
     def check(self, elapsed_s: float) -> HangReport | None:
         """Add `elapsed_s` to the callbacks that run; returns a report if one exceeds the limit."""
         frames = sys._current_frames()
-        for thread, began in dict(self._group.holders).items():
+        holders = dict(self._group.holders)
+        for thread, began in holders.items():
             known_began, seconds = self._running_s.get(thread, (0, 0.0))
             seconds = seconds + elapsed_s if known_began == began else 0.0
             self._running_s[thread] = began, seconds
@@ -103,7 +104,8 @@ class Watchdog:
                 self._running_s[thread] = began, 0.0
             else:
                 return _report(activity, seconds, frame)
-        self._running_s = {t: known for t, known in self._running_s.items() if t in frames}
+        alive = frames.keys() | holders.keys()
+        self._running_s = {t: known for t, known in self._running_s.items() if t in alive}
         return None
 
 

@@ -8,6 +8,7 @@ twice as fast as a callback.
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from threading import get_ident
 from time import perf_counter_ns
 from typing import Any
@@ -28,6 +29,7 @@ from robocomp_dsl.runtime.middleware.calling import (
 )
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
+from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HeldPublisher
 from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 
@@ -310,8 +312,16 @@ class ZenohTopicChannel:
         key = (
             f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.escape_chunk(operation.name)}"
         )
-        publisher = self._session.declare_publisher(key, **publisher_options(self._at.qos))
-        self._publishers.append(publisher)
+        publisher: Any
+        if self._at.qos.reliable:
+            # The middleware gave a session that holds what it would drop.
+            options = publisher_options(replace(self._at.qos, reliable=False))
+            declared = self._session.declare_publisher(key, **options)
+            publisher = HeldPublisher(declared, counts)
+        else:
+            options = publisher_options(self._at.qos)
+            publisher = declared = self._session.declare_publisher(key, **options)
+        self._publishers.append(declared)
 
         def publish(*arguments: Any) -> None:
             data = encode(arguments)

@@ -16,13 +16,15 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Op
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
 from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
+from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HOLD_S
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
 
 
 def open_for(host: MiddlewareContext) -> ZenohMiddleware:
     """A session for one component."""
-    return ZenohMiddleware(host, open_session(host.domain, host.listen_port))
+    name = host.component if host.unique_name else ""
+    return ZenohMiddleware(host, open_session(host.domain, host.listen_port, name))
 
 
 class ZenohMiddleware:
@@ -35,6 +37,7 @@ class ZenohMiddleware:
         self._registry = PortRegistry(self._session, host.domain)
         self._ports: list[ServedZenohPort] = []
         self._tokens: list[zenoh.LivelinessToken] = []
+        self._reliable: DomainSession | None = None
         self._state: zenoh.LivelinessToken | None = None
 
     def serve(
@@ -52,9 +55,20 @@ class ZenohMiddleware:
 
     def advertise(self, at: Endpoint) -> ZenohTopicChannel:
         """See `base.Middleware`."""
+        session = self._reliable_session() if at.qos.reliable else self._session
         self._declare("publisher", at)
         self._registry.warn_on_mismatch("subscriber", at)
-        return ZenohTopicChannel(self._session, self._registry, self._host, at)
+        return ZenohTopicChannel(session, self._registry, self._host, at)
+
+    def _reliable_session(self) -> zenoh.Session:
+        """The session of reliable publications, opened by the first one that is advertised.
+
+        A reliable subscriber that receives nothing blocks the whole connection. Through this one
+        only publications travel, and they are held for a limited time.
+        """
+        if self._reliable is None:
+            self._reliable = open_session(self._host.domain, hold_s=HOLD_S)
+        return self._reliable.session
 
     def subscribe(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
@@ -103,4 +117,6 @@ class ZenohMiddleware:
         ports, self._ports = self._ports, []
         for port in ports:
             port.close()
+        if self._reliable:
+            self._reliable.close()
         self._opened.close()
