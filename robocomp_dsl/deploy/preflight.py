@@ -45,7 +45,8 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
             findings.append(_remote_host(instance))
             continue
         missing = list(_check_executable(instance, process))
-        findings += missing or check_configuration(instance, process)
+        if missing or not instance.is_program:
+            findings += missing or check_configuration(instance, process)
     if ports:
         findings += _check_ports(deployment)
         findings += _check_names(deployment, plan)
@@ -73,11 +74,11 @@ def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnost
     program = process.argv[0]
     if not _program_exists(program, process):
         yield _diagnostic(instance, codes.EXECUTABLE, f"program not found: `{program}`")
-    script = process.argv[1]
+    script = process.argv[1] if len(process.argv) > 1 else ""
     if not script.endswith(".py") or (process.cwd / script).is_file():
         return
     cdsl = short_path(instance.component.path)
-    if script == "main.py":
+    if script == "main.py" and not instance.is_program:
         message = f"component not generated: no {script} in the folder of {cdsl}"
         yield _diagnostic(instance, codes.NOT_GENERATED, message, f"rcgen component {cdsl}")
     else:

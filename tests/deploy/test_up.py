@@ -50,7 +50,17 @@ def test_param_command_reads_and_sets_running_parameters(app_folder: Path) -> No
         assert rcdeploy("param", "get", "app.ddsl", "arm", "rate").stdout == "20.0\n"
         done = rcdeploy("param", "set", "app.ddsl", "arm", "rate=30", "--save")
         saved = app_folder / "arm" / "etc" / "config.saved.yaml"
-        assert done.stdout == f"arm: rate = 30\nkept in {saved.resolve()}\n"
+        assert done.stdout == (
+            f"arm: rate = 30\nkept in {saved.resolve()}\n"
+            "app.ddsl:6 has `set rate = 20;`, which overrides the saved value at the next start\n"
+            "to write it there: rcdeploy param set app arm rate=30 --ddsl\n"
+        )
+        text = (app_folder / "app.ddsl").read_text()
+        there = rcdeploy("app.ddsl", "param", "set", "arm", "rate=30", "--ddsl")
+        assert there.stdout == f"arm: rate = 30\nwritten to {(app_folder / 'app.ddsl').resolve()}\n"
+        assert (app_folder / "app.ddsl").read_text() == text.replace("rate = 20", "rate = 30")
+        again = rcdeploy("param", "set", "app", "arm", "rate=30", "--ddsl", "--save").stdout
+        assert "overrides" not in again
         assert '"rate": 30.0\n' in saved.read_text()
         data = json.loads(rcdeploy("param", "list", "app", "arm", "--format", "json").stdout)
         assert data["arm"][0]["value"] == "30.0"
