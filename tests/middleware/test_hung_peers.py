@@ -1,7 +1,7 @@
 """Peers that hang: none delays the start or the end of another by more than a moment.
 
 Every test asserts that something finishes while the peers still hang. The bound is generous for a
-busy machine, and below the 10 s that zenoh waits for each peer.
+busy machine, and below the 20 s that two peers took.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from tests.middleware.domain_process import domain_process
 from tests.middleware.network import Network
 from tests.support.waiting import wait_until
 
-BOUND_S = 8.0
+BOUND_S = 15.0
 STOPPED = ("T", "t")
 CLIENT = """
 import sys
@@ -113,7 +113,7 @@ def test_domain_client_and_monitor_start_and_end_beside_stopped_processes(networ
 
 
 def test_starts_at_the_same_time_beside_stopped_processes_find_each_other(network: Network) -> None:
-    with stopped_processes(network.domain, 1), finishes():
+    with stopped_processes(network.domain, 2), finishes():
         threads = [threading.Thread(target=network.node, args=(f"n{i}",)) for i in range(6)]
         for thread in threads:
             thread.start()
