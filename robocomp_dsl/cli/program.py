@@ -11,6 +11,7 @@ import gc
 import os
 import signal
 import sys
+from contextlib import suppress
 from importlib import import_module
 from types import TracebackType
 from typing import Any, NoReturn
@@ -152,7 +153,8 @@ def _print_message(error: Exception) -> None:
     if message := str(error):
         from robocomp_dsl.cli.options import print_error  # noqa: PLC0415 - only for errors
 
-        print_error(message)
+        with suppress(OSError):  # the exit code says it, too
+            print_error(message)
 
 
 def bug_report(name: str, error: BaseException) -> str:

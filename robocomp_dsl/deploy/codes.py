@@ -63,6 +63,19 @@ uses any free port.
 """,
 )
 
+NAME_TAKEN = Code(
+    "RC908",
+    Severity.ERROR,
+    "component name in use",
+    """\
+A name belongs to one running component of a domain: two would both answer each call. Another
+process of the domain has this name: a component that was started by hand, or one that an earlier
+run left behind. Stop that process (the message has its pid), or use another domain:
+
+    rcdeploy app.ddsl up --domain other
+""",
+)
+
 OUTDATED = Code(
     "RC905",
     Severity.WARNING,

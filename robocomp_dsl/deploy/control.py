@@ -1,7 +1,9 @@
 """Control protocol of a running deployment: JSON lines over a Unix socket.
 
-The server runs in the event loop of the supervisor and answers `status`, `logs` and `stop`. The
-client blocks and yields the replies. The reply to `stop` is sent when all processes have exited.
+The server runs in the event loop of the supervisor and answers `status`, `logs`, `stop`, `start`
+and `restart`. The client blocks and yields the replies. The reply to a `stop` of the whole
+deployment is sent when all processes have exited. Requests about components have several replies:
+`{"text": …}` lines, and at last `{"code": 0}`, or 1 if a component is not as requested.
 """
 
 from __future__ import annotations
@@ -10,9 +12,10 @@ import asyncio
 import contextlib
 import json
 import socket
+import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from dataclasses import asdict
+from collections.abc import Awaitable, Callable, Iterator
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -22,7 +25,15 @@ from robocomp_dsl.deploy.status import ProcessStatus, SimulatedTime
 
 JOURNAL_SIZE = 10_000
 """Records that `logs` can show from the past, and the queue length of each follower."""
+REPLY_TIMEOUT_S = 0.5
+"""rcdeploy answers within a millisecond; one that is stopped never."""
+_CONNECT_PERIOD_S = 0.01
+_STATUS = {"verb": "status"}
 RecordFilter: TypeAlias = Callable[[LogRecord], bool]
+RequestHandler: TypeAlias = Callable[
+    [str, list[str], Callable[[str], Awaitable[None]]], Awaitable[bool]
+]
+"""Handles a verb with names of components; sends lines of text and returns its success."""
 
 
 class LogJournal:
@@ -31,14 +42,18 @@ class LogJournal:
     def __init__(self) -> None:
         self._records: deque[LogRecord] = deque(maxlen=JOURNAL_SIZE)
         self._followers: set[asyncio.Queue[LogRecord]] = set()
+        self._count = 0
 
-    def add(self, record: LogRecord) -> None:
-        """Store `record` and pass it to all followers."""
+    def add(self, record: LogRecord) -> LogRecord:
+        """Number `record`, store it and pass it to all followers; returns the numbered record."""
+        self._count += 1
+        record = replace(record, sequence=self._count)
         self._records.append(record)
         for queue in self._followers:
             if queue.full():
                 queue.get_nowait()
             queue.put_nowait(record)
+        return record
 
     def last(self, count: int, matches: RecordFilter) -> list[LogRecord]:
         """The latest `count` records that match, oldest first."""
@@ -65,11 +80,13 @@ class ControlServer:
         statuses: Callable[[], list[ProcessStatus]],
         stop: Callable[[str], None],
         time: Callable[[], SimulatedTime | None],
+        handle_request: RequestHandler,
     ) -> None:
         self._journal = journal
         self._statuses = statuses
         self._stop = stop
         self._time = time
+        self._handle_request = handle_request
         self._outcome: asyncio.Future[dict[str, Any]] | None = None
         self._connections: set[asyncio.Task[None]] = set()
 
@@ -114,18 +131,36 @@ class ControlServer:
                 await _send(writer, {"rows": rows, "clock": clock})
             case "logs":
                 await self._logs(request, reader, writer)
+            case "start" | "stop" | "restart" as verb if verb != "stop" or "components" in request:
+                await self._change_components(verb, request.get("components"), writer)
             case "stop":
                 self._stop("requested by `rcdeploy stop`")
                 assert self._outcome is not None  # noqa: S101 - set by `open`
                 await _send(writer, await asyncio.shield(self._outcome))
 
+    async def _change_components(
+        self, verb: str, names: object, writer: asyncio.StreamWriter
+    ) -> None:
+        """Handle a request about components; it is completed even if the client disconnects."""
+
+        async def notify(text: str) -> None:
+            with contextlib.suppress(OSError):
+                await _send(writer, {"text": text})
+
+        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+            await notify("`components` must be a list of names")
+            await _send(writer, {"code": 1})
+            return
+        succeeded = await self._handle_request(verb, names, notify)
+        await _send(writer, {"code": 0 if succeeded else 1})
+
     async def _logs(
         self, request: dict[str, Any], reader: asyncio.StreamReader, writer: asyncio.StreamWriter
     ) -> None:
-        names = request.get("components")
+        names, after = request.get("components"), int(request.get("after", 0))
 
         def matches(record: LogRecord) -> bool:
-            return not names or record.component in names
+            return record.sequence > after and (not names or record.component in names)
 
         async def send(record: LogRecord) -> None:
             if matches(record):
@@ -158,18 +193,42 @@ async def _send(writer: asyncio.StreamWriter, reply: dict[str, Any]) -> None:
 def send_request(name: str, request: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Send `request` to the deployment that runs under `name`; yields its replies.
 
-    Raises `instances.Unavailable` if the deployment does not reply.
+    Raises `instances.Unavailable` if the deployment does not reply. Whether it replies at all is
+    known after `REPLY_TIMEOUT_S`, also for requests whose reply comes late.
     """
+    late_reply = request != _STATUS
+    if late_reply:
+        for _ in send_request(name, _STATUS):
+            pass
     with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as connection:
+        connection.settimeout(REPLY_TIMEOUT_S)
         try:
-            with instances.shorten_socket_path(
-                instances.folder_of(name) / instances.SOCKET
-            ) as address:
-                connection.connect(address)
+            _connect(connection, instances.folder_of(name) / instances.SOCKET)
             connection.sendall(json.dumps(request).encode() + b"\n")
+            if late_reply:
+                connection.settimeout(None)
+            with connection.makefile("rb") as replies:
+                for line in replies:
+                    yield json.loads(line)
+        except TimeoutError:
+            message = f"`{name}` does not respond within {REPLY_TIMEOUT_S:g} s"
+            hint = "its rcdeploy may be stopped (`kill -CONT` with its pid continues it)"
+            raise instances.Unavailable(f"{message}; {hint}") from None
         except OSError as error:
             message = f"`{name}` does not respond: {error.strerror}"
             raise instances.Unavailable(message) from None
-        with connection.makefile("rb") as replies:
-            for line in replies:
-                yield json.loads(line)
+
+
+def _connect(connection: socket.socket, path: Path) -> None:
+    """Connect within the timeout of `connection`, also while the backlog of the server is full."""
+    deadline = time.monotonic() + REPLY_TIMEOUT_S
+    with instances.shorten_socket_path(path) as address:
+        while True:
+            try:
+                connection.connect(address)
+            except BlockingIOError:
+                if time.monotonic() > deadline:
+                    raise TimeoutError from None
+                time.sleep(_CONNECT_PERIOD_S)
+            else:
+                return

@@ -26,7 +26,7 @@ def find_outdated(deployment: Deployment, middlewares: Iterable[str]) -> Iterato
     checked: set[Component] = set()
     for instance in deployment.instances:
         component = instance.component
-        if component in checked:
+        if component in checked or instance.is_program:
             continue
         checked.add(component)
         changed = _changed_files(component, known)

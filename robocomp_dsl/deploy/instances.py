@@ -13,12 +13,12 @@ import json
 import os
 import re
 import shutil
-import stat
-import tempfile
 import time
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
+
+from robocomp_dsl.runtime.private_folder import UnsafeFolder, private_folder, user_folder
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,63}")
 SOCKET = "control"
@@ -69,18 +69,10 @@ def instances_folder() -> Path:
 
     It lies beside the folders of the domains; no domain has this name.
     """
-    above = Path(os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir())
-    folder = above / f"robocomp-{os.getuid()}" / ".deployments"
     try:
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-        owner = folder.parent.stat()
-        if owner.st_uid == os.getuid() and stat.S_IMODE(owner.st_mode) & 0o077:
-            folder.parent.chmod(0o700)
-    except OSError as error:
-        raise Unavailable(f"{folder} cannot be created: {error.strerror}") from None
-    if owner.st_uid != os.getuid():
-        raise Unavailable(f"{folder.parent} belongs to another user; set XDG_RUNTIME_DIR")
-    return folder
+        return private_folder(user_folder() / ".deployments")
+    except UnsafeFolder as error:
+        raise Unavailable(str(error)) from None
 
 
 def acquire(name: str) -> InstanceLock:

@@ -27,13 +27,17 @@ _CONTROL_CHARS = re.compile(r"\x1b(?!\[[0-9;]*m)|[\x00-\x08\x0b-\x1a\x1c-\x1f\x7
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One line of output. `time` in s since 1970; `level` is empty for lines of user code."""
+    """One line of output. `time` in s since 1970; `level` is empty for lines of user code.
+
+    `sequence` counts the records of one run from 1; 0 before it is known.
+    """
 
     time: float
     component: str
     level: str
     text: str
     stream: str = "log"
+    sequence: int = 0
 
     def to_json(self) -> str:
         """The record as one line of JSON."""

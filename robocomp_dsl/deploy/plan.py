@@ -13,15 +13,17 @@ from graphlib import TopologicalSorter
 from pathlib import Path
 
 from robocomp_dsl.deploy.devices import describe_devices, devices_environment
+from robocomp_dsl.deploy.plan_text import describe_clock, describe_host
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import (
     START_TIMEOUT_S,
     Clock,
     Connection,
     Deployment,
-    Host,
     Instance,
     Qos,
+    Readiness,
+    ResourceLimits,
     Restart,
 )
 from robocomp_dsl.model.types import Literal
@@ -53,6 +55,8 @@ class Process:
     stops_after: tuple[str, ...] = ()
     restart: Restart = field(default_factory=Restart)
     start_timeout_s: float = START_TIMEOUT_S
+    readiness: Readiness = field(default_factory=Readiness)
+    limits: ResourceLimits = field(default_factory=ResourceLimits)
     port: int = 0
     config: Path | None = None
     context: str = ""
@@ -94,7 +98,7 @@ def plan(deployment: Deployment, *, name: str, domain: str, interpreter: str) ->
         )
         for instance in deployment.instances
     )
-    clock = _describe_clock(deployment.clock)
+    clock = describe_clock(deployment.clock)
     return Plan(name, deployment.path, domain, deployment.middleware, processes, clock)
 
 
@@ -130,21 +134,34 @@ def _process(deployment: Deployment, instance: Instance, domain: str, interprete
     stops_all = clock.stop_on_timeout and clock.source is instance
     return Process(
         name=instance.full_name,
-        component=instance.component.name,
+        component="program" if instance.is_program else instance.component.name,
         argv=tuple(_command_line(deployment, instance, domain, interpreter)),
         cwd=instance.component.path.parent,
-        env=(*instance.environment, *devices_environment(instance.devices)),
+        env=(
+            *instance.environment,
+            *devices_environment(instance.devices),
+            *_watchdog_environment(instance),
+        ),
         restart=Restart("never") if stops_all else instance.restart,
         start_timeout_s=instance.start_timeout_s,
+        readiness=instance.readiness,
+        limits=instance.limits,
         port=instance.port,
         config=instance.config,
         context=instance.context,
         config_name=instance.config_name,
         settings=format_settings(instance),
-        host=_describe_host(instance.host),
+        host=describe_host(instance.host),
         group=instance.group,
         devices=describe_devices(instance.devices),
     )
+
+
+def _watchdog_environment(instance: Instance) -> tuple[tuple[str, str], ...]:
+    """How a program that speaks sd_notify(3) learns its watchdog interval."""
+    if not (instance.is_program and instance.watchdog_s):
+        return ()
+    return (("WATCHDOG_USEC", str(round(instance.watchdog_s * 1e6))),)
 
 
 def _command_line(
@@ -153,6 +170,8 @@ def _command_line(
     command = shlex.split(instance.executable)
     if command and command[0] in PYTHON_PROGRAMS:
         command[0] = interpreter
+    if instance.is_program:
+        return command
     argv = [*command, "--name", instance.name]
     argv += ["--prefix", instance.prefix] if instance.prefix else []
     argv += ["--domain", domain]
@@ -175,7 +194,11 @@ def _watchdog_flags(instance: Instance) -> list[str]:
 def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]) -> str:
     """The value of `--clock` for `instance`; only the clock source gets the list of members."""
     assert clock.source is not None  # noqa: S101 - a wall clock needs no flag
-    others = [_name_for(instance, other) for other in instances if other is not clock.source]
+    others = [
+        _name_for(instance, other)
+        for other in instances
+        if other is not clock.source and not other.is_program
+    ]
     settings = ClockSettings(
         LOCKSTEP if clock.lockstep else SIM,
         _name_for(instance, clock.source),
@@ -184,22 +207,6 @@ def format_clock(clock: Clock, instance: Instance, instances: Sequence[Instance]
         clock.stop_on_timeout,
     )
     return settings.as_text()
-
-
-def _describe_host(host: Host) -> str:
-    """The name and address of a host; empty for this machine without a name."""
-    same = host.address in ("", host.name) or not host.name
-    return host.name if same else f"{host.name} ({host.address})"
-
-
-def _describe_clock(clock: Clock) -> str:
-    if clock.source is None:
-        return "wall"
-    text = f"simulated, from {clock.source.full_name}"
-    if not clock.lockstep:
-        return text
-    on_timeout = "stops" if clock.stop_on_timeout else "continues without the component"
-    return f"{text}, lock-step: at most {clock.limit_s:g} s per step, {on_timeout} on a time-out"
 
 
 def _stops_after(name: str, deployment: Deployment, order: dict[str, int]) -> tuple[str, ...]:

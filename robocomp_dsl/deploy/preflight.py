@@ -19,7 +19,9 @@ from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
+from robocomp_dsl.runtime.middleware.zenoh.domain_names import running_components
 from robocomp_dsl.runtime.parameters import ConfigError, load_values, overrides
+from robocomp_dsl.runtime.private_folder import UnsafeFolder
 from robocomp_dsl.source import Source, UnreadableSource
 
 DEFAULT_CONFIG = Path("etc") / "config.yaml"
@@ -29,7 +31,10 @@ MONITORED_MIDDLEWARES = ("zenoh",)
 
 
 def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list[Diagnostic]:
-    """All reasons why `plan` cannot run here. With `ports`, fixed ports must be free."""
+    """All reasons why `plan` cannot run here.
+
+    With `ports`, fixed ports must be free, and names must be unused in the domain.
+    """
     findings: list[Diagnostic] = []
     if deployment.middleware not in MONITORED_MIDDLEWARES:
         message = f"middleware `{deployment.middleware}` cannot connect processes"
@@ -40,8 +45,11 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
             findings.append(_remote_host(instance))
             continue
         missing = list(_check_executable(instance, process))
-        findings += missing or check_configuration(instance, process)
-    findings += _check_ports(deployment) if ports else ()
+        if missing or not instance.is_program:
+            findings += missing or check_configuration(instance, process)
+    if ports:
+        findings += _check_ports(deployment)
+        findings += _check_names(deployment, plan)
     return findings
 
 
@@ -66,11 +74,11 @@ def _check_executable(instance: Instance, process: Process) -> Iterator[Diagnost
     program = process.argv[0]
     if not _program_exists(program, process):
         yield _diagnostic(instance, codes.EXECUTABLE, f"program not found: `{program}`")
-    script = process.argv[1]
+    script = process.argv[1] if len(process.argv) > 1 else ""
     if not script.endswith(".py") or (process.cwd / script).is_file():
         return
     cdsl = short_path(instance.component.path)
-    if script == "main.py":
+    if script == "main.py" and not instance.is_program:
         message = f"component not generated: no {script} in the folder of {cdsl}"
         yield _diagnostic(instance, codes.NOT_GENERATED, message, f"rcgen component {cdsl}")
     else:
@@ -134,6 +142,24 @@ def _check_ports(deployment: Deployment) -> Iterator[Diagnostic]:
         if instance.port and instance.host.is_local and (reason := _bind_error(instance.port)):
             message = f"port {instance.port} cannot be used: {reason}"
             yield _diagnostic(instance, codes.PORT_TAKEN, message)
+
+
+def _check_names(deployment: Deployment, plan: Plan) -> Iterator[Diagnostic]:
+    """Names that components have which already run in the domain."""
+    try:
+        holders = running_components(plan.domain, [process.name for process in plan.processes])
+    except UnsafeFolder:
+        return  # the start reports it
+    known = {holder.name: holder for holder in holders}
+    for instance, process in zip(deployment.instances, plan.processes, strict=True):
+        if holder := known.get(process.name):
+            process_text = f" ({holder.describe()})" if holder.describe() else ""
+            yield _diagnostic(
+                instance,
+                codes.NAME_TAKEN,
+                f"a component of this name runs in the domain `{plan.domain}`{process_text}",
+                "stop that process, or use another --domain",
+            )
 
 
 def _bind_error(port: int) -> str:

@@ -1,17 +1,25 @@
-"""Selects one group of a deployment as a deployment. Pure.
+"""Selects parts of a deployment by name. Pure.
 
 In: a deployment and the name of a group. Out: a deployment with the components of that group, the
 connections between them, and the start order among them. Components outside the group are found in
-the domain if they run there.
+the domain if they run there. Or, in: processes and names as a user types them; out: full names.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
+from robocomp_dsl.deploy.plan import Process
+from robocomp_dsl.diagnostics import did_you_mean
 from robocomp_dsl.model.deployment import Connection, Deployment
 
 
 class NoSuchGroup(Exception):
     """The deployment has no group of that name; the message lists its groups."""
+
+
+class NoSuchComponent(Exception):
+    """There is no component or group of that name; the message lists what there is."""
 
 
 def select_group(deployment: Deployment, name: str) -> Deployment:
@@ -44,3 +52,29 @@ def select_group(deployment: Deployment, name: str) -> Deployment:
 
 def _is_internal(wire: Connection, inside: set[str]) -> bool:
     return wire.source.name in inside and wire.target.name in inside
+
+
+def select_names(names: Iterable[str], processes: Sequence[Process]) -> list[str]:
+    """The full names of components and of all members of groups, in the order of `processes`.
+
+    A component may be named without its prefix. Raises `NoSuchComponent`.
+    """
+    selected: set[str] = set()
+    for name in names:
+        exact = [p.name for p in processes if p.name == name]
+        short = [p.name for p in processes if p.name.rpartition("/")[2] == name]
+        group = [p.name for p in processes if p.group == name or p.group.startswith(f"{name}-")]
+        if not exact and len(short) > 1:
+            raise NoSuchComponent(f"`{name}` is ambiguous: {', '.join(short)}")
+        found = exact or short or group
+        if not found:
+            raise NoSuchComponent(_unknown(name, processes))
+        selected.update(found)
+    return [p.name for p in processes if p.name in selected]
+
+
+def _unknown(name: str, processes: Sequence[Process]) -> str:
+    components = [p.name for p in processes]
+    groups = list(dict.fromkeys(p.group for p in processes if p.group))
+    hint = did_you_mean(name, components + groups) or f"it has {', '.join(components + groups)}"
+    return f"there is no component or group `{name}` in the deployment; {hint}"

@@ -10,23 +10,24 @@ import asyncio
 import contextlib
 import os
 import signal
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict
 from functools import partial
-from pathlib import Path
 
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.deploy.control import ControlServer, LogJournal
+from robocomp_dsl.deploy.log_store import LogStore
 from robocomp_dsl.deploy.logs import LogRecord
 from robocomp_dsl.deploy.plan import Plan
 from robocomp_dsl.deploy.status import ProcessStatus
-from robocomp_dsl.deploy.supervisor import reaper
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import LifecycleMonitor
+from robocomp_dsl.deploy.supervisor.reaper_process import ReaperProcess
+from robocomp_dsl.deploy.supervisor.requests import ComponentRequests, Replan
 from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, Supervisor
 
+EXIT_BROKEN_PIPE = 141
+"""As in a shell: 128 + SIGPIPE."""
 _SIGNALS = {
     signal.SIGINT: "Ctrl-C",
     signal.SIGTERM: "SIGTERM",
@@ -41,9 +42,15 @@ class Display:
         """Show a line of output."""
 
     def attach(
-        self, statuses: Callable[[], list[ProcessStatus]], stop: Callable[[str], object]
+        self,
+        statuses: Callable[[], list[ProcessStatus]],
+        abort: Callable[[str], object],
+        log: Callable[[str], object],
     ) -> None:
-        """Receive functions that get the status and stop the run; callable from any thread."""
+        """Receive functions to get the status, to stop the run as failed, and to log a warning.
+
+        They can be called from any thread.
+        """
 
     def changed(self) -> None:
         """A status has changed."""
@@ -55,59 +62,81 @@ def run(
     monitor: LifecycleMonitor,
     display: Display,
     options: Options,
+    replan: Replan | None = None,
+    store: LogStore | None = None,
 ) -> Outcome:
-    """Run `plan` in the foreground until it ends or is stopped."""
+    """Run `plan` in the foreground until it ends or is stopped.
+
+    `store` keeps the logs. `replan` reads the description again for components that are started on
+    request.
+    """
     journal = LogJournal()
 
     def emit(record: LogRecord) -> None:
-        journal.add(record)
+        record = journal.add(record)
         display.record(record)
+        if store:
+            store.record(record)
 
     token = f"{plan.domain}.{os.getpid()}"
     supervisor = Supervisor(
         plan, token, monitor, emit=emit, changed=display.changed, options=options
     )
-    with _reaper_process(token, options.grace_s):
-        return asyncio.run(_run(supervisor, journal, lock, display))
+    outcome = Outcome(1, "rcdeploy itself failed")
+    try:
+        reaper = ReaperProcess(token, options.grace_s)
+        try:
+            outcome = asyncio.run(_run(supervisor, journal, lock, display, replan, store, reaper))
+        except BaseException:
+            reaper.close(clean=False)
+            raise
+        reaper.close(clean=True)
+    finally:
+        if store:
+            store.close(outcome.code, outcome.reason)
+    return outcome
 
 
 async def _run(
-    supervisor: Supervisor, journal: LogJournal, lock: instances.InstanceLock, display: Display
+    supervisor: Supervisor,
+    journal: LogJournal,
+    lock: instances.InstanceLock,
+    display: Display,
+    replan: Replan | None,
+    store: LogStore | None,
+    reaper: ReaperProcess,
 ) -> Outcome:
     loop = asyncio.get_running_loop()
     for number, reason in _SIGNALS.items():
         loop.add_signal_handler(number, supervisor.stop, reason)
     plan = supervisor.plan
-    server = ControlServer(journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time)
+    requests = ComponentRequests(supervisor, replan)
+    server = ControlServer(
+        journal, supervisor.statuses, supervisor.stop, supervisor.simulated_time, requests.handle
+    )
     await server.open(lock.folder / instances.SOCKET)
     path = str(plan.path.resolve())
     lock.publish(
         instances.RunningDeployment(plan.name, path, plan.domain, os.getpid(), time.time())
     )
 
-    def stop(reason: str) -> None:
-        loop.call_soon_threadsafe(partial(supervisor.stop, reason))
+    def abort(reason: str) -> None:
+        with contextlib.suppress(RuntimeError):  # the loop is closed: it has ended already
+            loop.call_soon_threadsafe(partial(supervisor.stop, reason, EXIT_BROKEN_PIPE))
 
-    display.attach(supervisor.statuses, stop)
+    def log(text: str) -> None:
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(partial(supervisor.log, text, "WARNING"))
+
+    display.attach(supervisor.statuses, abort, log)
+    if store:
+        store.attach(log)
+    supervisor.receive_notifications(lock.folder)
+    watch = loop.create_task(reaper.watch(supervisor.log))
     outcome = Outcome(1, "rcdeploy itself failed")
     try:
         outcome = await supervisor.run()
     finally:
+        watch.cancel()
         await server.close(asdict(outcome))
     return outcome
-
-
-@contextlib.contextmanager
-def _reaper_process(token: str, grace_s: float) -> Iterator[None]:
-    """Run the reaper, which terminates the components if this process is killed."""
-    script = Path(reaper.__file__)
-    command = [sys.executable, "-I", "-S", str(script), token, str(grace_s)]
-    process = subprocess.Popen(  # noqa: S603 - our own script
-        command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
-    )
-    try:
-        yield
-    except BaseException:
-        process.communicate()
-        raise
-    process.communicate(reaper.CLEAN_SHUTDOWN)

@@ -32,6 +32,26 @@ class Restart(ValueRecord):
     window_s: float = 60.0
 
 
+class Readiness(ValueRecord):
+    """When a program without lifecycle is ready; at most one is set.
+
+    `pattern`: a line of its output matches this regular expression; `port`: this TCP port of
+    loopback accepts connections; `delay_s`: it has run so long. The default: its lifecycle, or
+    `READY=1` of sd_notify(3).
+    """
+
+    pattern: str = ""
+    port: int = 0
+    delay_s: float = 0.0
+
+
+class ResourceLimits(ValueRecord):
+    """Limits of a process and its children; 0: none. `cpu` 1.0 is one core."""
+
+    memory_bytes: int = 0
+    cpu: float = 0.0
+
+
 THIS_MACHINE = "localhost"
 """The implicitly declared host."""
 
@@ -65,6 +85,8 @@ class Instance(Record):
     own `etc/config.yaml` or searches for a file of the `context` or for `config_name` when it
     starts; `settings` are the `set` lines with dotted keys; `executable` is a command line run in
     the component's folder; `port` 0: any free port; `watchdog_s` None: as in the component.
+    `is_program`: a program that is no component; its `component` has no ports, and the path of the
+    DDSL file.
     """
 
     name: str
@@ -83,10 +105,13 @@ class Instance(Record):
     after: tuple[str, ...] = ()
     restart: Restart = Restart()
     start_timeout_s: float = START_TIMEOUT_S
+    readiness: Readiness = Readiness()
+    limits: ResourceLimits = ResourceLimits()
     watchdog_s: float | None = None
     doc: str = ""
     group: str = ""
     host_span: Span | None = None
+    is_program: bool = False
 
     @property
     def full_name(self) -> str:

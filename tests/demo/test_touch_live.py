@@ -2,6 +2,7 @@
 
 from contextlib import closing
 from types import SimpleNamespace
+from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -76,7 +77,7 @@ def test_live_page_reports_occupied_port() -> None:
     buffer = buffer_of(it)
     buffer.frame(frame(0.0, it.force[0]))
     with closing(demo().live.Live("NAO", SimulationPort(), it.skin, buffer, 0)) as live:
-        port = int(live.url.rpartition(":")[2])
+        port = urlsplit(live.url).port or 0
         with pytest.raises(demo().failure.DemoFailed, match=f"no page at port {port}"):
             demo().live.Live("NAO", SimulationPort(), it.skin, buffer, port)
 

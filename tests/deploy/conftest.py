@@ -16,6 +16,7 @@ from tests.deploy.rcdeploy_process import runtime_folder
 def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """Where the processes of the test find each other."""
     with runtime_folder(monkeypatch) as path:
+        monkeypatch.setenv("XDG_STATE_HOME", str(path.parent / "state"))
         yield path
 
 

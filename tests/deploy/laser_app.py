@@ -46,7 +46,9 @@ def start_app(*arguments: str) -> RunningProcess:
 
 
 def status(name: str = "app") -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(rcdeploy("status", name, "--format", "json").stdout)
+    answer = rcdeploy("status", name, "--format", "json")
+    assert answer.stdout, answer.stderr
+    found: dict[str, Any] = json.loads(answer.stdout)
     return found
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import re
 import signal
 import sys
 from collections.abc import Iterator
@@ -15,6 +17,7 @@ import pytest
 
 from robocomp_dsl.deploy import control, instances
 from robocomp_dsl.deploy.supervisor import reaper
+from robocomp_dsl.deploy.supervisor.resource_limits import process_tree
 from tests.deploy.rcdeploy_process import DEADLINE_S, RunningProcess, runtime_folder
 from tests.deploy.scripted_processes import STEADY
 
@@ -112,6 +115,39 @@ print("daemon", child.pid); report("compute"); wait()
     assert note.exists()
     assert instances.running() == []
     start_session(sessions, tmp_path / "y", PAIR).until("all 2 components are ready")
+
+
+def reaper_of(pid: int) -> int:
+    """The pid of the reaper of the rcdeploy `pid`; 0 if it has none."""
+    for child in process_tree(pid)[1:]:
+        with contextlib.suppress(OSError):
+            if "reaper.py" in Path(f"/proc/{child}/cmdline").read_text():
+                return child
+    return 0
+
+
+def test_session_replaces_reaper_that_died(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    first = reaper_of(session.process.pid)
+    os.kill(first, signal.SIGKILL)
+    line = session.until(f"the reaper (pid {first})")
+    assert "died (killed by SIGKILL); started a new one" in line
+    second = int(re.findall(r"pid (\d+)", line)[1])
+    assert is_alive(second)
+    running = pids("demo")
+    assert all(map(is_alive, running))
+    session.process.kill()
+    session.end()
+    assert_ended([*running, second])
+
+
+def test_session_ends_after_reaper_died(tmp_path: Path, sessions: ExitStack) -> None:
+    session = start_session(sessions, tmp_path / "x", PAIR)
+    session.until("all 2 components are ready")
+    os.kill(reaper_of(session.process.pid), signal.SIGKILL)
+    session.process.terminate()
+    assert session.end() == 0
 
 
 def test_session_killed_during_start_leaves_no_process(tmp_path: Path, sessions: ExitStack) -> None:

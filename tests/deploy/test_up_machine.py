@@ -95,4 +95,4 @@ def test_status_shows_lifecycle_and_active_states(app: RunningProcess) -> None:
         stuck = rcdeploy("status", "app").stdout.splitlines()[-1]
     finally:
         os.kill(data[1]["pid"], signal.SIGCONT)
-    assert stuck.endswith("does not answer within 1 s")
+    assert stuck.endswith("does not answer within 0.5 s")

@@ -27,6 +27,8 @@ from websockets.sync.client import connect
 from tests.support.waiting import TIMEOUT_S, wait_until
 
 LOOPBACK = "127.0.0.1"
+URL_LINE = r"view at (http://127\.0\.0\.1:\d+/[0-9a-f]{32}/);"
+"""What `rcgen view` prints first."""
 
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -35,7 +35,7 @@ hi def link ddsl_after_inner ddslModifier
 hi def link ddsl_after_value ddslValue
 hi def link ddsl_after_name ddslName
 hi def link ddsl_after_field ddslField
-syn region ddsl_after matchgroup=ddslKeyword start=/\<after\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_after_inner,ddsl_after_value,ddsl_after_name,ddsl_after_field
+syn region ddsl_after matchgroup=ddslKeyword start=/\<after\>\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_after_inner,ddsl_after_value,ddsl_after_name,ddsl_after_field
 syn match ddsl_attach_inner contained /\.\@<!\<to\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_attach_inner ddslModifier
 hi def link ddsl_attach_value ddslValue
@@ -78,6 +78,11 @@ hi def link ddsl_context_value ddslValue
 hi def link ddsl_context_name ddslName
 hi def link ddsl_context_field ddslField
 syn region ddsl_context matchgroup=ddslKeyword start=/\<context\>\%(\s*\%("\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_context_inner,ddsl_context_value,ddsl_context_name,ddsl_context_field
+hi def link ddsl_cpu_inner ddslModifier
+hi def link ddsl_cpu_value ddslValue
+hi def link ddsl_cpu_name ddslName
+hi def link ddsl_cpu_field ddslField
+syn region ddsl_cpu matchgroup=ddslKeyword start=/\<cpu\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_cpu_inner,ddsl_cpu_value,ddsl_cpu_name,ddsl_cpu_field
 hi def link ddsl_deadline_inner ddslModifier
 hi def link ddsl_deadline_value ddslValue
 hi def link ddsl_deadline_name ddslName
@@ -139,6 +144,11 @@ hi def link ddsl_labels_value ddslValue
 hi def link ddsl_labels_name ddslName
 hi def link ddsl_labels_field ddslField
 syn region ddsl_labels matchgroup=ddslKeyword start=/\<labels\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_labels_inner,ddsl_labels_value,ddsl_labels_name,ddsl_labels_field
+hi def link ddsl_memory_inner ddslModifier
+hi def link ddsl_memory_value ddslValue
+hi def link ddsl_memory_name ddslName
+hi def link ddsl_memory_field ddslField
+syn region ddsl_memory matchgroup=ddslKeyword start=/\<memory\>\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_memory_inner,ddsl_memory_value,ddsl_memory_name,ddsl_memory_field
 syn match ddsl_middleware_value contained /\.\@<!\<\%(inproc\|zenoh\)\>/
 hi def link ddsl_middleware_inner ddslModifier
 hi def link ddsl_middleware_value ddslValue
@@ -168,6 +178,19 @@ hi def link ddsl_priority_value ddslValue
 hi def link ddsl_priority_name ddslName
 hi def link ddsl_priority_field ddslField
 syn region ddsl_priority matchgroup=ddslKeyword start=/\<priority\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_priority_inner,ddsl_priority_value,ddsl_priority_name,ddsl_priority_field
+syn match ddsl_program_inner contained /\.\@<!\<on\>\.\@!\%(\s*\%(-\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_program_name contained /\%(\<program\s\+\)\@<=\h\w*/
+hi def link ddsl_program_inner ddslModifier
+hi def link ddsl_program_value ddslValue
+hi def link ddsl_program_name ddslName
+hi def link ddsl_program_field ddslField
+syn region ddsl_program matchgroup=ddslDeclaration start=/\<program\>\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/ matchgroup=NONE end=/;/ end=/[{}]/me=s-1 contains=@ddslAny,ddslComment,ddslDoc,ddsl_program_inner,ddsl_program_value,ddsl_program_name,ddsl_program_field
+syn match ddsl_ready_inner contained /\.\@<!\<after\>\.\@!\%(\s*\%([-+.0-9]\|\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<answers\>\.\@!\%(\s*\%(;\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<log\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<matches\>\.\@!\%(\s*\%("\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<port\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
+syn match ddsl_ready_inner contained /\.\@<!\<when\>\.\@!\%(\s*\%(\h\|\/[*\/]\|$\)\)\@=/
 syn match ddsl_ready_inner contained /\.\@<!\<within\>\.\@!\%(\s*\%([-+.0-9]\|\/[*\/]\|$\)\)\@=/
 hi def link ddsl_ready_inner ddslModifier
 hi def link ddsl_ready_value ddslValue

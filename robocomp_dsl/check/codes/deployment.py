@@ -322,7 +322,7 @@ DEPLOYMENT_NUMBER = Code(
     "a number or duration of a deployment is out of range",
     """\
 `max` and `depth` are whole numbers from 1. Durations are above 0 and up to a day, and have a unit:
-`ms`, `s` or `min`.
+`ms`, `s` or `min`. `memory` is at least 1 MB; `cpu` is a share of one core above 0 %.
 
 Wrong:
 
@@ -442,5 +442,41 @@ Wrong:
 Right:
 
     component arm { prefix "left/hand"; };
+""",
+)
+
+READY_PATTERN = Code(
+    "RC525",
+    Severity.ERROR,
+    "invalid regular expression",
+    """\
+`ready when log matches` takes a regular expression of Python. The program is ready when a line of
+its output contains a match.
+
+Wrong:
+
+    ready when log matches "(listening";
+
+Right:
+
+    ready when log matches "listening on port [0-9]+";
+""",
+)
+
+PROGRAM = Code(
+    "RC526",
+    Severity.ERROR,
+    "invalid setting of a program",
+    """\
+A `program` is a process that knows nothing of components. It has a command line, and no ports,
+parameters, devices, configuration or prefix. It gets no other arguments than those written.
+
+Wrong:
+
+    program camera { set rate = 20; };
+
+Right:
+
+    program camera { executable "camera_server --rate 20"; ready when port 8080 answers; };
 """,
 )

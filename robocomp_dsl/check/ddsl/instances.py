@@ -15,6 +15,8 @@ from robocomp_dsl.check.ddsl.components import ImportedComponents
 from robocomp_dsl.check.ddsl.contexts import config_search_of
 from robocomp_dsl.check.ddsl.devices import resolve_devices
 from robocomp_dsl.check.ddsl.prefixes import prefix_of
+from robocomp_dsl.check.ddsl.programs import program_component
+from robocomp_dsl.check.ddsl.readiness import limits_of, readiness_of
 from robocomp_dsl.check.ddsl.restarts import ready_of, restart_of
 from robocomp_dsl.check.ddsl.settings import settings_of
 from robocomp_dsl.check.literals import join_names
@@ -50,7 +52,11 @@ def resolve_instance(
     tree: ast.Instance, group: str, around: InstanceContext, report: Report
 ) -> Instance | None:
     """Resolve the instance of `tree`; None if its component is unknown."""
-    component = _component(tree.component or tree.name, around, report)
+    component = (
+        program_component(tree, around.path, report)
+        if tree.is_program
+        else _component(tree.component or tree.name, around, report)
+    )
     host = _host(tree.host, around, report)
     config = _config(tree.config, around, report)
     context, searched = config_search_of(tree, report)
@@ -58,6 +64,7 @@ def resolve_instance(
     executable = _executable(tree.executable, report)
     port = _port(tree.port, report)
     restart, ready = restart_of(tree.restart, report), ready_of(tree.ready, report)
+    readiness, limits = readiness_of(tree.ready_when, report), limits_of(tree, report)
     watchdog = watchdog_of(tree.watchdog, codes.DEPLOYMENT_NUMBER, report)
     environment = unique_by_name(tree.environment, "environment variable", report)
     devices = resolve_devices(tree, report)
@@ -72,7 +79,7 @@ def resolve_instance(
         context=context,
         config_name=searched,
         prefix=prefix,
-        settings=settings_of(tree.settings, component, report),
+        settings=() if tree.is_program else settings_of(tree.settings, component, report),
         devices=devices,
         environment=tuple((node.name.text, node.value.value) for node in environment),
         executable=executable,
@@ -80,10 +87,13 @@ def resolve_instance(
         after=tuple(dict.fromkeys(node.text for node in tree.after)),
         restart=restart,
         start_timeout_s=ready,
+        readiness=readiness,
+        limits=limits,
         watchdog_s=watchdog,
         doc=tree.doc,
         group=group,
         host_span=tree.host.span if tree.host else None,
+        is_program=tree.is_program,
     )
 
 

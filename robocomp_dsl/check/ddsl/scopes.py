@@ -151,8 +151,12 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 (*own, *waits),
                 tree.restart,
                 tree.ready,
+                tree.ready_when,
+                tree.memory,
+                tree.cpu,
                 tree.watchdog,
                 tree.doc,
+                tree.is_program,
             )
             resolved.append((renamed, nested.path))
     return resolved

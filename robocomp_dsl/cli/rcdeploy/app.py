@@ -10,11 +10,15 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from robocomp_dsl.deploy.plan import Plan, plan
 from robocomp_dsl.diagnostics import Diagnostic, Report
+
+if TYPE_CHECKING:
+    from robocomp_dsl.deploy.instances import RunningDeployment
 
 app = click.argument("app", metavar="APP.ddsl", type=click.Path(readable=False, path_type=Path))
 
@@ -40,7 +44,8 @@ def check(
 ) -> CheckedDeployment:
     """Check a deployment: first the text and its imports, then the requirements on this machine.
 
-    With `group` only that group is checked. Raises `click.BadParameter` for an unknown one.
+    With `group` only that group is checked; raises `click.BadParameter` for an unknown one. Without
+    `domain` the plan has the domain of the deployment if it runs, otherwise a new one.
     """
     from robocomp_dsl.check.passes import check_ddsl  # noqa: PLC0415 - `rcdeploy status` needs no parser
     from robocomp_dsl.check.workspace.workspace import Workspace  # noqa: PLC0415
@@ -59,27 +64,27 @@ def check(
         except NoSuchGroup as error:
             raise click.BadParameter(str(error), param_hint="--group") from None
     running = name or (f"{deployment.name}-{group}" if group else deployment.name)
+    instance = _running_instance(running, path)
     plan_ = plan(
         deployment,
         name=running,
-        domain=domain or f"{running}-{secrets.token_hex(3)}",
+        domain=domain or (instance.domain if instance else f"{running}-{secrets.token_hex(3)}"),
         interpreter=sys.executable,
     )
-    report.extend(preflight(deployment, plan_, ports=not _runs(plan_)))
+    # If it is running already, then it is itself that has its ports.
+    report.extend(preflight(deployment, plan_, ports=instance is None))
     if not report.has_errors:
         report.extend(find_outdated(deployment, workspace.middlewares))
     return CheckedDeployment(report.sorted(), plan_, ready=not report.has_errors)
 
 
-def _runs(plan: Plan) -> bool:
-    """Whether it is already running, and therefore uses its ports itself."""
+def _running_instance(name: str, path: Path) -> RunningDeployment | None:
+    """The running deployment of that name and file."""
     from robocomp_dsl.deploy import instances  # noqa: PLC0415
 
     try:
         known = instances.running()
     except instances.Unavailable:
-        return False
-    return any(
-        deployment.name == plan.name and deployment.path == str(plan.path.resolve())
-        for deployment in known
-    )
+        return None
+    file = str(path.resolve())
+    return next((d for d in known if d.name == name and d.path == file), None)

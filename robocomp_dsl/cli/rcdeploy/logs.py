@@ -1,15 +1,25 @@
-"""`rcdeploy logs`: prints logs. In: a running deployment. Out: its log lines, old and new."""
+"""`rcdeploy logs`: prints logs. In: a deployment, filters. Out: log lines of one run, old and new.
+
+The stored run is read first; what is newer comes from the running deployment itself.
+"""
 
 from __future__ import annotations
 
+import re
 import sys
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator
 
 import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import running
+from robocomp_dsl.cli.rcdeploy.log_selection import SelectedRun, describe_runs, select_run
 from robocomp_dsl.deploy import control, instances
+from robocomp_dsl.deploy.log_filter import LEVELS, LogFilter, parse_since
+from robocomp_dsl.deploy.log_runs import read_records
 from robocomp_dsl.deploy.logs import RCDEPLOY, LogRecord, format_record
 
 
@@ -17,35 +27,134 @@ from robocomp_dsl.deploy.logs import RCDEPLOY, LogRecord, format_record
 @running.which
 @click.option("-f", "--follow", is_flag=True, help="Also print new lines as they appear.")
 @click.option(
-    "-n", "--last", default=control.JOURNAL_SIZE, metavar="N", help="Only the last N lines."
+    "--run",
+    "run",
+    type=int,
+    default=0,
+    metavar="N",
+    help="The run: 0 is the latest, -1 the one before it; or its number.",
+)
+@click.option("--runs", "list_runs", is_flag=True, help="List the stored runs instead.")
+@click.option(
+    "-n", "--last", type=click.IntRange(min=0), metavar="N", help="Only the last N lines."
 )
 @click.option(
     "-c", "--component", multiple=True, metavar="NAME", help="Only this component; repeatable."
 )
+@click.option(
+    "--level", type=click.Choice(LEVELS), default=None, help="Only lines of this level or above."
+)
+@click.option(
+    "--since", metavar="TIME", help="Only lines since: 10 min, 20:15 or '2026-11-22 20:15'."
+)
+@click.option("--grep", metavar="REGEX", help="Only lines that match; (?i)… ignores case.")
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
+@click.option("--json", "output_format", flag_value="json", help="As --format json.")
 def command(
-    which: str | None, follow: bool, last: int, component: tuple[str, ...], output_format: str
+    which: str | None,
+    *,
+    follow: bool,
+    run: int,
+    list_runs: bool,
+    last: int | None,
+    component: tuple[str, ...],
+    level: str | None,
+    since: str | None,
+    grep: str | None,
+    output_format: str,
 ) -> None:
-    """Show the logs of a running deployment."""
-    deployment = running.resolve_deployment(which)
-    known = [RCDEPLOY, *running.components(deployment)] if component else []
-    request = {
-        "verb": "logs",
-        "follow": follow,
-        "last": max(last, 0),
-        "components": [running.resolve_component(name, known) for name in component],
-    }
-    colours = options.use_colours(sys.stdout)
-    width = 0
+    """Show the logs of a deployment while it runs, after its end, and after a crash."""
+    if list_runs:
+        print("\n".join(describe_runs(which)))
+        return
+    selected = select_run(which, run)
+    chosen = LogFilter(
+        components=_components(component, selected),
+        level=level or "",
+        since=_since(since),
+        pattern=_pattern(grep),
+    )
+    if follow and selected.deployment is None:
+        print(f"this run of `{selected.name}` has ended; nothing will follow", file=sys.stderr)
+    printer = _Printer(as_json=output_format == "json", follow=follow)
+    source = _Source(selected)
+    records = filter(chosen.matches, source.past())
+    for record in records if last is None else deque(records, last):
+        printer.print(record)
+    if follow:
+        for record in filter(chosen.matches, source.future()):
+            printer.print(record)
+
+
+class _Printer:
+    """Prints records as lines; the column of the names grows with the names."""
+
+    def __init__(self, *, as_json: bool, follow: bool) -> None:
+        self._as_json = as_json
+        self._follow = follow
+        self._colours = options.use_colours(sys.stdout)
+        self._width = 0
+
+    def print(self, record: LogRecord) -> None:
+        self._width = max(self._width, len(record.component))
+        text = (
+            record.to_json()
+            if self._as_json
+            else format_record(record, self._width, colours=self._colours)
+        )
+        print(text, flush=self._follow)
+
+
+class _Source:
+    """The records of one run, each of them once."""
+
+    def __init__(self, selected: SelectedRun) -> None:
+        self._selected = selected
+        self._last = 0
+
+    def past(self) -> Iterator[LogRecord]:
+        """The stored records, then those that the running deployment has in addition."""
+        if self._selected.folder is not None:
+            yield from self._counted(read_records(self._selected.folder))
+        yield from self._live(follow=False)
+
+    def future(self) -> Iterator[LogRecord]:
+        """What follows, until the deployment ends."""
+        yield from self._live(follow=True)
+
+    def _live(self, *, follow: bool) -> Iterator[LogRecord]:
+        if self._selected.deployment is None:
+            return
+        request = {"verb": "logs", "follow": follow, "after": self._last}
+        replies = control.send_request(self._selected.deployment.name, request)
+        try:
+            yield from self._counted(LogRecord(**reply) for reply in replies)
+        except instances.Unavailable as error:
+            raise CliError(EXIT_FINDINGS, str(error)) from None
+
+    def _counted(self, records: Iterable[LogRecord]) -> Iterator[LogRecord]:
+        for record in records:
+            self._last = max(self._last, record.sequence)
+            yield record
+
+
+def _components(names: tuple[str, ...], selected: SelectedRun) -> set[str]:
+    if not names:
+        return set()
+    known = [RCDEPLOY, *selected.components]
+    return {running.resolve_component(name, known) for name in names}
+
+
+def _since(text: str | None) -> float:
     try:
-        for answer in control.send_request(deployment.name, request):
-            record = LogRecord(**answer)
-            width = max(width, len(record.component))
-            text = (
-                record.to_json()
-                if output_format == "json"
-                else format_record(record, width, colours=colours)
-            )
-            print(text, flush=follow)
-    except instances.Unavailable as error:
-        raise CliError(EXIT_FINDINGS, str(error)) from None
+        return parse_since(text, time.time()) if text else 0.0
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="--since") from None
+
+
+def _pattern(text: str | None) -> re.Pattern[str] | None:
+    try:
+        return re.compile(text) if text else None
+    except re.error as error:
+        message = f"`{text}` is not a regular expression: {error}"
+        raise click.BadParameter(message, param_hint="--grep") from None

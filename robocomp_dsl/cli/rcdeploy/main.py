@@ -17,7 +17,7 @@ TABLE = {
     "up": ("rcdeploy.up", "Run a deployment in the foreground; Ctrl-C stops it in order."),
     "plan": ("rcdeploy.plan", "Show which processes would be started, and how."),
     "check": ("rcdeploy.check", "Check a deployment; start nothing."),
-    "status": ("rcdeploy.status", "Show the components of a running deployment."),
+    "status": ("rcdeploy.status", "Show the components of running deployments."),
     "logs": ("rcdeploy.logs", "Show the logs of a running deployment."),
     "list": ("rcdeploy.inspect.listing", "List ports, operations and types of components."),
     "echo": ("rcdeploy.inspect.echo", "Print what a component publishes."),
@@ -29,7 +29,9 @@ TABLE = {
     "loglevel": ("rcdeploy.inspect.loglevel", "Set the log level of a component."),
     "period": ("rcdeploy.inspect.period", "Set the period of a component."),
     "param": ("rcdeploy.param", "Read and change parameters of running components."),
-    "stop": ("rcdeploy.stop", "Stop a running deployment and wait until it has exited."),
+    "stop": ("rcdeploy.stop", "Stop a running deployment, or components of it."),
+    "start": ("rcdeploy.start", "Start components of a running deployment."),
+    "restart": ("rcdeploy.restart", "Restart components of a running deployment."),
     "completion": ("rcdeploy.inspect.completion_script", "Print the completion script of a shell."),
 }
 
@@ -45,15 +47,28 @@ click.version_option(__version__, prog_name="rcdeploy")(program)
 def normalise_arguments(arguments: Sequence[str]) -> list[str]:
     """`app.ddsl status -f` as `status app.ddsl -f`, and `app.ddsl` alone as `up app.ddsl`.
 
-    The word after the file counts as a command even if it is unknown, so that this is reported.
+    The word after the file counts as a command even if it is unknown, so that this is reported. The
+    file may also stand between `param` and its own command, or before both.
     """
     words = list(arguments)
-    if not words or words[0] in TABLE or not any(w.lower().endswith(".ddsl") for w in words):
+    if words and words[0] not in TABLE:
+        words = _command_first(words)
+    if words[:1] == ["param"] and len(words) > 2 and _is_file(words[1]):
+        words[1:3] = [words[2], words[1]]
+    return words
+
+
+def _command_first(words: list[str]) -> list[str]:
+    if not any(map(_is_file, words)):
         return words
-    command_index = 1 + next(i for i, word in enumerate(words) if word.lower().endswith(".ddsl"))
+    command_index = 1 + next(i for i, word in enumerate(words) if _is_file(word))
     if words[command_index:] and not words[command_index].startswith("-"):
         return [words[command_index], *words[:command_index], *words[command_index + 1 :]]
     return ["up", *words]
+
+
+def _is_file(word: str) -> bool:
+    return word.lower().endswith(".ddsl")
 
 
 def main() -> None:

@@ -7,8 +7,11 @@ component rejects a change; then nothing has changed.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+import shlex
+import time
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -23,6 +26,8 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component_interface import ComponentProxy, ParameterInfo
 
 CALL_TIMEOUT_S = 5.0
+CONNECT_TIMEOUT_S = 0.3
+"""For all components of a command together; the tokens of components arrive within 10 ms."""
 
 which = click.argument("which", metavar="APP.ddsl|NAME")
 output_format = click.option(
@@ -45,14 +50,19 @@ def list_(which: str, components: tuple[str, ...], output_format: str) -> None:
     known = running.components(deployment)
     selected = [running.resolve_component(name, known) for name in components] or known
     found = {}
+    deadline = time.monotonic() + CONNECT_TIMEOUT_S
     with _proxies(deployment) as proxy_of:
         for name in selected:
-            found[name] = _parameters(proxy_of, name)
+            proxy = proxy_of(name)
+            if proxy.wait_for_server(max(deadline - time.monotonic(), 0.0)):
+                found[name] = list(proxy.getParameters())
     if output_format == "json":
         data = {name: [_data(p) for p in parameters] for name, parameters in found.items()}
         print(json.dumps(data, indent=1))
     else:
         print("\n".join(_table(found)))
+    if silent := [name for name in selected if name not in found]:
+        raise CliError(EXIT_FINDINGS, _no_answer(silent))
 
 
 @command.command()
@@ -80,7 +90,8 @@ def get(which: str, component: str, names: tuple[str, ...]) -> None:
 @click.argument("component")
 @click.argument("changes", nargs=-1, required=True, metavar="PARAMETER=VALUE...")
 @click.option("--save", is_flag=True, help="Save the live values for the next start.")
-def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool) -> None:
+@click.option("--ddsl", is_flag=True, help="Write the values into the deployment's file.")
+def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool, ddsl: bool) -> None:
     """Change live parameters; either all changes are accepted or none."""
     from robocomp_dsl.runtime.component.component_interface import Refusal  # noqa: PLC0415 - loads numpy
 
@@ -92,6 +103,7 @@ def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool) ->
         try:
             proxy.setParameters(values)
             where = proxy.saveParameters() if save else ""
+            types = {p.name: p.type for p in proxy.getParameters()} if ddsl else {}
         except Refusal as refusal:
             raise CliError(
                 EXIT_FINDINGS, f"`{name}` rejects the change: {refusal.reason}"
@@ -99,6 +111,53 @@ def set_(which: str, component: str, changes: tuple[str, ...], *, save: bool) ->
     print(f"{name}: {', '.join(f'{k} = {v}' for k, v in values.items())}")
     if where:
         print(f"kept in {where}")
+    if ddsl:
+        _write_to_ddsl(deployment, name, values, types)
+    elif save:
+        _report_overriding(deployment, name, component, values)
+
+
+def _write_to_ddsl(
+    deployment: instances.RunningDeployment,
+    name: str,
+    values: dict[str, str],
+    types: dict[str, str],
+) -> None:
+    """Write `set` statements into the file of the deployment."""
+    from robocomp_dsl.deploy import ddsl_settings  # noqa: PLC0415 - loads the parser
+
+    literals = {
+        parameter: ddsl_settings.format_ddsl_literal(
+            value.strip(), is_text=types.get(parameter) == "string"
+        )
+        for parameter, value in values.items()
+    }
+    try:
+        ddsl_settings.write_settings(Path(deployment.path), name, literals)
+    except ddsl_settings.CannotEdit as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    print(f"written to {deployment.path}")
+
+
+def _report_overriding(
+    deployment: instances.RunningDeployment, name: str, component: str, values: dict[str, str]
+) -> None:
+    """Say which saved values the deployment overrides at the next start."""
+    from robocomp_dsl.deploy import ddsl_settings  # noqa: PLC0415 - loads the parser
+
+    path = Path(deployment.path)
+    overriding = {p: ddsl_settings.find_setting(path, name, p) for p in values}
+    for parameter, setting in overriding.items():
+        if setting:
+            print(
+                f"{setting.place} has `set {parameter} = {setting.value};`, which overrides the "
+                "saved value at the next start"
+            )
+    if any(overriding.values()):
+        changes = " ".join(shlex.quote(f"{p}={values[p]}") for p, s in overriding.items() if s)
+        print(
+            f"to write it there: rcdeploy param set {deployment.name} {component} {changes} --ddsl"
+        )
 
 
 def _change(text: str) -> tuple[str, str]:
@@ -128,12 +187,16 @@ def _proxies(deployment: instances.RunningDeployment) -> Iterator[ProxyFactory]:
 
 def _connect(proxy_of: ProxyFactory, name: str) -> ComponentProxy:
     proxy = proxy_of(name)
-    if not proxy.wait_for_server(CALL_TIMEOUT_S):
-        hint = "see `rcdeploy status`; components of other middlewares than zenoh are not reached"
-        raise CliError(
-            EXIT_FINDINGS, f"`{name}` does not answer within {CALL_TIMEOUT_S:g} s; {hint}"
-        )
+    if not proxy.wait_for_server(CONNECT_TIMEOUT_S):
+        raise CliError(EXIT_FINDINGS, _no_answer([name]))
     return proxy
+
+
+def _no_answer(names: Sequence[str]) -> str:
+    listed = " and ".join(f"`{name}`" for name in names)
+    verb = "does" if len(names) == 1 else "do"
+    hint = "see `rcdeploy status`; components of other middlewares than zenoh are not reached"
+    return f"{listed} {verb} not answer within {CONNECT_TIMEOUT_S:g} s; {hint}"
 
 
 def _parameters(proxy_of: ProxyFactory, name: str) -> list[ParameterInfo]:

@@ -16,7 +16,7 @@ from robocomp_dsl.cli.output.render import strip_control_chars
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy.plan import Plan, Process, batches
-from robocomp_dsl.deploy.preflight import short_path
+from robocomp_dsl.deploy.plan_text import format_limits, format_readiness
 
 
 @click.command()
@@ -38,6 +38,7 @@ def command(
 ) -> None:
     """Show the processes that `up` would start, their order and connections; start nothing.
 
+    The command lines can be pasted into a shell. If the deployment is running, they join it.
     Exit code 1: it cannot be started now; standard error has the reasons.
     """
     checked = rcdeploy_app.check(app, folders, name, domain, group)
@@ -81,6 +82,8 @@ def _process(process: Process) -> dict[str, Any]:
             "window_s": process.restart.window_s,
         },
         "start_timeout_s": process.start_timeout_s,
+        "ready": format_readiness(process.readiness),
+        "limits": {"memory_bytes": process.limits.memory_bytes, "cpu": process.limits.cpu},
         "port": process.port,
         "devices": list(process.devices),
     }
@@ -107,11 +110,14 @@ def _described(process: Process, wave: int) -> Iterator[str]:
     place = f" on {process.host}" if process.host else ""
     group = f" in group {process.group}" if process.group else ""
     yield f"{wave}. {process.name} ({process.component}){group}{place}{after}"
-    yield f"   ready within {process.start_timeout_s:g} s, restart {restart}"
+    ready = " ".join(filter(None, ["ready", format_readiness(process.readiness)]))
+    yield f"   {ready} within {process.start_timeout_s:g} s, restart {restart}"
+    if limits := format_limits(process.limits):
+        yield f"   {limits}"
     yield from (
         f"   {'devices' if not i else '       '} {line}" for i, line in enumerate(process.devices)
     )
     variables = [f"{key}={shlex.quote(value)}" for key, value in process.env]
-    yield f"   cd {shlex.quote(short_path(process.cwd))} && " + " ".join(
-        [*variables, shlex.join(process.argv)]
-    )
+    # In a subshell with an absolute path, so that the lines can be pasted one after the other.
+    command = " ".join([*variables, shlex.join(process.argv)])
+    yield f"   (cd {shlex.quote(str(process.cwd.resolve()))} && {command})"

@@ -20,10 +20,31 @@ def resolve_deployment(which: str | None) -> instances.RunningDeployment:
         known = instances.running()
     except instances.Unavailable as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
-    matches = [deployment for deployment in known if which is None or _matches(deployment, which)]
+    matches = [deployment for deployment in known if which is None or is_meant(deployment, which)]
     if len(matches) != 1:
         raise CliError(EXIT_FINDINGS, _selection_problem(which, matches, known))
     return matches[0]
+
+
+def all_deployments() -> list[instances.RunningDeployment]:
+    """All running deployments of this user. Raises `CliError` if there is none."""
+    try:
+        known = instances.running()
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
+    if not known:
+        raise CliError(EXIT_FINDINGS, _selection_problem(None, [], []))
+    return known
+
+
+def is_deployment(word: str) -> bool:
+    """Whether `word` names a running deployment, or a DDSL file. Raises `CliError`."""
+    if word.lower().endswith(".ddsl"):
+        return True
+    try:
+        return any(is_meant(deployment, word) for deployment in instances.running())
+    except instances.Unavailable as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
 def _selection_problem(
@@ -40,7 +61,8 @@ def _selection_problem(
     return what + (f"; running: {names}" if names else "")
 
 
-def _matches(deployment: instances.RunningDeployment, which: str) -> bool:
+def is_meant(deployment: instances.RunningDeployment, which: str) -> bool:
+    """Whether `which` is its name or its file."""
     return which == deployment.name or str(Path(which).resolve()) == deployment.path
 
 

@@ -9,7 +9,7 @@ import json
 import shutil
 import sys
 import time
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -22,38 +22,65 @@ from robocomp_dsl.deploy import control, instances, status
 if TYPE_CHECKING:
     from robocomp_dsl.deploy.component_queries import ComponentState
 
-CALL_TIMEOUT_S = 1.0
-"""Time-out of a reply; a running component replies within milliseconds."""
+CALL_TIMEOUT_S = 0.5
+"""For all components together; a running component replies within milliseconds."""
 
 
 @click.command()
 @running.which
 @click.option("--format", "output_format", type=click.Choice(["text", "json"]), default="text")
 def command(which: str | None, output_format: str) -> None:
-    """Show the components of a running deployment. Exit code 0: all are ready or exited."""
-    deployment = running.resolve_deployment(which)
+    """Show the components of one deployment, or of all that you run. Exit code 0: all are well.
+
+    A component is well if it is ready or has exited. JSON: without a name, an array of deployments.
+    """
+    deployments = [running.resolve_deployment(which)] if which else running.all_deployments()
+    reports = [_report(deployment) for deployment in deployments]
+    if output_format == "json":
+        data = [report.as_data() for report in reports]
+        print(json.dumps(data[0] if which else data, indent=1))
+    else:
+        width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
+        colours = options.use_colours(sys.stdout)
+        print("\n\n".join("\n".join(r.as_text(width, colours=colours)) for r in reports))
+    rows = [row for report in reports for row in report.rows]
+    if any(row.state not in (status.READY, status.EXITED) for row in rows):
+        raise CliError(EXIT_FINDINGS)
+
+
+@dataclass(frozen=True, slots=True)
+class DeploymentReport:
+    """The status of one deployment; `clock` is None without a simulated clock."""
+
+    deployment: instances.RunningDeployment
+    rows: list[status.ProcessStatus]
+    clock: dict[str, Any] | None
+
+    def as_data(self) -> dict[str, Any]:
+        """For JSON."""
+        components = [row.as_dict() for row in self.rows]
+        return {**asdict(self.deployment), "components": components, "clock": self.clock}
+
+    def as_text(self, width: int, *, colours: bool) -> list[str]:
+        """A heading and a table."""
+        deployment = self.deployment
+        since = status.format_duration(time.time() - deployment.since)
+        process = f"pid {deployment.pid}, domain {deployment.domain}, up {since}"
+        lines = [f"{deployment.name}: {deployment.path}, {process}"]
+        lines += [status.SimulatedTime(**self.clock).format()] if self.clock else []
+        lines += status.format_table(self.rows, width, colours=colours)
+        return lines + status.format_hangs(self.rows, time.time())
+
+
+def _report(deployment: instances.RunningDeployment) -> DeploymentReport:
     try:
         answer = next(control.send_request(deployment.name, {"verb": "status"}))
     except (instances.Unavailable, StopIteration):
         raise CliError(
             EXIT_FINDINGS, f"`{deployment.name}` does not answer; it may be ending"
         ) from None
-    rows = _with_component_state(
-        deployment, [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
-    )
-    if output_format == "json":
-        print(json.dumps(_data(deployment, rows) | {"clock": answer["clock"]}, indent=1))
-    else:
-        since = status.format_duration(time.time() - deployment.since)
-        process = f"pid {deployment.pid}, domain {deployment.domain}, up {since}"
-        print(f"{deployment.name}: {deployment.path}, {process}")
-        if answer["clock"]:
-            print(status.SimulatedTime(**answer["clock"]).format())
-        width = shutil.get_terminal_size().columns if sys.stdout.isatty() else 1000
-        table = status.format_table(rows, width, colours=options.use_colours(sys.stdout))
-        print("\n".join([*table, *status.format_hangs(rows, time.time())]))
-    if any(row.state not in (status.READY, status.EXITED) for row in rows):
-        raise CliError(EXIT_FINDINGS)
+    rows = [status.ProcessStatus.from_dict(row) for row in answer["rows"]]
+    return DeploymentReport(deployment, _with_component_state(deployment, rows), answer["clock"])
 
 
 def _with_component_state(
@@ -80,9 +107,3 @@ def _row(row: status.ProcessStatus, state: ComponentState | None) -> status.Proc
         overruns=state.overruns,
         note=row.note or info.reason,
     )
-
-
-def _data(
-    deployment: instances.RunningDeployment, rows: list[status.ProcessStatus]
-) -> dict[str, Any]:
-    return {**asdict(deployment), "components": [row.as_dict() for row in rows]}

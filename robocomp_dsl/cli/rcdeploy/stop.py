@@ -1,4 +1,4 @@
-"""`rcdeploy stop`: stops a running deployment. In: which one. Out: its exit code."""
+"""`rcdeploy stop`: stops a deployment or components of it. In: names. Out: an exit code."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import select
 import click
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.cli.rcdeploy import running
+from robocomp_dsl.cli.rcdeploy import components
 from robocomp_dsl.deploy import control, instances
 
 EXIT_TIMEOUT_S = 5.0
@@ -16,10 +16,16 @@ EXIT_TIMEOUT_S = 5.0
 
 
 @click.command()
-@running.which
-def command(which: str | None) -> None:
-    """Stop a running deployment in order and wait until it has exited; returns its exit code."""
-    deployment = running.resolve_deployment(which)
+@click.argument("words", nargs=-1, metavar="[APP.ddsl|NAME] [COMPONENT|GROUP]...")
+def command(words: tuple[str, ...]) -> None:
+    """Stop a running deployment in order and wait until it has exited; returns its exit code.
+
+    With names of components or groups: stop only these; the deployment continues.
+    """
+    deployment, names = components.split_names(words)
+    if names:
+        components.request(deployment, "stop", names)
+        return
     ended = _handle(deployment.pid)
     try:
         answer = next(control.send_request(deployment.name, {"verb": "stop"}), None)

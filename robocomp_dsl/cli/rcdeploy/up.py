@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
+import os
 import sys
+import time
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +17,16 @@ from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy import app as rcdeploy_app
 from robocomp_dsl.deploy import instances, session
+from robocomp_dsl.deploy.log_runs import LogRun
+from robocomp_dsl.deploy.log_store import DAY_S, LogLimits, LogStore
 from robocomp_dsl.deploy.plan import Plan
-from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsupported_reason
+from robocomp_dsl.deploy.supervisor.requests import PlanRejected, Replan
+from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome
+from robocomp_dsl.deploy.supervisor.system import unsupported_reason
+from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, reserve
+from robocomp_dsl.runtime.private_folder import UnsafeFolder
+
+MEGABYTE = 1_000_000
 
 
 @click.command()
@@ -56,6 +69,22 @@ from robocomp_dsl.deploy.supervisor.supervisor import Options, Outcome, unsuppor
     default=None,
     help="Show the status table below the log; default: on a terminal.",
 )
+@click.option(
+    "--log-size",
+    type=click.IntRange(min=1),
+    default=LogLimits().size // MEGABYTE,
+    show_default=True,
+    metavar="MB",
+    help="Limit of the stored logs of all runs together.",
+)
+@click.option(
+    "--log-days",
+    type=click.FloatRange(min=0),
+    default=LogLimits().age_s / DAY_S,
+    show_default=True,
+    metavar="DAYS",
+    help="Older logs are deleted.",
+)
 def command(
     app: Path,
     folders: tuple[Path, ...],
@@ -67,10 +96,11 @@ def command(
     """Check the deployment, start its components in order, and supervise them.
 
     The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
-    findings or a failed component.
+    findings or a failed component, 141 if the reader of its output has gone.
     """
     checked = rcdeploy_app.check(app, folders, name, domain, group)
-    options.print_findings(checked.findings, "full", sys.stderr)
+    with contextlib.suppress(OSError):  # a full disk does not keep a robot from running
+        options.print_findings(checked.findings, "full", sys.stderr)
     if checked.plan is None or not checked.ready:
         raise CliError(
             EXIT_FINDINGS, f"{app}: nothing was started ({options.summary(checked.findings)})"
@@ -82,30 +112,54 @@ def command(
     except instances.Unavailable as error:
         raise CliError(EXIT_FINDINGS, str(error)) from None
     try:
-        outcome = _run(checked.plan, claim, **how)
+        replan = partial(_replan, checked.plan, app, folders, name, group)
+        outcome = _run(checked.plan, claim, replan, **how)
     finally:
         claim.release()
     if outcome.code:
-        raise CliError(EXIT_FINDINGS, outcome.reason)
+        raise CliError(outcome.code, outcome.reason)
+
+
+def _replan(
+    running: Plan, app: Path, folders: tuple[Path, ...], name: str | None, group: str | None
+) -> tuple[Plan, str]:
+    """The plan of the file as it is now, in the same domain. Raises `PlanRejected`."""
+    try:
+        checked = rcdeploy_app.check(app, folders, name, running.domain, group)
+    except click.UsageError as error:
+        raise PlanRejected(error.message) from None
+    text = io.StringIO()
+    options.print_findings(checked.findings, "full", text)
+    if checked.plan is None or not checked.ready:
+        raise PlanRejected(f"{text.getvalue()}{app} has errors; nothing was changed")
+    return checked.plan, text.getvalue().rstrip()
 
 
 def _run(
     plan: Plan,
     claim: instances.InstanceLock,
+    replan: Replan,
     *,
     output_format: str,
     live: bool | None,
     duration: float | None,
     grace: float,
     keep_going: bool,
+    log_size: int,
+    log_days: float,
 ) -> Outcome:
     from robocomp_dsl.cli.rcdeploy.terminal import Terminal  # noqa: PLC0415 - not for --help
     from robocomp_dsl.deploy.supervisor.zenoh_monitor import ZenohMonitor  # noqa: PLC0415
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
+        reservation = reserve(plan.domain, (process.name for process in plan.processes), plan.name)
+    except (NameTaken, UnsafeFolder, OSError) as error:
+        return Outcome(EXIT_FINDINGS, str(error))
+    try:
         watch = ZenohMonitor(plan.domain)
     except MiddlewareError as error:
+        reservation.release()
         return Outcome(EXIT_FINDINGS, str(error))
     terminal = Terminal(
         sys.stdout,
@@ -115,7 +169,22 @@ def _run(
         as_json=output_format == "json",
     )
     how = Options(grace_s=grace, duration_s=duration, keep_going=keep_going)
+    store = _open_log_store(plan, LogLimits(log_size * MEGABYTE, log_days * DAY_S))
     try:
-        return session.run(plan, claim, watch, terminal, how)
+        return session.run(plan, claim, watch, terminal, how, replan, store)
     finally:
         terminal.close()
+        reservation.release()
+
+
+def _open_log_store(plan: Plan, limits: LogLimits) -> LogStore | None:
+    """Where the logs of this run are stored; None, and a warning, where they cannot be."""
+    components = tuple(process.name for process in plan.processes)
+    path = str(plan.path.resolve())
+    run = LogRun(plan.name, path, plan.domain, os.getpid(), time.time(), components)
+    try:
+        return LogStore(run, limits)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            print(f"warning: logs are not stored: {error}", file=sys.stderr)
+        return None

@@ -30,7 +30,8 @@ def read_subject(
     models = [check_file(path, workspace, report) for path in paths]
     deployments = _unique(model for model in models if isinstance(model, Deployment))
     seen = [model for model in models if isinstance(model, Component)]
-    seen += [part.component for deployment in deployments for part in deployment.instances]
+    parts = [part for deployment in deployments for part in deployment.instances]
+    seen += [part.component for part in parts if not part.is_program]
     components = _unique(seen)
     by_file = {canonical_path(component.path): component for component in components}
     named = {

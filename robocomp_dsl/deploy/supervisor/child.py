@@ -12,12 +12,13 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import IO
 
 from robocomp_dsl.deploy.logs import LineSplitter, LogRecord
 from robocomp_dsl.deploy.plan import Process
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
+from robocomp_dsl.deploy.supervisor.notify import FOREIGN_VARIABLES
 from robocomp_dsl.deploy.supervisor.reaper import DEPLOYMENT_VARIABLE
 from robocomp_dsl.deploy.supervisor.resource_usage import ResourceUsage
 from robocomp_dsl.runtime.component.supervisor_pipe import HEARTBEAT_VARIABLE
@@ -36,13 +37,15 @@ class ChildProcess:
         process: Process,
         token: str,
         emit: Callable[[LogRecord], None],
+        variables: Mapping[str, str],
         hang_watch: HangWatch,
     ) -> None:
         self._emit = emit
         self._loop = asyncio.get_running_loop()
         environment = {
             "PYTHONUNBUFFERED": "1",
-            **os.environ,
+            **{k: v for k, v in os.environ.items() if k not in FOREIGN_VARIABLES},
+            **variables,
             **dict(process.env),
             DEPLOYMENT_VARIABLE: token,
             HEARTBEAT_VARIABLE: str(hang_watch.write_end),

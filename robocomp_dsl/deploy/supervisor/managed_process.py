@@ -8,7 +8,6 @@ from __future__ import annotations
 import asyncio
 import signal
 import time
-from typing import Protocol
 
 from robocomp_dsl.deploy import status
 from robocomp_dsl.deploy.logs import LogRecord
@@ -19,6 +18,9 @@ from robocomp_dsl.deploy.supervisor.child import ChildProcess, describe_exit
 from robocomp_dsl.deploy.supervisor.hang_watch import HangWatch
 from robocomp_dsl.deploy.supervisor.load_errors import LoadErrors
 from robocomp_dsl.deploy.supervisor.restart import RestartDecision, decide_restart
+from robocomp_dsl.deploy.supervisor.supervisor_context import SupervisorContext
+from robocomp_dsl.deploy.supervisor.waiting import wait_any
+from robocomp_dsl.model.deployment import Readiness
 from robocomp_dsl.runtime.component.hang_report import HangReport
 
 CLEAN_EXIT_CODES = (0, -signal.SIGTERM, 128 + signal.SIGTERM)
@@ -30,44 +32,33 @@ KILL_TIMEOUT_S = 5.0
 """Wait at most this long for a process to exit after SIGKILL (it may hang in a driver)."""
 
 
-class SupervisorContext(Protocol):
-    """What a managed process needs from the supervisor."""
-
-    token: str
-    grace_s: float
-    stopping: asyncio.Event
-
-    def log(self, text: str, level: str = "INFO") -> None:
-        """Log a message of rcdeploy."""
-
-    def emit(self, record: LogRecord) -> None:
-        """Emit a log record of a component."""
-
-    def changed(self) -> None:
-        """A status has changed."""
-
-
 class ManagedProcess:
     """The process of one component.
 
     `done` is set when it will not run again; `failed` is then true after a permanent failure.
+    `on_request`: it was started by a request, while the deployment was running.
     """
 
-    def __init__(self, process: Process, context: SupervisorContext) -> None:
+    def __init__(
+        self, process: Process, context: SupervisorContext, *, on_request: bool = False
+    ) -> None:
         self.process = process
+        self.on_request = on_request
         self.name = process.name
         self.context = context
         self.child: ChildProcess | None = None
         self.ready = asyncio.Event()
         self.done = asyncio.Event()
+        self.stop_requested = asyncio.Event()
         self.failed = False
         self.restart_times: list[float] = []
         self._state = status.WAITING
         self._note = ""
         self._lifecycle_state = ""
         self._started = False
-        self._was_ready = False
+        self.was_ready = False
         self._killed = False
+        self._failure = ""
         self._starts_without_ready = 0
         self._hung_child: ChildProcess | None = None
         self._load_errors = LoadErrors()
@@ -107,12 +98,37 @@ class ManagedProcess:
         self._lifecycle_state = state
         if child is self._hung_child or child.has_exited:
             return
-        if state in lifecycle_monitor.READY_STATES:
+        own_condition = self.process.readiness != Readiness()
+        if state in lifecycle_monitor.READY_STATES and not own_condition:
             self.ready.set()
         if self.ready.is_set():
             self._transition_to(status.READY if state else status.UNKNOWN, "")
         else:
             self._transition_to(status.STARTING, "")
+
+    def mark_ready(self) -> None:
+        """The process has shown that it is ready, by another sign than its lifecycle."""
+        child = self.child
+        if child is not None and not child.has_exited and self._state == status.STARTING:
+            self.ready.set()
+            self._transition_to(status.READY, self._note)
+
+    def set_status_text(self, text: str) -> None:
+        """Show what the process says of itself."""
+        if self.child is not None and self._state in (status.STARTING, status.READY):
+            self._transition_to(self._state, text)
+
+    def warn(self, text: str) -> None:
+        """Log a warning about the process."""
+        self.context.log(f"{self.name} {text}", "WARNING")
+
+    async def fail(self, reason: str) -> None:
+        """End the process as failed; its policy decides on a restart."""
+        if self.child is None or self._state == status.STOPPING:
+            return
+        self._killed, self._failure = True, reason
+        self.context.log(f"{self.name} {reason}", "ERROR")
+        await self.terminate(self.context.grace_s)
 
     async def run(self, dependencies: list[ManagedProcess]) -> None:
         """Run until it will not run again. All `dependencies` must be ready before it starts."""
@@ -127,24 +143,26 @@ class ManagedProcess:
     async def _wait_for_dependencies(self, dependencies: list[ManagedProcess]) -> bool:
         for dependency in dependencies:
             self._transition_to(status.WAITING, f"for {dependency.name}")
-            await wait_any(dependency.ready, dependency.done, self.context.stopping)
+            await wait_any(dependency.ready, dependency.done, self.stop_requested)
             available = dependency.is_available and not dependency.failed
-            if self.context.stopping.is_set() or not available:
+            if self.stop_requested.is_set() or not available:
                 reason = f"not started: {dependency.name} was not ready"
                 self._transition_to(status.EXITED, reason)
                 return False
-        return not self.context.stopping.is_set()
+        return not self.stop_requested.is_set()
 
     @property
     def is_available(self) -> bool:
         """Whether dependents can start: it is ready, or has exited successfully."""
+        if self.done.is_set() and self.stop_requested.is_set():
+            return False
         return self.ready.is_set() or (self.done.is_set() and self._started and not self.failed)
 
     async def _restart_loop(self) -> None:
         """Run the process and restart it as its policy requires."""
-        while not self.context.stopping.is_set():
+        while not self.stop_requested.is_set():
             code = await self._run_once()
-            if self.context.stopping.is_set():
+            if self.stop_requested.is_set():
                 self._on_stopped(code)
                 return
             decision = self._decide_restart(code)
@@ -154,13 +172,13 @@ class ManagedProcess:
             message = f"{self.name}: {self._note}, restarting in {decision.delay_s:g} s"
             self.context.log(message, "WARNING")
             self._transition_to(status.BACKOFF, self._note)
-            await wait_any(self.context.stopping, timeout=decision.delay_s)
+            await wait_any(self.stop_requested, timeout=decision.delay_s)
             self.restart_times.append(time.monotonic())
         self._transition_to(status.EXITED, self._note)
 
     def _decide_restart(self, code: int) -> RestartDecision:
         now, policy = time.monotonic(), self.process.restart
-        if code and not self._was_ready and self._load_errors.error:
+        if code and not self.was_ready and self._load_errors.error:
             self._note = self._load_errors.error
             return RestartDecision(None, "a restart does not help")
         # Starts that time out may be further apart than the window of the policy.
@@ -172,7 +190,7 @@ class ManagedProcess:
     async def _run_once(self) -> int:
         """Start the process and wait for its exit; returns the exit code."""
         self.ready.clear()
-        self._killed = False
+        self._killed, self._failure = False, ""
         self._load_errors = LoadErrors()
         hang_watch = HangWatch(self._on_hang)
 
@@ -182,7 +200,9 @@ class ManagedProcess:
             self.context.emit(record)
 
         try:
-            self.child = ChildProcess(self.process, self.context.token, emit, hang_watch)
+            self.child = ChildProcess(
+                self.process, self.context.token, emit, self.context.environment, hang_watch
+            )
         except OSError as error:
             hang_watch.close()
             self._note = f"cannot be started: {error.strerror or error}"
@@ -191,12 +211,13 @@ class ManagedProcess:
         self._lifecycle_state = ""
         self._transition_to(status.STARTING, "")
         child = self.child
+        self.context.on_started(self, child)
         await wait_any(child.exited, self.ready, timeout=self.process.start_timeout_s)
         if self.ready.is_set() and not child.has_exited:
-            self._was_ready, self._starts_without_ready = True, 0
+            self.was_ready, self._starts_without_ready = True, 0
             up = time.monotonic() - child.started
             self.context.log(f"{self.name} is ready after {up:.2f} s (pid {child.pid})")
-        elif not child.has_exited and not self.context.stopping.is_set():
+        elif not child.has_exited and not self.stop_requested.is_set():
             await self._on_start_timeout()
         await child.exited.wait()
         self.child = None
@@ -204,6 +225,7 @@ class ManagedProcess:
             self._note = self.hang.summary()
             return child.code or EXIT_TIMEOUT
         if self._killed:
+            self._note = self._failure or self._note
             return EXIT_TIMEOUT
         self._note = describe_exit(child.code)
         return child.code
@@ -276,13 +298,3 @@ class ManagedProcess:
     def _transition_to(self, state: str, reason: str) -> None:
         self._state, self._note = state, reason
         self.context.changed()
-
-
-async def wait_any(*events: asyncio.Event, timeout: float | None = None) -> None:
-    """Wait until one of `events` is set, at most `timeout` seconds."""
-    tasks = [asyncio.ensure_future(event.wait()) for event in events]
-    try:
-        await asyncio.wait(tasks, timeout=timeout, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        for task in tasks:
-            task.cancel()

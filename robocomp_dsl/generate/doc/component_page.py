@@ -108,7 +108,11 @@ def _facts(component: Component, site: DocumentationSite) -> Iterator[tuple[str,
     homes = [
         deployment
         for deployment in site.subject.deployments
-        if any(site.page(part.component) == site.page(component) for part in deployment.instances)
+        if any(
+            site.page(part.component) == site.page(component)
+            for part in deployment.instances
+            if not part.is_program
+        )
     ]
     if homes:
         yield "Deployed in", join_inlines(map(site.link, homes))

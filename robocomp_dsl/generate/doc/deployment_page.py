@@ -69,7 +69,7 @@ def _blocks(deployment: Deployment, site: DocumentationSite) -> Iterator[Block]:
 def _instance(instance: Instance, site: DocumentationSite) -> tuple[Inlines, ...]:
     return (
         inline_code(instance.name),
-        site.link(instance.component),
+        plain_text("program") if instance.is_program else site.link(instance.component),
         inline_code(instance.host.name),
         join_inlines(_settings(instance)),
         _start(instance),

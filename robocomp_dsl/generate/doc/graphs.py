@@ -38,6 +38,8 @@ def deployment_figure(deployment: Deployment, site: DocumentationSite) -> Figure
 
 def _instance(instance: Instance, site: DocumentationSite) -> GraphNode:
     host = f" on {instance.host.name}" if instance.host.name else ""
+    if instance.is_program:
+        return GraphNode(instance.name, "component", None, f"program{host}", instance.executable)
     component = instance.component.name
     subtitle = f"{component if component != instance.name else ''}{host}".strip()
     tooltip = f"{instance.name}: component {component}{host}"

@@ -69,6 +69,8 @@ def _port_with_interface(port: Port) -> str:
 
 def _instance(instance: Instance) -> str:
     host = f" on {instance.host.name}" if instance.host.name else ""
+    if instance.is_program:
+        return f"program {instance.name}{host}    // {instance.executable}"
     head = f"component {instance.name} : {instance.component.name}{host}\n"
     return head + _prefix(instance) + _component(instance.component)
 
@@ -88,7 +90,10 @@ def _deployment(deployment: Deployment) -> str:
         f"connect {c.source.name}.{c.source_port.name} -> {c.target.name}.{c.target_port.name};"
         for c in deployment.connections
     ]
-    instances = [f"component {i.name} : {i.component.name};" for i in deployment.instances]
+    instances = [
+        f"program {i.name};" if i.is_program else f"component {i.name} : {i.component.name};"
+        for i in deployment.instances
+    ]
     return format_block(f"Deployment {deployment.name}", instances + connections)
 
 

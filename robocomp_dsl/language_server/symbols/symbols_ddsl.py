@@ -76,7 +76,9 @@ class _OccurrenceCollector:
             instances[group.name.text] = self._symbol(group.name, "group")
             yield Occurrence(group.name.span, instances[group.name.text], declares=True)
             yield from self.of_block(group)
-        kinds = {i.name.text: (i.component or i.name).text for i in tree.instances}
+        kinds = {
+            i.name.text: (i.component or i.name).text for i in tree.instances if not i.is_program
+        }
         for instance in tree.instances:
             yield from self._instance(instance, instances)
         ends = [end for c in tree.connections for end in (c.source, c.target)]
@@ -94,7 +96,7 @@ class _OccurrenceCollector:
 
     def _instance(self, tree: ast.Instance, known: Mapping[str, Symbol]) -> Iterator[Occurrence]:
         own, name = tree.name.text, tree.component or tree.name
-        component = self._components.get(name.text)
+        component = None if tree.is_program else self._components.get(name.text)
         short = component is not None and tree.component is None
         if component:
             template = f"{own} : {{}}" if short else "{}"

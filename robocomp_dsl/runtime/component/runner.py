@@ -8,6 +8,7 @@ until `stop`. The lifecycle runs in its own thread, so the main thread can handl
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -26,6 +27,7 @@ from robocomp_dsl.runtime.component.lifecycle import (
     Lifecycle,
     LifecycleState,
 )
+from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
@@ -46,6 +48,8 @@ SHUTDOWN_TIMEOUT_S = 2.0
 FINALIZE_TIMEOUT_S = 1.5
 """Time for `finalize` beside a hook that did not return. The sum of the three is below the grace
 period of rcdeploy."""
+PING_MARGIN = 0.75
+"""A hang is found after this share of the interval in which the supervisor expects a ping."""
 HANG_TIMEOUT_S = 0.3
 """Time for the current hook to return after the watchdog has found a hang."""
 
@@ -80,7 +84,8 @@ class Runner:
             self.callback_group,
             self.statistics,
             settings.listen_port,
-            self.fail,
+            fail=self.fail,
+            unique_name=True,
         )
         self.middleware_name = settings.middleware or self.spec.middleware
         self.middleware = open_middleware(self.middleware_name, host)
@@ -88,6 +93,7 @@ class Runner:
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.middleware
         )
+        self.notifier = SystemdNotifier()
         self.worker = self._create_worker(component, clock or self._clock_binding.clock)
         self.lifecycle = Lifecycle(
             self.worker,
@@ -95,7 +101,7 @@ class Runner:
             self.worker.clock,
             self.callback_group,
             self.statistics,
-            lambda state: self.middleware.publish_state(state.value),
+            self._publish_state,
         )
         self.worker._lifecycle = self.lifecycle
         if self.spec.machine:
@@ -107,18 +113,33 @@ class Runner:
             target=self._run, name=f"{self.name}.lifecycle", daemon=True
         )
         self._supervisor_pipe = SupervisorPipe()
-        limit = self.spec.watchdog if settings.watchdog is None else settings.watchdog
+        limit = self._watchdog_limit()
+        group = self.callback_group
         self.watchdog = (
-            CallbackWatchdog(
-                limit,
-                self.callback_group,
-                self._activity_of,
-                self._on_hang,
-                self._supervisor_pipe.beat,
-            )
+            CallbackWatchdog(limit, group, self._activity_of, self._on_hang, self._on_beat)
             if limit
             else None
         )
+
+    def _watchdog_limit(self) -> float:
+        """The time in s that a callback may take; 0.0: no limit.
+
+        A supervisor that expects pings more often than that sets a lower one.
+        """
+        configured = self.settings.watchdog
+        limit = self.spec.watchdog if configured is None else configured
+        if not self.notifier.watchdog_s:
+            return limit
+        return min(limit or math.inf, self.notifier.watchdog_s * PING_MARGIN)
+
+    def _on_beat(self, seconds: float) -> None:
+        self._supervisor_pipe.beat(seconds)
+        if seconds:
+            self.notifier.ping()
+
+    def _publish_state(self, state: LifecycleState) -> None:
+        self.middleware.publish_state(state.value)
+        self.notifier.state_changed(state.value, self.lifecycle.reason)
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
         """The user's object, with the attributes that `Component` declares."""

@@ -54,7 +54,9 @@ class MiddlewareContext:
     """The component that a middleware serves. Components of other domains are invisible.
 
     `listen_port` 0: chosen by the middleware. `fail` ends the component as failed, with a reason; a
-    middleware calls it when one of its threads dies.
+    middleware calls it when one of its threads dies. `unique_name`: opening fails with
+    `MiddlewareError` if another process runs a component of this name in the domain; clients share
+    names.
     """
 
     component: str
@@ -63,6 +65,7 @@ class MiddlewareContext:
     statistics: Statistics
     listen_port: int = 0
     fail: Callable[[str], None] = log.error
+    unique_name: bool = False
 
 
 class Channel(Protocol):

@@ -1,4 +1,4 @@
-"""A model in the browser, on this machine only.
+"""A model in the browser, on this machine and for this user only.
 
 In: a model, its state, a port. Out: a self-contained page at 127.0.0.1 that shows them; changes on
 the page change the state. Needs the extra `view`.
@@ -16,7 +16,9 @@ import mujoco
 import numpy as np
 
 from robocomp_dsl.extras import MissingExtra
+from robocomp_dsl.runtime.private_folder import read_page_token
 from robocomp_dsl.simulation.view.controls import Controls
+from robocomp_dsl.simulation.view.page_guard import PageGuard
 from robocomp_dsl.simulation.view.picture import Viewpoint, scene_extent
 from robocomp_dsl.simulation.view.remote_simulation import SimulationControl
 from robocomp_dsl.simulation.view.stage import Colours, Floats, Stage
@@ -39,7 +41,10 @@ class BrowserPage:
     """Open until `close`. `model` and `data` belong to it, or are used under `controls.lock`.
 
     To show another state: set joints in `data`, call `mujoco.mj_kinematics`, and then
-    `refresh`; or pass poses to `follow`. `remote` controls a world in another process.
+    `refresh`; or pass poses to `follow`. `remote` controls a world in another process. `url`
+    contains the token of the user, without which nothing is served (see `page_guard`).
+
+    Raises `OSError` if the port is in use, and `UnsafeFolder` if the token cannot be read.
     """
 
     def __init__(
@@ -57,10 +62,13 @@ class BrowserPage:
         port = _free(port)  # viser would silently use another port
         logging.getLogger("websockets").setLevel(logging.ERROR)
         rich.get_console().quiet = True  # viser shows a panel of its own at first
-        self._server = viser.ViserServer(host=LOOPBACK, port=port, label=name, verbose=False)
+        guard = PageGuard(read_page_token())
+        with guard.install():
+            self._server = viser.ViserServer(host=LOOPBACK, port=port, label=name, verbose=False)
         # a page could request a tunnel to an external server
         self._server.request_share_url = _no_tunnel  # type: ignore[method-assign]
-        self.url = f"http://{LOOPBACK}:{self._server.get_port()}"
+        self.port = self._server.get_port()
+        self.url = f"http://{LOOPBACK}:{self.port}/{guard.token}/"
         self._server.gui.configure_theme(show_logo=False, show_share_button=False)
         self._server.scene.set_up_direction("+z")
         self._look_at(model, data)
@@ -125,18 +133,6 @@ class BrowserPage:
     def close(self) -> None:
         """Close the page."""
         self._server.stop()
-
-
-def serve(
-    name: str, model: Any, data: Any, look: Viewpoint, port: int, say: Callable[[str], None]
-) -> None:
-    """Show the model until Ctrl-C. Raises `OSError` if the port is in use."""
-    page = BrowserPage(name, model, data, look, port=port)
-    say(page.url)
-    try:
-        page.run()
-    finally:
-        page.close()
 
 
 def _no_tunnel(verbose: bool = True) -> None:

@@ -37,6 +37,24 @@ class Restart(Node):
     window: Duration | None = None
 
 
+class ReadyWhen(Node):
+    """`ready when log matches "listening";`, `ready when port 8080 answers;`, `ready after 2 s;`.
+
+    Exactly one of the three is set.
+    """
+
+    pattern: Text | None = None
+    port: Number | None = None
+    delay: Duration | None = None
+
+
+class Memory(Node):
+    """`memory 500 MB;`."""
+
+    amount: Number
+    unit: Name
+
+
 class Device(Node):
     """`device arm : control_board { set part = LArm; };`."""
 
@@ -67,7 +85,8 @@ class Instance(Node):
     """`component reflex : reflex on robot { … };`.
 
     `component` is None if it has the name of the instance; `host` None: this machine; `from_` is
-    the file of `from`. If a setting is repeated, the first one is stored (the second was reported).
+    the file of `from`. `is_program`: written as `program`, without component. If a setting is
+    repeated, the first one is stored (the second was reported).
     """
 
     name: Name
@@ -87,8 +106,12 @@ class Instance(Node):
     after: tuple[Name, ...] = ()
     restart: Restart | None = None
     ready: Duration | None = None
+    ready_when: ReadyWhen | None = None
+    memory: Memory | None = None
+    cpu: Number | None = None
     watchdog: Duration | None = None
     doc: str = ""
+    is_program: bool = False
 
 
 class PortRef(Node):

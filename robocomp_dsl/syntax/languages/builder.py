@@ -156,8 +156,9 @@ class Builder:
         """Field to value of the settings among `items`; the first one if a field is repeated."""
         settings: dict[str, BlockSetting] = {}
         for setting in of_kind(BlockSetting, items):
+            keyword = setting.field.rstrip("_").replace("_", " ")
             settings[setting.field] = self.first_of(
-                settings.get(setting.field), setting, f"`{setting.field.rstrip('_')}`"
+                settings.get(setting.field), setting, f"`{keyword}`"
             )
         return {field: setting.value for field, setting in settings.items()}
 

@@ -28,12 +28,13 @@ class DdslBuilder(InstancesBuilder):
 
     ITEM_NAMES: ClassVar = {
         "file_item": "`import` or `Deployment`",
-        "deployment_item": "`component`, `connect`, `host`, `group`, `middleware`, `clock`",
+        "deployment_item": "`component`, `program`, `connect`, `host`, `group`, `middleware`, "
+        "`clock`",
         "host_item": "`address`, `user`, `labels`",
         "instance_item": "a setting of the component (`config`, `set`, `after`, `device`, …)",
         "device_item": "`set`, a parameter of the device",
         "qos_item": "`reliable`, `best_effort`, `priority`, `depth`, `deadline`",
-        "group_item": "`component`, `connect`, `export`, `group`, `after`",
+        "group_item": "`component`, `program`, `connect`, `export`, `group`, `after`",
     }
 
     def start(self, span: Span, *items: Any) -> ast.File:

@@ -15,6 +15,7 @@ from robocomp_dsl.syntax.languages.builder import BlockSetting, of_kind
 from robocomp_dsl.syntax.languages.ddsl_devices import DevicesBuilder
 
 POLICIES = ("on-failure", "always", "never")
+MEMORY_UNITS = ("kB", "MB", "GB", "KiB", "MiB", "GiB")
 
 
 class InstancesBuilder(DevicesBuilder):
@@ -24,6 +25,18 @@ class InstancesBuilder(DevicesBuilder):
         self, span: Span, name: Name, kind: Name | None, host: Name | None, body: Any
     ) -> ast.Instance:
         """`component name : kind on host { … };`."""
+        return self._instance_node(span, name, kind, host, body)
+
+    def _instance_node(
+        self,
+        span: Span,
+        name: Name,
+        kind: Name | None,
+        host: Name | None,
+        body: Any,
+        *,
+        is_program: bool = False,
+    ) -> ast.Instance:
         items = body or ()
         return ast.Instance(
             span,
@@ -36,8 +49,13 @@ class InstancesBuilder(DevicesBuilder):
             actions=of_kind(ast.Action, items),
             environment=of_kind(ast.Environment, items),
             doc=self.doc(span),
+            is_program=is_program,
             **self.settings(items),
         )
+
+    def program(self, span: Span, name: Name, host: Name | None, body: Any) -> ast.Instance:
+        """`program name on host { … };`."""
+        return self._instance_node(span, name, None, host, body, is_program=True)
 
     def on(self, _span: Span, host: Name) -> Name:
         """`on host`."""
@@ -110,6 +128,27 @@ class InstancesBuilder(DevicesBuilder):
     def ready(self, span: Span, within: Duration) -> BlockSetting:
         """`ready within 10 s;`."""
         return BlockSetting(span, "ready", within)
+
+    def ready_log(self, span: Span, pattern: Text) -> BlockSetting:
+        """`ready when log matches "…";`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, pattern))
+
+    def ready_port(self, span: Span, port: Number) -> BlockSetting:
+        """`ready when port 8080 answers;`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, None, port))
+
+    def ready_after(self, span: Span, delay: Duration) -> BlockSetting:
+        """`ready after 2 s;`."""
+        return BlockSetting(span, "ready_when", ast.ReadyWhen(span, None, None, delay))
+
+    def memory(self, span: Span, amount: Number, unit: Name) -> BlockSetting:
+        """`memory 500 MB;`."""
+        self.check_choice(unit, MEMORY_UNITS, "unit of memory")
+        return BlockSetting(span, "memory", ast.Memory(span, amount, unit))
+
+    def cpu(self, span: Span, share: Number) -> BlockSetting:
+        """`cpu 80 %;`."""
+        return BlockSetting(span, "cpu", share)
 
     def watchdog(self, span: Span, limit: Duration) -> BlockSetting:
         """`watchdog 2 s;`."""

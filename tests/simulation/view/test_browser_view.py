@@ -23,7 +23,7 @@ from robocomp_dsl.simulation.view.nodes import quaternion, roll_pitch_yaw, tree
 from robocomp_dsl.simulation.view.shapes import colour, triangles
 from robocomp_dsl.simulation.view.stage import relative_poses
 from robocomp_dsl.simulation.world.visual_state import capture
-from tests.support.chromium_tab import Tab, needs_chromium, opened_tab, red
+from tests.support.chromium_tab import URL_LINE, Tab, needs_chromium, opened_tab, red
 from tests.support.waiting import TIMEOUT_S, wait_until
 
 MODELS = Path(__file__).parents[1] / "models" / "files"
@@ -43,7 +43,7 @@ def test_browser_view_listens_on_loopback_only(page: BrowserPage) -> None:
     assert page.url.startswith(f"http://{LOOPBACK}:")
     with urllib.request.urlopen(page.url, timeout=TIMEOUT_S) as answer:
         assert b"<html" in answer.read(2000).lower()
-    port = int(page.url.rpartition(":")[2])
+    port = page.port
     listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
     mine = [line.split()[1] for line in listening.splitlines() if f":{port:04X} " in line]
     assert mine
@@ -200,7 +200,7 @@ def test_browser_view_renders_scene_in_browser_without_other_requests(tab: Tab) 
     ) as served:
         try:
             assert served.stdout
-            received = re.match(r"view at (http://127\.0\.0\.1:\d+);", served.stdout.readline())
+            received = re.match(URL_LINE, served.stdout.readline())
             assert received
             tab("Network.enable")
             tab("Page.enable")

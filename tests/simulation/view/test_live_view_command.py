@@ -18,7 +18,7 @@ pytest.importorskip("viser", reason="needs the extra `view`")
 
 from tests.simulation.served_worlds import CLIENT, rcgen, run
 from tests.simulation.view.live_world import WORLD
-from tests.support.chromium_tab import needs_chromium, opened_tab, red
+from tests.support.chromium_tab import URL_LINE, needs_chromium, opened_tab, red
 from tests.support.waiting import TIMEOUT_S, wait_until
 
 
@@ -70,7 +70,7 @@ def test_live_view_shows_driving_robot_in_browser(simulator: Path) -> None:
         options = ["room_simulator", "--domain", domain, "--port", "0"]
         with command(*VIEW, *options, cwd=simulator) as view:
             assert view.stdout
-            received = re.match(r"view at (http://127\.0\.0\.1:\d+);", view.stdout.readline())
+            received = re.match(URL_LINE, view.stdout.readline())
             assert received
             tab("Page.enable")
             screen = {"width": 600, "height": 400, "deviceScaleFactor": 1, "mobile": False}

@@ -7,6 +7,7 @@ a page on this machine, or a PNG file; findings on standard error.
 from __future__ import annotations
 
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +15,7 @@ import click
 
 from robocomp_dsl.cli import options
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
-from robocomp_dsl.cli.rcgen.simulation.view_output import port_error, print_url, save_screenshot
+from robocomp_dsl.cli.rcgen.simulation.view_output import page_errors, save_screenshot, shown_page
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.extras import MissingExtra
 
@@ -71,6 +72,11 @@ def _size(_: click.Context, __: click.Parameter, written: str) -> tuple[int, int
 @click.option(
     "--port", default=8080, show_default=True, help="Port of the page; 0 chooses a free port."
 )
+@click.option(
+    "--browser/--no-browser",
+    default=None,
+    help="Open the page in the browser; default: on a terminal with a display.",
+)
 @options.packages
 @options.output_format
 def command(
@@ -88,14 +94,15 @@ def command(
     names: bool,
     contacts: bool,
     port: int,
+    browser: bool | None,
     packages: tuple[Path, ...],
     output_format: str,
 ) -> None:
     """Show a world, a robot or a running simulation in the browser, or save a screenshot.
 
     FILE is InnerModel, URDF or MJCF, or a shipped robot: nao_h21, nao_h25, icub_v2. The page is
-    served on this machine only. Of a model with errors the valid part is shown. With `--live` the
-    page follows a running simulation, and can pause it.
+    served on this machine only, and to you only: its URL contains a token. Of a model with errors
+    the valid part is shown. With `--live` the page follows a running simulation, and can pause it.
     """
     if file is None and not live:
         raise click.UsageError("Missing argument 'FILE'; `--live` shows a simulation that runs.")
@@ -109,7 +116,7 @@ def command(
     if live or file is None:
         from robocomp_dsl.cli.rcgen.simulation import view_live  # noqa: PLC0415 - loads a middleware
 
-        view_live.show(str(file or ""), domain, look, screenshot, size, port)
+        view_live.show(str(file or ""), domain, look, screenshot, size, port, opens=browser)
         return
     subject = read_subject(file, packages, report)
     options.print_findings(report.sorted(), output_format, sys.stderr)
@@ -118,13 +125,13 @@ def command(
     if screenshot:
         save_screenshot(subject.model, subject.data(), screenshot, size, look)
     else:
-        _serve(subject, port, look)
+        _serve(subject, port, look, opens=browser)
 
 
-def _serve(subject: Subject, port: int, look: Viewpoint) -> None:
-    from robocomp_dsl.simulation.view.browser import serve  # noqa: PLC0415 - needs an extra
+def _serve(subject: Subject, port: int, look: Viewpoint, *, opens: bool | None) -> None:
+    from robocomp_dsl.simulation.view.browser import BrowserPage  # noqa: PLC0415 - needs an extra
 
-    try:
-        serve(subject.name, subject.model, subject.data(), look, port, print_url)
-    except OSError as error:
-        raise port_error(port, error) from None
+    with page_errors(port):
+        page = BrowserPage(subject.name, subject.model, subject.data(), look, port=port)
+    with closing(page), shown_page(page.url, opens=opens):
+        page.run()

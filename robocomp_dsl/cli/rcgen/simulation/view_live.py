@@ -40,6 +40,8 @@ def show(
     screenshot: Path | None,
     size: tuple[int, int],
     port: int,
+    *,
+    opens: bool | None,
 ) -> None:
     """See the module; exits with code 1 unless exactly one simulation matches."""
     with _simulation(component, domain) as (simulation, nodes):
@@ -48,7 +50,7 @@ def show(
                 seen = fetch_live_state(simulation)
                 view_output.save_screenshot(seen.model, seen.data(), screenshot, size, look)
             else:
-                _serve(component or "simulation", simulation, nodes, look, port)
+                _serve(component or "simulation", simulation, nodes, look, port, opens=opens)
         except AmbiguousServer as error:
             names = [server.partition(".")[0] for server in error.servers]
             raise CliError(
@@ -65,18 +67,15 @@ def _serve(
     nodes: InnerModelManagerProxy,
     look: Viewpoint,
     port: int,
+    *,
+    opens: bool | None,
 ) -> None:
     from robocomp_dsl.simulation.view.live import LivePage  # noqa: PLC0415 - needs an extra
 
-    try:
+    with view_output.page_errors(port):
         page = LivePage(name, simulation, look, port=port, nodes=nodes)
-    except OSError as error:
-        raise view_output.port_error(port, error) from None
-    view_output.print_url(page.page.url)
-    try:
+    with closing(page), view_output.shown_page(page.page.url, opens=opens):
         page.run()
-    finally:
-        page.close()
 
 
 @contextmanager

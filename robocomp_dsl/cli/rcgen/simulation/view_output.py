@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
+from robocomp_dsl.runtime.private_folder import UnsafeFolder
 
 if TYPE_CHECKING:
     from robocomp_dsl.simulation.view.picture import Viewpoint
@@ -26,12 +29,30 @@ def save_screenshot(
     print(f"{path}: {size[0]} x {size[1]} pixels")
 
 
-def port_error(port: int, error: OSError) -> CliError:
-    """The error for a port that the page cannot use."""
-    reason = error.strerror or error
-    return CliError(EXIT_FINDINGS, f"port {port} cannot be used: {reason}; try --port 0")
+@contextmanager
+def page_errors(port: int) -> Iterator[None]:
+    """Turn the errors of opening a page into those of the command."""
+    from robocomp_dsl.simulation.view.page_guard import Unprotected  # noqa: PLC0415 - an extra
+
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or error
+        raise CliError(
+            EXIT_FINDINGS, f"port {port} cannot be used: {reason}; try --port 0"
+        ) from None
+    except (UnsafeFolder, Unprotected) as error:
+        raise CliError(EXIT_FINDINGS, str(error)) from None
 
 
-def print_url(url: str) -> None:
-    """Print the URL of the page."""
+@contextmanager
+def shown_page(url: str, *, opens: bool | None) -> Iterator[None]:
+    """Print the URL of the page and open it; `opens` None: if there is a display."""
+    from robocomp_dsl.simulation.view.open_browser import (  # noqa: PLC0415 - slow: MuJoCo
+        has_display,
+        opened_in_browser,
+    )
+
     print(f"view at {url}; Ctrl-C stops", flush=True)
+    with opened_in_browser(url, opens=has_display() if opens is None else opens):
+        yield

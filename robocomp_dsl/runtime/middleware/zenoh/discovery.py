@@ -1,170 +1,130 @@
 """Discovery of processes of one user on one machine: a folder of sockets per domain.
 
 In: a domain. Out: an open zenoh session that is connected to every live process of the domain. Each
-process listens on a socket in the folder `robocomp-<uid>/<domain>` of the user's runtime directory
-and connects to all existing sockets at its start; a lock serialises the starts, so none is missed.
-Only the user can access the folder. There is no multicast and no TCP port, unless a port is
-requested, which is bound to loopback.
+process listens on a socket in the domain folder and connects to all members before it. Connections
+are made in the background: a peer that does not respond is tried again until it does, and delays
+nobody. There is no multicast and no TCP port, unless a port is requested, which is bound to
+loopback. Every peer proves that it knows the token of the user.
 """
 
 from __future__ import annotations
 
-import contextlib
-import fcntl
 import json
-import os
 import socket
-import tempfile
-from collections.abc import Iterator
 from dataclasses import dataclass
-from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.file_lock import FileLock
+from robocomp_dsl.runtime.middleware.zenoh.close_session import close_session
+from robocomp_dsl.runtime.middleware.zenoh.domain_folder import Membership, join
+from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, claim_component
+from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, token_file
 
-_LOCK = "lock"
 _WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"
-MAX_SOCKET_PATH = 100
-"""A socket path is limited to 108 bytes, and zenoh appends `.lock`."""
+CONNECT_WAIT_MS = 250
+"""The start waits this long for peers to respond; usually all do within 5 ms."""
+HANDSHAKE_TIMEOUT_MS = 3000
+"""Deadline of one attempt to connect, at both ends; the next attempt follows."""
 
 
 @dataclass(frozen=True, slots=True)
 class DomainSession:
-    """A session and the socket that it listens on."""
+    """A session, the socket that it listens on, and the component's claim on its name."""
 
     session: zenoh.Session
-    socket: Path
+    membership: Membership
+    name: FileLock | None = None
+    port: int = 0
+
+    @property
+    def socket(self) -> Path:
+        """The socket that the session listens on."""
+        return self.membership.socket
 
     def close(self) -> None:
         """Close the session and delete the socket; the last process also deletes the folder."""
-        # Closing twice, or after the peer has exited, is allowed.
-        with contextlib.suppress(zenoh.ZError):
-            self.session.close()
-        folder = self.socket.parent
-        with contextlib.suppress(OSError), _folder_lock(folder):
-            _remove(self.socket)
-            # `_live_sockets` also deletes the sockets of killed processes.
-            if not list(_live_sockets(folder)) and [p.name for p in folder.iterdir()] == [_LOCK]:
-                (folder / _LOCK).unlink()
-                folder.rmdir()
+        close_session(self.session, self.socket, self.port)
+        if self.name:
+            self.name.release(delete=True)
+        self.membership.leave()
 
 
-def open_session(domain: str, port: int = 0, *, hold_s: float = 0.0) -> DomainSession:
+def open_session(
+    domain: str, port: int = 0, name: str = "", *, hold_s: float = 0.0
+) -> DomainSession:
     """Open a session in `domain`, which also listens on TCP `port` of loopback if not 0.
 
-    `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default of zenoh.
+    With `name`, the session is that of a component, which no other component of the domain may be
+    called. `hold_s`: how long a peer that receives nothing may hold a publication; 0: the default
+    of zenoh.
 
-    Raises `MiddlewareError` if the folder or the port cannot be used.
+    Raises `MiddlewareError` if the name is taken, or the folder or the port cannot be used.
     """
-    folder = _domain_folder(domain)
-    with _folder_lock(folder):
-        others = [f"unixsock-stream/{path}" for path in _live_sockets(folder)]
-        mine = _unused_socket(folder)
-        listen = [f"unixsock-stream/{mine}"]
-        if port:
-            _check_port_free(port)
-            listen.append(f"tcp/127.0.0.1:{port}")
-        try:
-            config = _config(listen, others)
-            if hold_s:
-                config.insert_json5(_WAIT_BEFORE_DROP_US, str(round(hold_s * 1e6)))
-            return DomainSession(zenoh.open(config), mine)
-        except zenoh.ZError as error:
-            raise MiddlewareError(f"zenoh cannot listen at {', '.join(listen)}: {error}") from None
+    try:
+        lock = claim_component(domain, name) if name else None
+    except (NameTaken, UnsafeFolder, OSError) as error:
+        raise MiddlewareError(str(error)) from None
+    membership: Membership | None = None
+    try:
+        membership, others = join(domain)
+        session = _open(membership.socket, others, port, hold_s)
+    except (UnsafeFolder, MiddlewareError) as error:
+        if lock:
+            lock.release(delete=True)
+        if membership:
+            membership.leave()
+        raise MiddlewareError(str(error)) from None
+    return DomainSession(session, membership, lock, port)
 
 
-def _config(listen: list[str], connect: list[str]) -> zenoh.Config:
+def _open(own: Path, others: list[Path], port: int, hold_s: float) -> zenoh.Session:
+    listen = [f"unixsock-stream/{own}"]
+    if port:
+        _check_port_free(port)
+        listen.append(f"tcp/127.0.0.1:{port}")
+    config = _config(listen, [f"unixsock-stream/{path}" for path in others], own.parent.parent)
+    if hold_s:
+        config.insert_json5(_WAIT_BEFORE_DROP_US, str(round(hold_s * 1e6)))
+    try:
+        return zenoh.open(config)
+    except zenoh.ZError as error:
+        raise MiddlewareError(f"zenoh cannot listen at {', '.join(listen)}: {error}") from None
+
+
+def _config(listen: list[str], connect: list[str], user_folder: Path) -> zenoh.Config:
     config = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": "peer",
         "listen/endpoints": listen,
         "connect/endpoints": connect,
-        # All listed peers are alive; one that exits right now must not delay the start.
-        "connect/timeout_ms": 0,
+        # -1: connect in the background, and again after a failure.
+        "connect/timeout_ms": -1,
+        "connect/exit_on_failure": False,
+        # A member that has joined may not listen yet.
+        "connect/retry": {
+            "period_init_ms": 10,
+            "period_max_ms": 2000,
+            "period_increase_factor": 2,
+        },
+        "open/return_conditions/connect_scouted": True,
+        # With gossip off, declarations would be waited for until the delay is over.
+        "open/return_conditions/declares": False,
+        "scouting/delay": CONNECT_WAIT_MS,
+        "transport/unicast/open_timeout": HANDSHAKE_TIMEOUT_MS,
+        "transport/unicast/accept_timeout": HANDSHAKE_TIMEOUT_MS,
         "scouting/multicast/enabled": False,
         "scouting/gossip/enabled": False,
+        "transport/auth/usrpwd/user": USER,
+        "transport/auth/usrpwd/password": read_token(user_folder),
+        "transport/auth/usrpwd/dictionary_file": str(token_file(user_folder)),
     }
     for key, value in settings.items():
         config.insert_json5(key, json.dumps(value))
     return config
-
-
-def _domain_folder(domain: str) -> Path:
-    base = Path(os.environ.get("XDG_RUNTIME_DIR") or tempfile.gettempdir())
-    plain = domain if domain.replace("-", "").replace("_", "").isalnum() else ""
-    name = (
-        plain if 0 < len(plain) <= 24 else f"{plain[:15]}{sha256(domain.encode()).hexdigest()[:8]}"
-    )
-    folder = base / f"robocomp-{os.getuid()}" / name
-    if len(str(folder)) + 20 > MAX_SOCKET_PATH:
-        folder = Path(tempfile.gettempdir()) / f"robocomp-{os.getuid()}" / name
-    try:
-        folder.parent.mkdir(mode=0o700, exist_ok=True)
-        folder.mkdir(mode=0o700, exist_ok=True)
-        owner = folder.parent.stat()
-    except OSError as error:
-        raise MiddlewareError(f"cannot use {folder} to find other components: {error}") from None
-    if owner.st_uid != os.getuid() or owner.st_mode & 0o077:
-        raise MiddlewareError(f"{folder.parent} belongs to, or is open to, other users")
-    return folder
-
-
-@contextlib.contextmanager
-def _folder_lock(folder: Path) -> Iterator[None]:
-    """Hold the lock of the folder; the kernel releases the lock of a killed process."""
-    lock = _acquire_lock(folder)
-    while lock is None:
-        lock = _acquire_lock(folder)
-    try:
-        yield
-    finally:
-        os.close(lock)
-
-
-def _acquire_lock(folder: Path) -> int | None:
-    """The lock; None if the previous holder deleted the folder in the meantime."""
-    folder.mkdir(mode=0o700, exist_ok=True)
-    try:
-        lock = os.open(folder / _LOCK, os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o600)
-    except FileNotFoundError:
-        return None
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if os.path.samestat(os.fstat(lock), (folder / _LOCK).stat()):
-            return lock
-    except FileNotFoundError:
-        pass
-    os.close(lock)
-    return None
-
-
-def _unused_socket(folder: Path) -> Path:
-    number = 0
-    while (path := folder / f"{os.getpid()}-{number}").exists():
-        number += 1
-    return path
-
-
-def _live_sockets(folder: Path) -> Iterator[Path]:
-    """Sockets with a listening process; deletes those of killed processes."""
-    for path in sorted(folder.iterdir()):
-        if not path.is_socket():
-            continue
-        with socket.socket(socket.AF_UNIX) as probe:
-            try:
-                probe.connect(str(path))
-            except OSError:
-                _remove(path)
-            else:
-                yield path
-
-
-def _remove(path: Path) -> None:
-    for file in (path, path.with_name(f"{path.name}.lock")):
-        file.unlink(missing_ok=True)
 
 
 def _check_port_free(port: int) -> None:

@@ -25,7 +25,8 @@ from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
 
 def open_for(host: MiddlewareContext) -> ZenohMiddleware:
     """A session for one component."""
-    return ZenohMiddleware(host, open_session(host.domain, host.listen_port))
+    name = host.component if host.unique_name else ""
+    return ZenohMiddleware(host, open_session(host.domain, host.listen_port, name))
 
 
 class ZenohMiddleware:
