@@ -202,7 +202,8 @@ class ServedZenohPort:
             try:
                 attachment = sample.attachment
                 if attachment is not None:
-                    pending.append(attachment)
+                    # A copy: the attachment itself would keep zenoh's receive buffer in use.
+                    pending.append(attachment.to_bytes())
                 data = sample.payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
