@@ -43,7 +43,7 @@ def test_hanging_compute_is_restarted_and_shown_in_status(hanging_app: None) -> 
         running.until("watchdog: compute has hung for")
         running.until("arm finalizes")
         running.until("arm is ready after")
-        rows = json.loads(rcdeploy("status", "--format", "json").stdout)["components"]
+        rows = json.loads(rcdeploy("status", "app", "--format", "json").stdout)["components"]
         text = rcdeploy("status").stdout
         rcdeploy("stop")
         assert running.end() == 0
