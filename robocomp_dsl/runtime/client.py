@@ -1,7 +1,8 @@
 """Client of a running deployment: calls and subscribes from a program that is not a component.
 
-In: the name of a domain, interfaces of generated modules. Out: functions that call operations, and
-calls of handlers. Components do not see the program.
+In: the name of a domain, and interfaces: of generated modules, or of the schema that a running
+component serves. Out: functions that call operations, and calls of handlers. Components do not see
+the program. `robocomp_dsl.client` is the public name of this module.
 """
 
 from __future__ import annotations
@@ -11,15 +12,22 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
-from typing import Any
+from types import ModuleType, SimpleNamespace, TracebackType
+from typing import TYPE_CHECKING, Any, Self
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.errors import NoServer, SchemaError
 from robocomp_dsl.runtime.middleware.base import Channel, Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.dynamic.description import ComponentDescription
+
+_SCHEMA_TIMEOUT_S = 1.0
+"""A component serves its schema at the same moment as the interface `Component`."""
 
 
 class DomainClient:
@@ -27,12 +35,47 @@ class DomainClient:
 
     def __init__(self, domain: str, middleware: str = "zenoh", name: str = "client") -> None:
         self._name, self._execution = name, CallbackGroup()
-        host = MiddlewareContext(name, domain, self._execution, Statistics())
+        self.statistics = Statistics()
+        host = MiddlewareContext(name, domain, self._execution, self.statistics)
         self._middleware = open_middleware(middleware, host)
+
+    def components(self, timeout: float = 1.0) -> list[str]:
+        """The names of the components in the domain; waits up to `timeout` s for the first one."""
+        return self._middleware.find_servers(COMPONENT, timeout)
 
     def component(self, name: str) -> ComponentProxy:
         """A proxy of the interface `Component` of the component `name`."""
         return ComponentProxy(self.channel(COMPONENT, name, "Component"))
+
+    def describe(self, component: str, timeout: float = 5.0) -> ComponentDescription:
+        """Ports, interfaces and types of a running component, without generated code.
+
+        Waits up to `timeout` s. Raises `NoServer` if there is no such component, `SchemaError` if
+        it serves no schema, as components of older versions, and `Timeout` if it does not reply.
+        """
+        # Programs that have generated code load none of this.
+        from robocomp_dsl.runtime.dynamic.description import describe_component  # noqa: PLC0415
+        from robocomp_dsl.runtime.dynamic.schema_interface import (  # noqa: PLC0415
+            COMPONENTSCHEMA,
+            ComponentSchemaProxy,
+        )
+
+        about = self.component(component)
+        about.set_timeout(timeout)
+        if not about.wait_for_server(timeout):
+            raise NoServer(f"there is no component `{component}` in this domain")
+        info = about.getInfo()
+        proxy = ComponentSchemaProxy(self.channel(COMPONENTSCHEMA, component, "Component"))
+        proxy.set_timeout(timeout)
+        if not proxy.wait_for_server(min(timeout, _SCHEMA_TIMEOUT_S)):
+            raise SchemaError(
+                f"`{component}` does not serve its schema (Component.getInterfaces): it runs with"
+                " an older version of robocomp_dsl; update it and start it again"
+            )
+        try:
+            return describe_component(info, proxy.getInterfaces())
+        except SchemaError as error:
+            raise SchemaError(f"the schema of `{component}` is invalid: {error}") from None
 
     def operations(self, interface: Interface, component: str, port: str) -> Any:
         """The operations of a component's port, as attributes by operation name."""
@@ -57,9 +100,21 @@ class DomainClient:
         peers = (f"{component}.{port}",) if component else ()
         return self._middleware.proxy(Endpoint(interface, self._name, port, peers))
 
+    def publisher(self, interface: Interface, component: str, port: str) -> Channel:
+        """A channel that publishes what subscribers take for messages of a component's port."""
+        return self._middleware.advertise(Endpoint(interface, component, port))
+
     def close(self) -> None:
         """Leave the domain."""
         self._middleware.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: object, trace: TracebackType | None
+    ) -> None:
+        self.close()
 
 
 def load_generated_interfaces(folder: Path) -> ModuleType:

@@ -61,6 +61,10 @@ class InterfaceMismatch(MiddlewareError):
     """The two components were generated from different versions of the interface."""
 
 
+class SchemaError(MiddlewareError):
+    """A component does not serve its schema, or what it sent is not a valid one."""
+
+
 class RemoteError(MiddlewareError):
     """The server failed with an exception that its interface does not declare."""
 

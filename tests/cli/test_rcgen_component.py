@@ -22,6 +22,7 @@ ALL = {
     "etc/config.yaml",
     "talker_generated/__init__.py",
     "talker_generated/genericworker.py",
+    "talker_generated/interfaces.json",
     "talker_generated/interfaces.py",
     "talker_generated/params.py",
     "main.py",
@@ -48,7 +49,9 @@ def tree(folder: Path) -> dict[str, bytes]:
 def test_component_is_written_beside_file(rcgen: Rcgen, talker: Path) -> None:
     run = rcgen("component", "talker.cdsl")
     assert (run.code, run.err) == (0, "")
-    expected = "9 of 9 files written; yours to edit: specificworker.py, etc/config.yaml, README.md"
+    expected = (
+        "10 of 10 files written; yours to edit: specificworker.py, etc/config.yaml, README.md"
+    )
     assert run.out == f".: {expected}\n"
     assert set(tree(talker)) == ALL | RECORD | {"talker.cdsl", "Talk.idsl"}
 
@@ -62,7 +65,7 @@ def test_component_is_idempotent(rcgen: Rcgen, talker: Path) -> None:
     rcgen("component", "talker.cdsl", "-o", "out")
     stamps = {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")}
     run = rcgen("component", "talker.cdsl", "-o", "out")
-    assert run.out == "out: nothing to do, all 9 files are up to date\n"
+    assert run.out == "out: nothing to do, all 10 files are up to date\n"
     assert {p: p.stat().st_mtime_ns for p in (talker / "out").rglob("*")} == stamps
 
 
@@ -76,7 +79,7 @@ def test_component_check_diff_and_dry_run_write_nothing(rcgen: Rcgen, talker: Pa
     assert "--- /dev/null\n+++ main.py\n" in diff.out
     dry = rcgen("component", "talker.cdsl", "--dry-run")
     assert dry.code == 0
-    assert dry.out.count("create ") == 9
+    assert dry.out.count("create ") == 10
     assert tree(talker) == before
 
 

@@ -14,6 +14,14 @@ COMPONENT = """\
 import "Component.idsl";
 Component x { Communications { implements Component; requires Component; }; language Python; };
 """
+SCHEMA = """\
+import "ComponentSchema.idsl";
+Component x
+{
+    Communications { implements ComponentSchema; requires ComponentSchema; };
+    language Python;
+};
+"""
 CLOCK = """\
 import "LockStep.idsl";
 import "Clock.idsl";
@@ -34,6 +42,7 @@ Component x { Communications { requires Simulation, InnerModelManager; }; langua
     ("cdsl", "name"),
     [
         (COMPONENT, "runtime/component/component_interface"),
+        (SCHEMA, "runtime/dynamic/schema_interface"),
         (CLOCK, "runtime/time/clock_interface"),
         (SIMULATION, "simulation/simulation_interface"),
     ],
@@ -42,9 +51,10 @@ def test_generated_interface_module_is_up_to_date(tmp_path: Path, cdsl: str, nam
     (tmp_path / "x.cdsl").write_text(cdsl)
     result = CliRunner().invoke(program, ["component", str(tmp_path / "x.cdsl")])
     assert result.exit_code == 0, result.output
-    fresh = (tmp_path / "x_generated/interfaces.py").read_text()
-    module = ROOT / f"robocomp_dsl/{name}.py"
-    assert module.read_text() == fresh, (
-        "an IDSL file in interfaces/ or the generator has changed:"
-        f" put the new interfaces.py into {module.relative_to(ROOT)}"
-    )
+    for suffix in (".py", ".json"):
+        fresh = (tmp_path / "x_generated/interfaces").with_suffix(suffix).read_text()
+        file = ROOT / f"robocomp_dsl/{name}{suffix}"
+        assert file.read_text() == fresh, (
+            "an IDSL file in interfaces/ or the generator has changed:"
+            f" put the new interfaces{suffix} into {file.relative_to(ROOT)}"
+        )

@@ -19,10 +19,20 @@ TABLE = {
     "check": ("rcdeploy.check", "Check a deployment; start nothing."),
     "status": ("rcdeploy.status", "Show the components of running deployments."),
     "logs": ("rcdeploy.logs", "Show the logs of a running deployment."),
+    "list": ("rcdeploy.inspect.listing", "List ports, operations and types of components."),
+    "echo": ("rcdeploy.inspect.echo", "Print what a component publishes."),
+    "hz": ("rcdeploy.inspect.hz", "Measure how often a component publishes."),
+    "bw": ("rcdeploy.inspect.bw", "Measure how many bytes a component publishes."),
+    "call": ("rcdeploy.inspect.call", "Call an operation and print its result."),
+    "pub": ("rcdeploy.inspect.pub", "Publish a message."),
+    "stats": ("rcdeploy.inspect.stats", "Show calls, losses and times of components."),
+    "loglevel": ("rcdeploy.inspect.loglevel", "Set the log level of a component."),
+    "period": ("rcdeploy.inspect.period", "Set the period of a component."),
     "param": ("rcdeploy.param", "Read and change parameters of running components."),
     "stop": ("rcdeploy.stop", "Stop a running deployment, or components of it."),
     "start": ("rcdeploy.start", "Start components of a running deployment."),
     "restart": ("rcdeploy.restart", "Restart components of a running deployment."),
+    "completion": ("rcdeploy.inspect.completion_script", "Print the completion script of a shell."),
 }
 
 program = LazyGroup(

@@ -10,6 +10,7 @@ from robocomp_dsl.generate.exports.config_schema import config_schema
 from robocomp_dsl.generate.output import OutputFile
 from robocomp_dsl.generate.python import params, worker
 from robocomp_dsl.generate.python.component_names import modules_of, names_of
+from robocomp_dsl.generate.python.documentation import documentation
 from robocomp_dsl.generate.python.interface_code import interfaces_code
 from robocomp_dsl.generate.templates import render
 from robocomp_dsl.model.component import Component
@@ -36,10 +37,12 @@ def component_files(component: Component, middleware: str) -> list[OutputFile]:
     config = list(params.config_lines(parameter_list))
     rows = [_row(p) for p in parameter_list]
     schema = config_schema(code.title, component.doc, parameter_list)
+    texts = documentation(py_names.interfaces, py_names.types)
     return [
         _file("main.py", worker=code),
         _file(f"{package}/__init__.py", "generated_init.py", worker=code),
         _file(f"{package}/interfaces.py", code=interfaces),
+        OutputFile(f"{package}/interfaces.json", texts),
         _file(f"{package}/params.py", code=parameters),
         _file(f"{package}/genericworker.py", worker=code),
         *([_file(f"{package}/machine.py", machine=code.machine)] if code.machine else []),

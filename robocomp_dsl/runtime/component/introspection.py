@@ -1,4 +1,4 @@
-"""Serves the interface `Component` (`interfaces/Component.idsl`), which every component has.
+"""Serves the interfaces `Component` and `ComponentSchema`, which every component has.
 
 In: a runner. Out: handlers. They run in their own callback group: a component whose `compute` hangs
 can still be inspected and stopped.
@@ -8,13 +8,16 @@ from __future__ import annotations
 
 import os
 import socket
+import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Any, Protocol
 
 from robocomp_dsl.runtime.component import logs
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import (
+    COMPONENT,
     ComponentInfo,
     LifeState,
     OperationStatistics,
@@ -23,11 +26,13 @@ from robocomp_dsl.runtime.component.component_interface import (
     Refusal,
     Statistics,
 )
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.statistics import Statistics as RunStatistics
+from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA, Schema
 from robocomp_dsl.runtime.parameters import ParameterRejected, Parameters
 
 MAX_PERIOD_MS = 3_600_000
@@ -52,15 +57,20 @@ class InspectedRunner(Protocol):
     callback_group: CallbackGroup
     started: float
 
+    @property
+    def worker(self) -> object:
+        """The object of the user's class."""
+
     def stop(self) -> None:
         """Request a stop; returns immediately."""
 
 
 class Introspection:
-    """The servant of `Component`."""
+    """The servant of `Component` and `ComponentSchema`."""
 
     def __init__(self, runner: InspectedRunner) -> None:
         self._runner = runner
+        self._schema: Schema | None = None
         self.callback_group = CallbackGroup()
 
     def handlers(self) -> Mapping[str, Any]:
@@ -75,6 +85,38 @@ class Introspection:
             "getStatistics": self.get_statistics,
             "stop": self._runner.stop,
         }
+
+    def schema_handlers(self) -> Mapping[str, Any]:
+        """Handlers of `ComponentSchema` by operation name."""
+        return {"getInterfaces": self.get_interfaces}
+
+    def get_interfaces(self) -> Schema:
+        """The types of all ports."""
+        # Computed on request: most components are never asked.
+        from robocomp_dsl.runtime.dynamic import describe, documentation  # noqa: PLC0415
+
+        if self._schema is None:
+            files = self._documentation_files()
+            texts = documentation.Documentation(files)
+            self._schema = describe.describe_interfaces(self._interfaces(), texts)
+        return self._schema
+
+    def _interfaces(self) -> Iterator[Interface]:
+        for attribute in _PORT_ROLES.values():
+            for port in getattr(self._runner.spec, attribute):
+                yield getattr(port, "interface", None) or port.proxy.INTERFACE
+        yield from (COMPONENT, COMPONENTSCHEMA)
+
+    def _documentation_files(self) -> Iterator[Path]:
+        """`interfaces.json` of the generated package, and those of the runtime's interfaces."""
+        for cls in type(self._runner.worker).__mro__:
+            path = getattr(sys.modules.get(cls.__module__), "__file__", None)
+            if path:
+                yield Path(path).with_name("interfaces.json")
+        runtime = Path(__file__).parents[1]
+        yield runtime / "component" / "component_interface.json"
+        yield runtime / "dynamic" / "schema_interface.json"
+        yield runtime / "time" / "clock_interface.json"
 
     def get_info(self) -> ComponentInfo:
         """Name, state and ports."""
@@ -154,6 +196,7 @@ class Introspection:
     def get_statistics(self) -> Statistics:
         """All statistics."""
         figures = self._runner.statistics
+        figures.refresh()
         period50, period99 = figures.periods.milliseconds(50, 99)
         compute50, compute99 = figures.computes.milliseconds(50, 99)
         return Statistics(

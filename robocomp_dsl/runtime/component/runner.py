@@ -33,6 +33,7 @@ from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
+from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
 from robocomp_dsl.runtime.middleware.calling import describe_error
@@ -192,6 +193,9 @@ class Runner:
         introspection = Introspection(self)
         at = self._endpoint("Component", COMPONENT)
         self.middleware.serve(at, introspection.handlers(), introspection.callback_group)
+        # An interface of its own: a new operation in `Component` would change its type hash.
+        at = self._endpoint("Component", COMPONENTSCHEMA)
+        self.middleware.serve(at, introspection.schema_handlers(), introspection.callback_group)
         self._thread.start()
         if self.watchdog:
             self.watchdog.start()

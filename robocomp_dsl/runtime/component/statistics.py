@@ -5,6 +5,7 @@ Counting uses no lock: a figure may miss a concurrent call, but counting never d
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -62,6 +63,22 @@ class Statistics:
     computes: Durations = field(default_factory=Durations)
     overruns: int = 0
     failures: int = 0
+
+    _refreshers: list[Callable[[], None]] = field(default_factory=list)
+
+    def on_refresh(self, refresh: Callable[[], None]) -> None:
+        """Call `refresh` before counts are read that take time to determine."""
+        self._refreshers.append(refresh)
+
+    def off_refresh(self, refresh: Callable[[], None]) -> None:
+        """Undo `on_refresh`."""
+        if refresh in self._refreshers:
+            self._refreshers.remove(refresh)
+
+    def refresh(self) -> None:
+        """Bring all counts up to date; takes a fraction of a second if peers hang."""
+        for refresh in list(self._refreshers):
+            refresh()
 
     def of(self, port: str, operation: str) -> OperationCounts:
         """The counts of one operation, created on first use."""

@@ -102,6 +102,9 @@ class Middleware(Protocol):
     ) -> None:
         """Pass publications to `handlers`, by operation name, in the order of each publisher."""
 
+    def find_servers(self, interface: Interface, timeout: float) -> list[str]:
+        """The components that serve `interface`, sorted; waits up to `timeout` s for the first."""
+
     def publish_state(self, state: str) -> None:
         """Publish the lifecycle state to monitors of the domain; "" before the end."""
 

@@ -186,6 +186,17 @@ class InprocMiddleware:
         """See `base.Middleware`."""
         return InprocTopicChannel(self._host, self._domain, at)
 
+    def find_servers(self, interface: Interface, timeout: float) -> list[str]:
+        """See `base.Middleware`."""
+
+        def names() -> list[str]:
+            found = self._domain.ports_of(self._domain.servers, interface)
+            return sorted({port.endpoint.component for port in found})
+
+        with self._domain.changed:
+            self._domain.changed.wait_for(names, timeout)
+            return names()
+
     def publish_state(self, state: str) -> None:
         """No effect: other processes cannot monitor this one."""
 

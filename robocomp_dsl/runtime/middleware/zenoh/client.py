@@ -31,7 +31,9 @@ from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HeldPublisher
 from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken
+from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherCounter
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
+from robocomp_dsl.runtime.middleware.zenoh.sequence import SEQUENCE_FORMAT
 
 PRIORITIES = {
     "realtime": zenoh.Priority.REAL_TIME,
@@ -304,11 +306,13 @@ class ZenohTopicChannel:
         self._publishers: list[zenoh.Publisher] = []
         self._listeners: list[Any] = []
         self._stale, self._has_subscribers = True, False
+        self._counter = PublisherCounter(session, host.domain, at)
 
     def bind(self, operation: Operation) -> OperationCallable:
         """See `base.Channel`."""
         counts = self._host.statistics.of(self._at.port, operation.name)
-        encode, number = operation.encode_request, keys.SEQUENCE_FORMAT.pack
+        encode, pack = operation.encode_request, SEQUENCE_FORMAT.pack
+        publisher_id, sequence = self._counter.id, self._counter.counter(operation.name)
         key = (
             f"{keys.port_key(self._host.domain, 't', self._at)}/{keys.escape_chunk(operation.name)}"
         )
@@ -325,10 +329,7 @@ class ZenohTopicChannel:
 
         def publish(*arguments: Any) -> None:
             data = encode(arguments)
-            if counts.calls % keys.SEQUENCE_INTERVAL:
-                publisher.put(data)
-            else:
-                publisher.put(data, attachment=number(counts.calls & 0xFFFFFFFF))
+            publisher.put(data, attachment=pack(publisher_id, next(sequence)))
             counts.calls += 1
             counts.bytes_out += len(data)
 

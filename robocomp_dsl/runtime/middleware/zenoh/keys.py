@@ -5,25 +5,23 @@
     rc/<domain>/t/<interface>/<hash>/<component>/<port>/<operation>  publications
     rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>       token: this port exists
     rc/<domain>/s/<component>/<pid>/<state>                          token: this component is alive
+    rc/<domain>/a/<component>/<port>/<id>/<created>                  token: a publisher, its id
+    rc/<domain>/n/<interface>/<hash>/<component>/<port>/<operation>  number of publications so far
 
 The hash is the type hash of the interface: messages of another version are not routed to a port,
-and the tokens let both sides detect the difference. Every `SEQUENCE_INTERVAL`th publication has an
-attachment: the number of messages its publisher sent before (4 bytes, little endian), from which a
-subscriber computes its losses. (An attachment on every message costs a tenth of a round trip.)
+and the tokens let both sides detect the difference. Every publication has an attachment with a
+sequence number (`sequence.SEQUENCE_FORMAT`), from which a subscriber computes its losses.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from struct import Struct
 from typing import Literal
 from urllib.parse import quote, unquote
 
 from robocomp_dsl.runtime.middleware.base import Endpoint
 
-SEQUENCE_INTERVAL = 16
-SEQUENCE_FORMAT = Struct("<I")
-Kind = Literal["q", "c", "t"]
+Kind = Literal["q", "c", "t", "n"]
 
 
 def escape_chunk(text: str) -> str:
@@ -85,3 +83,34 @@ def parse_state(key: str) -> tuple[str, int, str] | None:
     if len(chunks) != 6 or chunks[2] != "s" or not chunks[4].isdigit():
         return None
     return chunks[3], int(chunks[4]), chunks[5]
+
+
+@dataclass(frozen=True, slots=True)
+class PublisherToken:
+    """The token of a publisher: a random id, and when it was created (monotonic clock, ns)."""
+
+    component: str
+    port: str
+    id: int
+    created: int
+
+    def key(self, domain: str) -> str:
+        """The key of the token."""
+        chunks = (self.component, self.port, f"{self.id:016x}", str(self.created))
+        return f"{domain_prefix(domain)}/a/{'/'.join(escape_chunk(chunk) for chunk in chunks)}"
+
+
+def parse_publisher_token(key: str) -> PublisherToken | None:
+    """The inverse of `PublisherToken.key`; None for any other key."""
+    chunks = [unquote(chunk) for chunk in key.split("/")]
+    if len(chunks) != 7 or chunks[2] != "a":
+        return None
+    try:
+        return PublisherToken(chunks[3], chunks[4], int(chunks[5], 16), int(chunks[6]))
+    except ValueError:
+        return None
+
+
+def counts_key(domain: str, component: str, port: str) -> str:
+    """The key of the numbers of all operations that a port publishes."""
+    return f"{domain_prefix(domain)}/n/*/*/{escape_chunk(component)}/{escape_chunk(port)}/*"

@@ -12,11 +12,13 @@ from collections.abc import Mapping
 import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
 from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HOLD_S
+from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherRegistry
 from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
 
@@ -35,6 +37,7 @@ class ZenohMiddleware:
         self._opened = opened
         self._session = opened.session
         self._registry = PortRegistry(self._session, host.domain)
+        self._publishers: PublisherRegistry | None = None
         self._ports: list[ServedZenohPort] = []
         self._tokens: list[zenoh.LivelinessToken] = []
         self._reliable: DomainSession | None = None
@@ -75,7 +78,10 @@ class ZenohMiddleware:
     ) -> None:
         """See `base.Middleware`."""
         port = ServedZenohPort(self._host, at, handlers, execution)
-        port.subscribe(self._session)
+        if self._publishers is None:
+            self._publishers = PublisherRegistry(self._session, self._host.domain)
+            self._host.statistics.on_refresh(self._publishers.settle)
+        port.subscribe(self._session, self._publishers)
         self._ports.append(port)
         self._declare("subscriber", at)
         self._registry.warn_on_mismatch("publisher", at)
@@ -87,6 +93,17 @@ class ZenohMiddleware:
         )
         token = self._session.liveliness().declare_token(port_token.key(self._host.domain))
         self._tokens.append(token)
+
+    def find_servers(self, interface: Interface, timeout: float) -> list[str]:
+        """See `base.Middleware`."""
+        if not self._registry.wait("server", interface.name, lambda _token: True, timeout):
+            return []
+        # The tokens of other peers may not have arrived: ask all peers.
+        key = f"{keys.domain_prefix(self._host.domain)}/p/server/**"
+        replies = self._session.liveliness().get(key, timeout=timeout)
+        samples = [reply.ok for reply in replies if reply.ok is not None]
+        tokens = [keys.parse_port_token(str(sample.key_expr)) for sample in samples]
+        return sorted({t.component for t in tokens if t and t.interface == interface.name})
 
     def publish_state(self, state: str) -> None:
         """See `base.Middleware`."""
@@ -117,6 +134,9 @@ class ZenohMiddleware:
         ports, self._ports = self._ports, []
         for port in ports:
             port.close()
+        if self._publishers:
+            self._host.statistics.off_refresh(self._publishers.settle)
+            self._publishers.close()
         if self._reliable:
             self._reliable.close()
         self._opened.close()

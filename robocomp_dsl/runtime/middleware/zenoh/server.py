@@ -10,6 +10,7 @@ its caches are cold, and each line costs five times what it costs in a loop.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Mapping
 from threading import get_ident
 from time import perf_counter_ns
@@ -27,6 +28,11 @@ from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, Op
 from robocomp_dsl.runtime.middleware.calling import log, log_failure, with_deadline_check
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import encode_failure
+from robocomp_dsl.runtime.middleware.zenoh.losses import (
+    MAX_PENDING,
+    LossCounter,
+    PublisherRegistry,
+)
 
 DEPTH = 256
 """Default queue length."""
@@ -56,6 +62,7 @@ class ServedZenohPort:
         self._declared: list[Any] = []
         self._queues: list[LeaderFollowerQueue] = []
         self._reported: set[str] = set()
+        self._publishers: PublisherRegistry | None = None
 
     def serve(self, session: zenoh.Session) -> None:
         """Answer queries, and receive commands if the interface has any."""
@@ -68,8 +75,9 @@ class ServedZenohPort:
             key = keys.port_key(self._host.domain, "c", self.at)
             self._drain(session.declare_subscriber(f"{key}/*", channel), self._dispatch_samples())
 
-    def subscribe(self, session: zenoh.Session) -> None:
+    def subscribe(self, session: zenoh.Session, publishers: PublisherRegistry) -> None:
         """Subscribe to the publishers that the port is connected to, or to all."""
+        self._publishers = publishers
         root = keys.interface_key(self._host.domain, "t", self.at)
         for peer in self.at.peers or (ANY,):
             component, _, port = peer.partition(".")
@@ -184,7 +192,8 @@ class ServedZenohPort:
         decode = operation.decode_request
         acquire, release = self._execution.acquire, self._execution.release
         holders = self._execution.holders
-        losses = DropCounter(counts)
+        losses = self._loss_counter(counts)
+        pending = losses.pending if losses else deque(maxlen=1)
 
         def handle_sample(sample: zenoh.Sample) -> None:
             counts.calls += 1
@@ -192,7 +201,7 @@ class ServedZenohPort:
             try:
                 attachment = sample.attachment
                 if attachment is not None:
-                    losses.count(str(sample.key_expr), attachment.to_bytes())
+                    pending.append(attachment)
                 data = sample.payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
@@ -207,8 +216,16 @@ class ServedZenohPort:
                 self._report_failure(operation, error, counts)
             if start:
                 counts.durations.add(perf_counter_ns() - start)
+                if len(pending) > MAX_PENDING and losses is not None:
+                    losses.process()
 
         return handle_sample
+
+    def _loss_counter(self, counts: OperationCounts) -> LossCounter | None:
+        """The counter of lost publications; commands have none."""
+        if self._publishers is None:
+            return None
+        return self._publishers.loss_counter(self.at, counts, self._execution)
 
     def _reply_error(
         self,
@@ -246,24 +263,3 @@ class ServedZenohPort:
             entry.undeclare()
         for queue in self._queues:
             queue.join(0.5)
-
-
-class DropCounter:
-    """Counts lost messages: exact for one publisher, a lower bound for several."""
-
-    def __init__(self, counts: OperationCounts) -> None:
-        self._counts = counts
-        self._before: dict[str, tuple[int, int]] = {}
-
-    def count(self, publisher: str, attachment: bytes) -> None:
-        """Count losses from the number that `publisher` attached to the message just received."""
-        if len(attachment) != keys.SEQUENCE_FORMAT.size:
-            return
-        sent: int = keys.SEQUENCE_FORMAT.unpack(attachment)[0]
-        received = self._counts.calls
-        sent_before, received_before = self._before.get(publisher, (sent, received))
-        # A smaller number means that the publisher was restarted.
-        lost = (sent - sent_before) - (received - received_before)
-        if sent >= sent_before and lost > 0:
-            self._counts.drops += lost
-        self._before[publisher] = (sent, received)

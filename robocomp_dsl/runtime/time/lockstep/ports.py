@@ -118,6 +118,10 @@ class LockstepMiddleware:
         for topic in self._topics:
             topic.connect(everyone)
 
+    def find_servers(self, interface: Interface, timeout: float) -> list[str]:
+        """See `base.Middleware`."""
+        return self._inner.find_servers(interface, timeout)
+
     def publish_state(self, state: str) -> None:
         """See `base.Middleware`."""
         self._inner.publish_state(state)

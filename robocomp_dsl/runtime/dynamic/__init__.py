@@ -1,0 +1,1 @@
+"""Types at run time: from the types of a component to its schema, and back."""
