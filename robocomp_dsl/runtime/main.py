@@ -31,6 +31,7 @@ from robocomp_dsl.runtime.component.settings import (
     parse_remaps,
 )
 from robocomp_dsl.runtime.component.spec import ComponentSpec
+from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError, Parameters
@@ -52,6 +53,8 @@ def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
         parser.error(str(error))
     name = settings.full_name(component.SPEC.name)
     logs.set_up(name, options.log_level, options.log_format)
+    if options.traceback:
+        os.environ[TRACEBACK_VARIABLE] = "1"
     try:
         config, save_beside = _configuration(options, settings, component.SPEC.name)
         params = component.SPEC.parameters.load(config, settings.overrides, save_beside=save_beside)
@@ -205,6 +208,11 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
         choices=logs.LEVELS,
         default=_default_log_level(),
         help="(info, or LOG_LEVEL)",
+    )
+    add(
+        "--traceback",
+        action="store_true",
+        help=f"log the traceback of each error in user code (or set {TRACEBACK_VARIABLE}=1)",
     )
     add("--log-format", choices=("text", "json"), default="text")
     add("--version", action="version", version=f"{spec.name}, robocomp_dsl {__version__}")

@@ -22,6 +22,10 @@ NEVER = Restart("never")
 class RequestRun(SupervisorRun):
     """A run in which `steps` act when the text `begin_at` appears; then it stops."""
 
+    def __init__(self, tmp_path: Path, *processes: Process, options: Options | None = None) -> None:
+        patient = Options(grace_s=60.0, stop_timeout_s=60.0)  # a busy machine kills nothing
+        super().__init__(tmp_path, *processes, options=options or patient)
+
     replies: list[str]
     replanned: Callable[[], tuple[Plan, str]] | None = None
 
@@ -121,7 +125,7 @@ def test_requests_start_after_restarts_were_given_up(tmp_path: Path) -> None:
     fixed = tmp_path / "fixed"
     body = f"if not os.path.exists({str(fixed)!r}): sys.exit(3)\n" + STEADY
     bad = scripted_process(tmp_path, "a", body, restart=Restart(max=1))
-    keep_going = Options(keep_going=True, grace_s=5.0)
+    keep_going = Options(keep_going=True, grace_s=60.0, stop_timeout_s=60.0)
     run = RequestRun(tmp_path, bad, scripted_process(tmp_path, "b", STEADY), options=keep_going)
 
     async def steps(run: RequestRun) -> None:

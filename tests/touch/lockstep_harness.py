@@ -43,13 +43,14 @@ class SteppedClockSource(Component):
         self.clock.set_speed(0)
 
     def compute(self) -> None:
+        group = self._lifecycle._callback_group
         while not self.left and not self.over:
-            paused = self._runner.callback_group.pause()
+            paused = group.pause()
             self.idle.set()
             self.resumed.wait()
             self.resumed.clear()
             if paused:
-                self._runner.callback_group.resume()
+                group.resume()
         if not self.over:
             self.left -= 1
             self.tick()

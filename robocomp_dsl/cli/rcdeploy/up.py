@@ -57,6 +57,12 @@ MEGABYTE = 1_000_000
     help="Keep the other components running after a permanent failure.",
 )
 @click.option(
+    "--traceback",
+    "show_traceback",
+    is_flag=True,
+    help="Log the traceback of each error in a component's code.",
+)
+@click.option(
     "--log-format",
     "output_format",
     type=click.Choice(["text", "json"]),
@@ -91,6 +97,7 @@ def command(
     group: str | None,
     name: str | None,
     domain: str | None,
+    show_traceback: bool,
     **how: Any,
 ) -> None:
     """Check the deployment, start its components in order, and supervise them.
@@ -98,6 +105,8 @@ def command(
     The exit code is 0 if it was stopped on request or all components exited successfully, 1 for
     findings or a failed component, 141 if the reader of its output has gone.
     """
+    if show_traceback:
+        os.environ["ROBOCOMP_TRACEBACK"] = "1"
     checked = rcdeploy_app.check(app, folders, name, domain, group)
     with contextlib.suppress(OSError):  # a full disk does not keep a robot from running
         options.print_findings(checked.findings, "full", sys.stderr)

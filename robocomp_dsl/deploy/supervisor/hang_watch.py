@@ -75,7 +75,7 @@ class HangWatch:
 
 def location_of(stack: tuple[str, ...]) -> str:
     """`file:line` of the innermost frame of user code in a dump of `faulthandler`; "" without."""
-    from robocomp_dsl.runtime.middleware.calling import (  # noqa: PLC0415 - only after a hang
+    from robocomp_dsl.runtime.component.user_errors import (  # noqa: PLC0415 - only after a hang
         is_library_code,
     )
 

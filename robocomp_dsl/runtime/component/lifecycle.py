@@ -21,8 +21,8 @@ from robocomp_dsl.runtime.clock import CLOCK_LOST, NANO, TIME_DIGITS, Clock, Wak
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.throttle import Throttle
+from robocomp_dsl.runtime.component.user_errors import describe_error, log_error, log_failure
 from robocomp_dsl.runtime.machine import Machine
-from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.parameters import ConfigError
 
 log = logging.getLogger("robocomp")
@@ -280,8 +280,7 @@ class Lifecycle:
     def _log_throttled(self, error: Exception) -> None:
         message = describe_error(error)
         if self._throttle.allows(message):
-            log.error("compute failed, retrying: %s", message)
-            log.debug("traceback", exc_info=error)
+            log_error(f"compute failed, retrying: {message}", error)
 
     def _call_hook(
         self, hook: Callable[[], None], name: str, slot_timeout_s: float | None = None
@@ -294,8 +293,7 @@ class Lifecycle:
             log.error("%s", str(error).removeprefix("error: "))  # noqa: TRY400
             return False
         except BaseException as error:
-            log.error("%s failed: %s", name, describe_error(error))  # noqa: TRY400 - traceback below
-            log.debug("traceback", exc_info=error)
+            log_failure(name, error)
             return False
         finally:
             if entered:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.calling import describe_error
+from robocomp_dsl.runtime.component.user_errors import describe_error
 
 
 class QueueClosed(Exception):

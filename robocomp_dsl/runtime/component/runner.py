@@ -32,11 +32,11 @@ from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
+from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
-from robocomp_dsl.runtime.middleware.calling import describe_error
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
@@ -143,6 +143,7 @@ class Runner:
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
         """The user's object, with the attributes that `Component` declares."""
+        add_user_folder(component)
         worker = component()
         worker.name = self.name
         worker.params = self.params
@@ -225,11 +226,12 @@ class Runner:
     def _on_fatal_error(self, error: BaseException) -> None:
         """End the component as failed: an error that is no emergency left the lifecycle."""
         hint = "; to end a component normally, call self.quit()"
-        self.fail(
+        message = (
             f"{self.lifecycle.state.value} failed for good: {describe_error(error)}"
             f"{hint if isinstance(error, SystemExit) else ''}"
         )
-        log.debug("traceback", exc_info=error)
+        log_error(message, error)
+        self._end_as_failed()
 
     def _log_started(self) -> None:
         period = f"every {self.spec.period} ms" if self.spec.period else "on events"
@@ -243,6 +245,9 @@ class Runner:
     def fail(self, reason: str) -> None:
         """Stop the component as failed."""
         log.error("%s", reason)
+        self._end_as_failed()
+
+    def _end_as_failed(self) -> None:
         self._failed = True
         self.stop()
 

@@ -21,7 +21,7 @@ from types import FrameType
 from robocomp_dsl.runtime.component import debugger
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.hang_report import HangReport
-from robocomp_dsl.runtime.middleware.calling import is_library_code, user_location
+from robocomp_dsl.runtime.component.user_errors import is_library_code, user_location
 
 CHECKS_PER_TIMEOUT = 8
 MIN_INTERVAL_S = 0.02

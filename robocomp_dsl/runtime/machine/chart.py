@@ -6,6 +6,7 @@ itself would sleep until they are due and block the component.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable
 from types import new_class
 from typing import Any
@@ -15,6 +16,9 @@ from statemachine.event_data import TriggerData
 from statemachine.io import create_machine_class_from_definition, load
 
 from robocomp_dsl.runtime.machine.spec import MachineSpec, StateSpec, TransitionSpec
+
+# The library describes each internal step at level debug; `robocomp.machine` has the states.
+logging.getLogger("statemachine").setLevel(logging.INFO)
 
 
 class ExternallyTimedChart(StateChart[Any]):

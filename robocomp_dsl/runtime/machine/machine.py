@@ -22,6 +22,7 @@ from robocomp_dsl.runtime.machine.run_to_completion import RunToCompletionQueue
 from robocomp_dsl.runtime.machine.spec import MachineSpec
 
 log = logging.getLogger("robocomp")
+state_log = logging.getLogger("robocomp.machine")
 
 MAX_TRANSITIONS = 1000
 """Transitions that one event may cause; more are an endless loop."""
@@ -190,6 +191,7 @@ class Machine(DeprecatedMachineNames):
     def on_state_entered(self, name: str) -> None:
         """A state was entered: start its timers."""
         self._entry_count += 1
+        state_log.debug("enter %s", name)
         from robocomp_dsl.runtime.machine.chart import timer_event  # noqa: PLC0415 - see above
 
         for number, transition in enumerate(self.spec.transitions):
@@ -201,6 +203,7 @@ class Machine(DeprecatedMachineNames):
 
     def on_state_exited(self, name: str) -> None:
         """A state was exited: cancel its timers."""
+        state_log.debug("exit %s", name)
         from robocomp_dsl.runtime.machine.chart import timer_event  # noqa: PLC0415 - see above
 
         for number, transition in enumerate(self.spec.transitions):

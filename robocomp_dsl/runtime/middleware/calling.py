@@ -1,4 +1,4 @@
-"""Shared by all middlewares: select the peer of a call, and log failures of handlers.
+"""Shared by all middlewares: select the peer of a call, and check deadlines.
 
 In: endpoints and candidates. Out: one peer, or the error that says why there is none.
 """
@@ -6,11 +6,8 @@ In: endpoints and candidates. Out: one peer, or the error that says why there is
 from __future__ import annotations
 
 import logging
-import os
 import time
-import traceback
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 from typing import Any, TypeVar
 
 from robocomp_dsl.runtime.component.naming import ANY, distance, nearest, on_same_branch
@@ -23,8 +20,6 @@ DISCOVERY_TIMEOUT_S = 1.0
 
 log = logging.getLogger("robocomp")
 _T = TypeVar("_T")
-_RUNTIME = str(Path(__file__).parents[1])
-_STANDARD_LIBRARY = str(Path(os.__file__).parent)
 
 
 def matches(at: Endpoint, component: str, port: str) -> bool:
@@ -88,38 +83,3 @@ def with_deadline_check(
         return handler(*arguments)
 
     return watch
-
-
-def log_failure(what: str, error: BaseException) -> None:
-    """Log an exception of user code with its location; the traceback at level debug."""
-    log.error("%s failed: %s", what, describe_error(error))
-    log.debug("traceback of the failure of %s", what, exc_info=error)
-
-
-def describe_error(error: BaseException) -> str:
-    """`Type: message (file:line)`, with the innermost location in user code."""
-    location = user_location(traceback.extract_tb(error.__traceback__))
-    message = message_of(error)
-    text = f"{type(error).__name__}: {message}" if message else type(error).__name__
-    return f"{text} ({location})" if location else text
-
-
-def user_location(frames: traceback.StackSummary) -> str:
-    """`file:line` of the innermost frame in user code, or else of the innermost; "" without any."""
-    own = [frame for frame in frames if not is_library_code(frame.filename)] or frames
-    return f"{own[-1].filename}:{own[-1].lineno}" if own else ""
-
-
-def message_of(error: BaseException) -> str:
-    """`str(error)`; a `__str__` of user code that raises itself counts as no message."""
-    try:
-        return str(error)
-    except Exception:
-        return ""
-
-
-def is_library_code(file: str) -> bool:
-    """Whether a file is not user code: Python, the runtime, compiled codecs, generated code."""
-    if file.startswith(_STANDARD_LIBRARY) and "site-packages" not in file:
-        return True
-    return file.startswith((_RUNTIME, "<")) or Path(file).parent.name.endswith("_generated")

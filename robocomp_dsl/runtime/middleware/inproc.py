@@ -21,6 +21,7 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation, Pattern
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.component.user_errors import log_failure, message_of
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     DeclaredError,
@@ -34,9 +35,7 @@ from robocomp_dsl.runtime.middleware.calling import (
     DISCOVERY_TIMEOUT_S,
     discovery_complete,
     eligible_servers,
-    log_failure,
     matches,
-    message_of,
     select_server,
     with_deadline_check,
 )

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from robocomp_dsl.cli.program import EXIT_BROKEN_PIPE, EXIT_FINDINGS, EXIT_INTERRUPTED, CliError
-from robocomp_dsl.cli.rcdeploy import running
 
 if TYPE_CHECKING:
     from robocomp_dsl.client import ComponentDescription, DescribedPort, DomainClient
@@ -60,7 +59,11 @@ class DomainTarget:
 
     def component(self, name: str) -> str:
         """The full name of a component. Raises `CliError`."""
-        return running.resolve_component(name, self.components) if self.components else name
+        if not self.components:
+            return name
+        from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
+
+        return running.resolve_component(name, self.components)
 
     def split(self, target: str) -> tuple[str, str]:
         """`arm.Feed.x` as the full name of the component and the rest. Raises `CliError`."""
@@ -76,6 +79,8 @@ def resolve_domain(deployment: str | None, domain: str | None) -> DomainTarget:
         if deployment is not None:
             raise click.UsageError("use --deployment or --domain, not both")
         return DomainTarget(domain)
+    from robocomp_dsl.cli.rcdeploy import running  # noqa: PLC0415 - only for deployments
+
     found = running.resolve_deployment(deployment)
     return DomainTarget(found.domain, tuple(running.components(found)))
 

@@ -7,6 +7,7 @@ again.
 from __future__ import annotations
 
 from robocomp_dsl.runtime.component.interface import Operation
+from robocomp_dsl.runtime.component.user_errors import describe_error, message_of
 from robocomp_dsl.runtime.errors import (
     DeclaredError,
     EncodeError,
@@ -15,7 +16,6 @@ from robocomp_dsl.runtime.errors import (
     RemoteError,
     Timeout,
 )
-from robocomp_dsl.runtime.middleware.calling import describe_error, message_of
 
 _DECLARED = b"RCD"
 _TEXTS = {InterfaceMismatch: b"RCI", MalformedMessage: b"RCM", RemoteError: b"RCR"}

@@ -185,7 +185,7 @@ class LossCounter:
         self._trackers: dict[int, SequenceTracker] = {}
         self._reported = 0
         self._lock = threading.Lock()
-        self.pending: deque[Any] = deque()
+        self.pending: deque[bytes] = deque()
 
     @property
     def calls(self) -> int:
@@ -201,7 +201,7 @@ class LossCounter:
     def _process(self) -> None:
         pending, trackers = self.pending, self._trackers
         while pending:
-            attachment = pending.popleft().to_bytes()
+            attachment = pending.popleft()
             if len(attachment) != SEQUENCE_FORMAT.size:
                 continue
             publisher, number = SEQUENCE_FORMAT.unpack(attachment)

@@ -23,9 +23,10 @@ from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.naming import ANY, on_same_branch
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue
 from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts
+from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
-from robocomp_dsl.runtime.middleware.calling import log, log_failure, with_deadline_check
+from robocomp_dsl.runtime.middleware.calling import log, with_deadline_check
 from robocomp_dsl.runtime.middleware.zenoh import keys
 from robocomp_dsl.runtime.middleware.zenoh.answers import encode_failure
 from robocomp_dsl.runtime.middleware.zenoh.losses import (
@@ -201,7 +202,8 @@ class ServedZenohPort:
             try:
                 attachment = sample.attachment
                 if attachment is not None:
-                    pending.append(attachment)
+                    # A copy: the attachment itself would keep zenoh's receive buffer in use.
+                    pending.append(attachment.to_bytes())
                 data = sample.payload.to_bytes()
                 counts.bytes_in += len(data)
                 arguments = decode(data)
