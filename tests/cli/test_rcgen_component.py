@@ -6,6 +6,7 @@ import errno
 import os
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -256,11 +257,15 @@ def test_component_reports_impossible_folder_name(rcgen: Rcgen, talker: Path) ->
 def test_component_reports_unreadable_user_file(
     rcgen: Rcgen, talker: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse(path: Path, *_: object, **__: object) -> None:
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+    open_file = os.open
+
+    def refuse_description(path: Any, *flags: Any, **folder: Any) -> int:
+        if str(path).endswith(".cdsl"):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+        return open_file(path, *flags, **folder)
 
     monkeypatch.setattr(os, "access", lambda *_, **__: False)  # as the command line asks
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(os, "open", refuse_description)  # root may read all files
     run = rcgen("component", "talker.cdsl")
     assert run.code == 1
     assert run.err.startswith("error[RC001]: cannot read `talker.cdsl`")
