@@ -162,7 +162,7 @@ Deployment faults
         set hook = "HOOK"; set action = "ACTION"; set once = "MARK";
         restart on-failure max 5 in 60 s;
         watchdog 1 s;
-        ready within 30 s;
+        ready within 10 s;
     };
 };
 """

@@ -130,7 +130,7 @@ def fail_in_hook(folder: Path, hook: str, action: str) -> str:
 
 def trigger(app: RunningDeployment) -> None:
     """Call the handler of `faulty`; the reply does not matter."""
-    command = [*PROGRAM, "call", app.name, "faulty.Fault.trigger"]
+    command = [*PROGRAM, "call", "-d", app.name, "faulty.Fault.trigger"]
     subprocess.Popen(
         command, cwd=app.path.parent, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
@@ -180,7 +180,7 @@ def message_keys(session: zenoh.Session, domain: str) -> list[str]:
         keys += [
             f"rc/{domain}/{kind}/{interface}/{type_hash}/{component}/{port}/{operation}"
             for kind in kinds
-            for operation in (operations.get(interface, "unknown"), "*" if kind == "x" else "odd")
+            for operation in (operations.get(interface, "unknown"), "odd")
         ]
     return keys
 
