@@ -14,7 +14,7 @@ import zenoh
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
-from robocomp_dsl.runtime.middleware.zenoh import keys
+from robocomp_dsl.runtime.middleware.zenoh import keys, reliable_queue
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
 from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HOLD_S
@@ -81,7 +81,7 @@ class ZenohMiddleware:
         if self._publishers is None:
             self._publishers = PublisherRegistry(self._session, self._host.domain)
             self._host.statistics.on_refresh(self._publishers.settle)
-        port.subscribe(self._session, self._publishers)
+        port.subscribe(self._session, self._publishers, reliable_queue.HOLD_S)
         self._ports.append(port)
         self._declare("subscriber", at)
         self._registry.warn_on_mismatch("publisher", at)

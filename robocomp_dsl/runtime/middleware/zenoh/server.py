@@ -34,6 +34,7 @@ from robocomp_dsl.runtime.middleware.zenoh.losses import (
     LossCounter,
     PublisherRegistry,
 )
+from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
 
 DEPTH = 256
 """Default queue length."""
@@ -62,6 +63,7 @@ class ServedZenohPort:
         }
         self._declared: list[Any] = []
         self._queues: list[LeaderFollowerQueue] = []
+        self._reliable_queues: list[ReliableQueue] = []
         self._reported: set[str] = set()
         self._publishers: PublisherRegistry | None = None
 
@@ -76,20 +78,29 @@ class ServedZenohPort:
             key = keys.port_key(self._host.domain, "c", self.at)
             self._drain(session.declare_subscriber(f"{key}/*", channel), self._dispatch_samples())
 
-    def subscribe(self, session: zenoh.Session, publishers: PublisherRegistry) -> None:
-        """Subscribe to the publishers that the port is connected to, or to all."""
+    def subscribe(
+        self, session: zenoh.Session, publishers: PublisherRegistry, hold_s: float
+    ) -> None:
+        """Subscribe to the publishers that the port is connected to, or to all.
+
+        `hold_s`: how long a full reliable queue may hold them.
+        """
         self._publishers = publishers
         root = keys.interface_key(self._host.domain, "t", self.at)
         for peer in self.at.peers or (ANY,):
             component, _, port = peer.partition(".")
             chunk = component if component == ANY else keys.escape_chunk(component)
             key = f"{root}/{chunk}/{keys.escape_chunk(port) if port else '*'}/*"
-            declared = session.declare_subscriber(key, self._topic_channel())
             handle_sample = self._dispatch_samples()
-            other_branches = component == ANY and "/" in self.at.component
-            self._drain(
-                declared, self._same_branch_only(handle_sample) if other_branches else handle_sample
-            )
+            if component == ANY and "/" in self.at.component:
+                handle_sample = self._same_branch_only(handle_sample)
+            depth = self.at.qos.depth or DEPTH
+            if self.at.qos.reliable:
+                self._drain_reliable(session, key, ReliableQueue(depth, hold_s), handle_sample)
+            else:
+                # A full queue drops the oldest message.
+                channel: Any = zenoh.handlers.RingChannel(depth)
+                self._drain(session.declare_subscriber(key, channel), handle_sample)
 
     def _same_branch_only(self, handle_sample: SampleHandler) -> SampleHandler:
         """`handle_sample` without components of other branches; no key expression excludes them."""
@@ -105,12 +116,21 @@ class ServedZenohPort:
 
         return choose
 
-    def _topic_channel(self) -> Any:
-        depth = self.at.qos.depth or DEPTH
-        # A full reliable queue blocks the publisher; any other queue drops the oldest message.
-        if self.at.qos.reliable:
-            return zenoh.handlers.FifoChannel(depth)
-        return zenoh.handlers.RingChannel(depth)
+    def _drain_reliable(
+        self, session: zenoh.Session, key: str, samples: ReliableQueue, handle: SampleHandler
+    ) -> None:
+        put = zenoh.handlers.Callback(samples.put, indirect=False)
+        self._reliable_queues.append(samples)
+        self._declared.append(session.declare_subscriber(key, put))
+        self._queues.append(
+            LeaderFollowerQueue(
+                f"{self.at.component}.{self.at.port}",
+                samples.take,
+                handle,
+                self._execution,
+                self._host.fail,
+            )
+        )
 
     def _drain(self, declared: Any, handle: Callable[[Any], None]) -> None:
         self._declared.append(declared)
@@ -261,6 +281,8 @@ class ServedZenohPort:
 
     def close(self) -> None:
         """Receive no more messages; running handlers may finish."""
+        for samples in self._reliable_queues:
+            samples.close()
         for entry in self._declared:
             entry.undeclare()
         for queue in self._queues:
