@@ -197,7 +197,9 @@ def build(folder: Path) -> None:
 
 def write_deployment(folder: Path, name: str, quality: str) -> None:
     """Write the deployment with `quality` of service for the topic."""
-    text = DEPLOYMENT.replace(" { QOS }", f" {{ {quality} }}" if quality else "")
+    text = DEPLOYMENT.replace(" { QOS }", f" {{ {quality} }}" if quality else "").replace(
+        "Deployment campaign", f"Deployment {Path(name).stem}"
+    )
     (folder / name).write_text(text)
 
 
