@@ -6,7 +6,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
-WORKERS ?= 2
+WORKERS ?= 3
 MINUTES ?= 10
 
 # Without bytecode files every command would compile the project at its start.
