@@ -49,10 +49,10 @@ console.log(JSON.stringify(answers));
 
 def test_vscode_find_server_searches_in_order(vsix: Path, tmp_path: Path) -> None:
     assert vsix.exists()  # building it installed esbuild
-    module = tmp_path / "finding.js"
+    module = tmp_path / "find_server.js"
     esbuild = FOLDER / "node_modules" / ".bin" / "esbuild"
     options = ("--bundle", "--platform=node", "--format=cjs", f"--outfile={module}")
-    command = [esbuild, FOLDER / "src" / "finding.ts", "--log-level=warning", *options]
+    command = [esbuild, FOLDER / "src" / "find_server.ts", "--log-level=warning", *options]
     subprocess.run(command, check=True, timeout=60)
     requests = json.dumps([[{**USUAL, **places}, there] for places, there, _ in CASES])
     done = subprocess.run(
