@@ -12,7 +12,6 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 import yaml
@@ -291,20 +290,3 @@ def test_completion_offers_ports_operations_and_fields(
     offered = [item.value for item in items]
     assert offered[: len(words)] == words
     assert bool(offered) == bool(words)
-
-
-def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> None:
-    from tests.deploy.laser_app import start_app  # noqa: PLC0415 - only here
-    from tests.deploy.rcdeploy_process import rcdeploy  # noqa: PLC0415
-
-    with start_app() as app:
-        app.until("all 2 components are ready")
-        listed = rcdeploy("app.ddsl", "list").stdout
-        assert "arm.Laser" in listed
-        assert "requires" in listed
-        details = rcdeploy("list", "arm.Laser").stdout
-        assert "float angle [rad]" in details
-        result = rcdeploy("call", "arm.Laser.getLaserData", "--json", "-d", "app")
-        assert json.loads(result.stdout)[0]["angle"] == 0.5
-        wrong = rcdeploy("call", "amr.Laser.getLaserData")
-        assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr

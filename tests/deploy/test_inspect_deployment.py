@@ -1,0 +1,23 @@
+"""The inspecting commands of `rcdeploy` in a running deployment."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from tests.deploy.laser_app import start_app
+from tests.deploy.rcdeploy_process import rcdeploy
+
+
+def test_inspect_commands_find_components_of_deployment(app_folder: Path) -> None:
+    with start_app() as app:
+        app.until("all 2 components are ready")
+        listed = rcdeploy("app.ddsl", "list").stdout
+        assert "arm.Laser" in listed
+        assert "requires" in listed
+        details = rcdeploy("list", "arm.Laser").stdout
+        assert "float angle [rad]" in details
+        result = rcdeploy("call", "arm.Laser.getLaserData", "--json", "-d", "app")
+        assert json.loads(result.stdout)[0]["angle"] == 0.5
+        wrong = rcdeploy("call", "amr.Laser.getLaserData")
+        assert (wrong.returncode, "it has arm, eye" in wrong.stderr) == (1, True), wrong.stderr
