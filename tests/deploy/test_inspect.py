@@ -220,6 +220,11 @@ def start(*words: str) -> subprocess.Popen[bytes]:
     )
 
 
+def assert_quiet(errors: bytes) -> None:
+    """Nothing but losses, which a busy machine may cause, was reported."""
+    assert [line for line in errors.splitlines() if b"lost" not in line] == []
+
+
 def test_echo_ends_quietly_at_ctrl_c_and_broken_pipe(arm: InspectedArm) -> None:
     interrupted, broken = start("echo", "arm.Feed"), start("hz", "arm.Feed")
     try:
@@ -228,12 +233,12 @@ def test_echo_ends_quietly_at_ctrl_c_and_broken_pipe(arm: InspectedArm) -> None:
             assert select.select([process.stdout], [], [], 60)[0]
             process.stdout.read1(10)  # type: ignore[attr-defined]
         interrupted.send_signal(signal.SIGINT)
-        assert interrupted.communicate(timeout=60)[1] == b""
+        assert_quiet(interrupted.communicate(timeout=60)[1])
         assert interrupted.returncode == 130
         assert broken.stdout is not None
         broken.stdout.close()
         assert broken.stderr is not None
-        assert broken.stderr.read() == b""
+        assert_quiet(broken.stderr.read())
         assert broken.wait(60) == 141
     finally:
         for process in (interrupted, broken):
