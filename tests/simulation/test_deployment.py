@@ -142,12 +142,12 @@ now = hand.getState().time
 assert abs(hand.step(50) - now - 0.1) < 1e-9
 state = hand.getState()
 assert state.paused and state.realTimeFactor == 0
-kept = hand.snapshot()
+snapshot = hand.snapshot()
 hand.setSpeed(2.0)
 hand.resume()
 wait_until(lambda: hand.getState().realTimeFactor > 0 and hand.getState().time > state.time + 1)
 hand.pause()
-hand.restore(kept)
+hand.restore(snapshot)
 assert abs(hand.getState().time - state.time) < 1e-9
 hand.resume()
 wait_until(lambda: hand.getState().time > state.time + 0.5)

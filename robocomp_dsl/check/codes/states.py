@@ -227,7 +227,7 @@ Right:
 
     <transition event="go" cond="count &lt; 3" target="done"/>
 
-What needs more is a method of the worker: `on_enter_<state>` calls `self.machine.go("done")`.
+What needs more is a method of the worker: `on_enter_<state>` calls `self.machine.send("done")`.
 """,
 )
 

@@ -1,6 +1,6 @@
 """Checks the events and states in the user's code against the state machine.
 
-In: the user's module, the machine of the component. Out: findings about `self.machine.go("x")` and
+In: the user's module, the machine of the component. Out: findings about `self.machine.send("x")` and
 `self.machine.is_in("x")` where there is no such event or state.
 """
 
@@ -14,7 +14,7 @@ from robocomp_dsl.generate import codes
 from robocomp_dsl.generate.python.machine_code import MachineCode
 from robocomp_dsl.generate.regeneration.user_module import UserModule
 
-_MEANT = {"send": "event", "go": "event", "is_in": "state"}
+_KIND_OF_ARGUMENT = {"send": "event", "go": "event", "is_in": "state"}
 
 
 def report_unknown_events(user: UserModule, machine: MachineCode | None, report: Report) -> None:
@@ -48,8 +48,8 @@ def _named(class_: ast.ClassDef) -> Iterator[tuple[str, str, ast.Constant]]:
                     value=ast.Attribute(value=ast.Name(id="self"), attr="machine"), attr=method
                 ),
                 args=[ast.Constant(value=str(name)) as text, *_],
-            ) if method in _MEANT:
-                yield _MEANT[method], name, text
+            ) if method in _KIND_OF_ARGUMENT:
+                yield _KIND_OF_ARGUMENT[method], name, text
 
 
 def _takes(event: str, known: Collection[str]) -> bool:

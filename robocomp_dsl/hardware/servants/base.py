@@ -12,7 +12,7 @@ from robocomp_dsl.hardware.servants.servant import Servant
 
 
 def base_state_to_message(struct: type[Any], state: Any) -> Any:
-    """A `BaseState` as the struct `made`."""
+    """A `BaseState` as an instance of `struct`."""
     return struct(
         x=state.odometry.x,
         correctedX=state.corrected.x,

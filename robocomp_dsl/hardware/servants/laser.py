@@ -53,7 +53,7 @@ class LaserServant(Servant):
 
 
 def settings_to_message(struct: type[Any], name: str, settings: LaserSettings) -> Any:
-    """The settings of the laser `name` as the struct `made`."""
+    """The settings of the laser `name` as an instance of `struct`."""
     half = settings.degrees / 2
     return struct(
         driver="robocomp_dsl",

@@ -61,7 +61,7 @@ def message_of(error: BaseException) -> str:
 def user_location(frames: traceback.StackSummary) -> str:
     """`file:line` of the innermost frame in the component's folder; "" without frames.
 
-    Without one there: of the innermost in other user code, else of the innermost.
+    If no frame is there: of the innermost in other user code, else of the innermost of all.
     """
     user_frames = [frame for frame in frames if not is_library_code(frame.filename)]
     own = [frame for frame in user_frames if _is_in_user_folder(frame.filename)]

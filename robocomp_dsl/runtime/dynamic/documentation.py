@@ -18,7 +18,7 @@ _NOTHING: Texts = {}
 
 
 def documentation_file(module: str) -> Path | None:
-    """The file that belongs to an imported module; None for one that was not read from a file."""
+    """The file of an imported module; None if the module was not read from a file."""
     path = getattr(sys.modules.get(module), "__file__", None)
     return Path(path).with_suffix(".json") if path else None
 

@@ -417,7 +417,7 @@ def _as_declared(
 ) -> DeclaredError | None:
     """The exception as the caller declares it: two generated packages have classes of their own.
 
-    None for one that the `operation` of the server does not declare.
+    None if the `operation` of the server does not declare it.
     """
     if not isinstance(error, DeclaredError):
         return None

@@ -31,7 +31,7 @@ class _StateConverter:
         self._values: list[Any] = []
 
     def to_message(self, enum: Callable[[int], Any], modes: Sequence[Any]) -> list[Any]:
-        """The `modes` as values of the enumeration `made`, in a new list."""
+        """The `modes` as values of `enum`, in a new list."""
         if modes != self._modes:
             self._values = [enum(self._order.index(mode)) for mode in modes]
             self._modes = modes

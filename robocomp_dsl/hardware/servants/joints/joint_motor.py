@@ -197,7 +197,7 @@ class JointMotorServant(Servant):
 
 
 def _state(struct: type[Any], time: str, row: tuple[Any, ...]) -> Any:
-    """The struct `made` for one motor."""
+    """The state of a motor, the array row `row`, as an instance of `struct`."""
     pos, vel, power, p, v, moving, temperature = row
     return struct(
         pos=pos,

@@ -1,6 +1,6 @@
 """Registry of the ports of a domain, kept up to date by liveliness tokens.
 
-In: a session. Out: the ports that exist now, and waiting for one to appear.
+In: a session. Out: the ports that exist now, and a wait until a port exists.
 """
 
 from __future__ import annotations
