@@ -1,7 +1,7 @@
 """Checks the events and states in the user's code against the state machine.
 
-In: the user's module, the machine of the component. Out: findings about `self.machine.send("x")` and
-`self.machine.is_in("x")` where there is no such event or state.
+In: the user's module, the machine of the component. Out: findings about
+`self.machine.send("x")` and `self.machine.is_in("x")` where there is no such event or state.
 """
 
 from __future__ import annotations
