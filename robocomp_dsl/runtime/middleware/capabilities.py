@@ -1,0 +1,60 @@
+"""What a middleware can do. Checker, runtime, rcdeploy, documentation and tests ask this.
+
+This module loads quickly: `rcgen check` and the language server import it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+QOS_ITEMS = ("reliable", "keep_all", "latched", "priority")
+"""Items of the quality of service that need support of the middleware.
+
+`depth`, `deadline`, `liveliness` and `thread_priority` are properties of the receiver and available
+with every middleware.
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What a middleware can do.
+
+    `between_processes`, `between_hosts`: which components it connects. `services`, `topics`: the
+    kinds of ports. `external_peers`: peers may be programs that are no components, named by an
+    address. `fixed_address`: the user may choose the address of a served or published port.
+    `attaches_subscribers`: its publishers must be given each subscriber (`Publisher.attach`);
+    others find their subscribers themselves. `sequence_numbers`: publications carry the number with
+    which subscribers count losses. `reports_source`: subscribers learn which port published a
+    message. `qos`: the items of `QOS_ITEMS` that it honours. `max_message_bytes` 0: no limit.
+    `valid_names`: a regular expression for names of components and ports, empty: any name.
+    """
+
+    between_processes: bool = True
+    between_hosts: bool = False
+    services: bool = True
+    topics: bool = True
+    external_peers: bool = False
+    fixed_address: bool = False
+    attaches_subscribers: bool = False
+    sequence_numbers: bool = False
+    reports_source: bool = False
+    qos: frozenset[str] = frozenset()
+    max_message_bytes: int = 0
+    valid_names: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class MiddlewareDescription:
+    """One middleware: the object that an entry point of `robocomp_dsl.middleware` names.
+
+    `opener` is the function that opens it, as `module:function`, imported on first use: from a
+    `TransportContext` to a `Transport`. `requires` are importable modules without which it cannot
+    be opened, and `install` tells how to install them.
+    """
+
+    name: str
+    summary: str
+    capabilities: Capabilities
+    opener: str
+    requires: tuple[str, ...] = ()
+    install: str = ""
