@@ -6,6 +6,7 @@ Exception
 │   ├── AmbiguousServer       several serve it, and no wire selects one
 │   ├── Timeout               no answer arrived in time
 │   ├── InterfaceMismatch     the two sides were generated from different interfaces
+│   ├── CallRejected          a monitor of the connection rejected the call
 │   ├── RemoteError           the other side failed with an error that it does not declare
 │   └── MalformedMessage      the bytes do not match the interface (offset and field)
 ├── DeclaredError             base of the exceptions that an IDSL file declares
@@ -22,6 +23,7 @@ from robocomp_dsl.runtime.data.errors import EncodeError
 
 __all__ = [
     "AmbiguousServer",
+    "CallRejected",
     "DeclaredError",
     "EncodeError",
     "InterfaceMismatch",
@@ -63,6 +65,10 @@ class InterfaceMismatch(MiddlewareError):
 
 class SchemaError(MiddlewareError):
     """A component does not serve its schema, or what it sent is not a valid one."""
+
+
+class CallRejected(MiddlewareError):
+    """A monitor of the connection rejected the call, or another connection wins the input."""
 
 
 class RemoteError(MiddlewareError):
