@@ -21,7 +21,8 @@ from typing import Any
 from benchmarks.humanoid import humanoid
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, MiddlewareContext
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 STEP_MS = 1.0
@@ -97,7 +98,7 @@ def simulator(
     )
     execution = CallbackGroup()
     middleware = open_middleware(
-        "zenoh", MiddlewareContext("client", domain, execution, Statistics())
+        "zenoh", ComponentContext("client", domain, execution, Statistics())
     )
     run = Run(process, middleware, _interfaces(home))
     reader = threading.Thread(target=_read, args=(run,))

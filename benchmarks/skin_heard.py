@@ -24,7 +24,8 @@ import numpy as np
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 PATIENCE = 60.0
@@ -86,7 +87,7 @@ def running(folder: Path, *settings: str, taps: Path | None = None) -> Iterator[
     )
     heard = Heard(process)
     middleware = open_middleware(
-        "zenoh", MiddlewareContext("client", domain, CallbackGroup(), Statistics())
+        "zenoh", ComponentContext("client", domain, CallbackGroup(), Statistics())
     )
     try:
         topic = interfaces(folder).SkinFrameProxy.INTERFACE

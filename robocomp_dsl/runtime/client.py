@@ -19,8 +19,9 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import Channel, ComponentContext
 from robocomp_dsl.runtime.errors import NoServer, SchemaError
-from robocomp_dsl.runtime.middleware.base import Channel, Endpoint, MiddlewareContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ class DomainClient:
     def __init__(self, domain: str, middleware: str = "zenoh", name: str = "client") -> None:
         self._name, self._execution = name, CallbackGroup()
         self.statistics = Statistics()
-        host = MiddlewareContext(name, domain, self._execution, self.statistics)
+        host = ComponentContext(name, domain, self._execution, self.statistics)
         self._middleware = open_middleware(middleware, host)
 
     def components(self, timeout: float = 1.0) -> list[str]:

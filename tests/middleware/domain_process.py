@@ -36,10 +36,10 @@ def main(domain: str, name: str = "", mode: str = "") -> None:
     import contextlib  # noqa: PLC0415
     import os  # noqa: PLC0415
 
-    from robocomp_dsl.runtime.middleware.base import Endpoint  # noqa: PLC0415
-    from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session  # noqa: PLC0415
-    from robocomp_dsl.runtime.middleware.zenoh.domain_folder import folder_lock  # noqa: PLC0415
-    from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken  # noqa: PLC0415
+    from robocomp_dsl.runtime.connection.endpoint import Endpoint  # noqa: PLC0415
+    from robocomp_dsl.runtime.presence.domain_folder import folder_lock  # noqa: PLC0415
+    from robocomp_dsl.runtime.presence.domain_session import open_session  # noqa: PLC0415
+    from robocomp_dsl.runtime.presence.keys import PortToken  # noqa: PLC0415
     from tests.middleware.probe_types import PROBE  # noqa: PLC0415
 
     opened = open_session(domain, name=name)

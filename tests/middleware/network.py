@@ -9,7 +9,8 @@ from typing import Any
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, MiddlewareContext, Qos
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
@@ -23,7 +24,7 @@ class Node:
         self.name = name
         self.execution = CallbackGroup(threads)
         self.statistics = Statistics()
-        host = MiddlewareContext(name, network.domain, self.execution, self.statistics)
+        host = ComponentContext(name, network.domain, self.execution, self.statistics)
         self.middleware: Middleware = open_middleware(network.kind, host)
 
     def serve(

@@ -13,7 +13,7 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort
-from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.middleware.zenoh import held_publisher, middleware, reliable_queue
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.middleware.network import Network, Node

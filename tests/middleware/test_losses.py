@@ -10,16 +10,16 @@ import pytest
 import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherCounter
-from robocomp_dsl.runtime.middleware.zenoh.sequence import (
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.losses import PublisherCounter
+from robocomp_dsl.runtime.connection.sequence import (
     CONFIRMATIONS,
     MAX_LISTED_GAP,
     MAX_RATE,
     SEQUENCE_FORMAT,
     SequenceTracker,
 )
+from robocomp_dsl.runtime.presence import keys
 from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_types import NEWS
 from tests.support.waiting import wait_until

@@ -13,7 +13,8 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT, Compon
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.middleware.network import DEADLINE
@@ -131,7 +132,7 @@ def test_introspection_reports_prefixed_names(start: Start, middleware: str, dom
     start(Base, prefix="left", remaps={"Probe": "front"})
     start(Arm, prefix="left", connections={"Probe": ("base",)}, remaps={"Probe": "front"})
     looker = open_middleware(
-        middleware, MiddlewareContext("looker", domain, CallbackGroup(), Statistics())
+        middleware, ComponentContext("looker", domain, CallbackGroup(), Statistics())
     )
     try:
         infos = {}

@@ -7,8 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint
 from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 from tests.support.waiting import wait_until

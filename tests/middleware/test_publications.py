@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_handlers import HANDLERS
 from tests.middleware.probe_types import NEWS

@@ -10,7 +10,7 @@ import pytest
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import QueueClosed
-from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.middleware.zenoh import reliable_queue
 from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
 from tests.middleware.network import Network

@@ -15,12 +15,12 @@ from pathlib import Path
 import pytest
 import zenoh
 
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
-from robocomp_dsl.runtime.middleware.zenoh.liveliness_monitor import LivelinessMonitor
-from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
+from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.domain_session import open_session
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+from robocomp_dsl.runtime.presence.state_monitor import StateMonitor
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import OTHER_NEWS, PROBE
 from tests.support.waiting import wait_until
@@ -161,7 +161,7 @@ def test_zenoh_watch_reports_states_and_exit(
     network: Network, server: subprocess.Popen[str]
 ) -> None:
     seen: list[tuple[str, int, str]] = []
-    watch = LivelinessMonitor(network.domain)
+    watch = StateMonitor(network.domain)
     try:
         watch.start(lambda *what: seen.append(what))
         wait_until(lambda: seen)

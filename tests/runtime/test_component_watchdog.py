@@ -19,7 +19,8 @@ from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
 from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
@@ -92,7 +93,7 @@ def test_hanging_compute_ends_component_and_finalizes(caplog: pytest.LogCaptureF
 
 def test_hanging_handler_ends_component_and_finalizes() -> None:
     runner, worker = hanging("handler")
-    host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
+    host = ComponentContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
     middleware = open_middleware("inproc", host)
     proxy = ComponentProxy(middleware.proxy(Endpoint(COMPONENT, "looker", "Component")))
     thread = threading.Thread(target=proxy.setParameters, args=({"rate": "2"},), daemon=True)

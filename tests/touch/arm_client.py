@@ -16,7 +16,8 @@ from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.support.waiting import wait_until
 from tests.touch import shipped_component
@@ -52,7 +53,7 @@ class RunningArm:
         run_settings = RunSettings(domain=domain, middleware="inproc", connections=wired)
         self.runner = Runner(ARM.worker, params, run_settings, clock)
         self._client = open_middleware(
-            "inproc", MiddlewareContext("client", domain, CallbackGroup(), Statistics())
+            "inproc", ComponentContext("client", domain, CallbackGroup(), Statistics())
         )
         self.states: list[Any] = []
         topic = ARM.interfaces.GenericArmStateProxy.INTERFACE

@@ -34,9 +34,10 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
 from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
@@ -78,7 +79,7 @@ class Runner:
         self._failed = False
         self._stop_requests: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
-        host = MiddlewareContext(
+        host = ComponentContext(
             self.name,
             settings.domain,
             self.callback_group,

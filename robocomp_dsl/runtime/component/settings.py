@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
-from robocomp_dsl.runtime.middleware.base import Qos
+from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]{0,99}")

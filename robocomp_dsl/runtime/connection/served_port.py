@@ -19,8 +19,9 @@ from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts, Statistics
 from robocomp_dsl.runtime.component.user_errors import log_failure
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
-from robocomp_dsl.runtime.middleware.base import Endpoint, OperationCallable
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter

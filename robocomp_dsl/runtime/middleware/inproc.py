@@ -22,6 +22,16 @@ from robocomp_dsl.runtime.component.interface import Interface, Operation, Patte
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.user_errors import log_failure, message_of
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.peer_selection import (
+    DISCOVERY_TIMEOUT_S,
+    discovery_complete,
+    eligible_servers,
+    matches,
+    select_server,
+    with_deadline_check,
+)
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
     DeclaredError,
@@ -29,15 +39,6 @@ from robocomp_dsl.runtime.errors import (
     NoServer,
     RemoteError,
     Timeout,
-)
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
-from robocomp_dsl.runtime.middleware.calling import (
-    DISCOVERY_TIMEOUT_S,
-    discovery_complete,
-    eligible_servers,
-    matches,
-    select_server,
-    with_deadline_check,
 )
 
 DEPTH = 1000
@@ -126,7 +127,7 @@ _domains: dict[str, _Domain] = {}
 _domains_lock = threading.Lock()
 
 
-def open_for(host: MiddlewareContext) -> InprocMiddleware:
+def open_for(host: ComponentContext) -> InprocMiddleware:
     """The in-process middleware of one component."""
     with _domains_lock:
         return InprocMiddleware(host, _domains.setdefault(host.domain, _Domain()))
@@ -135,7 +136,7 @@ def open_for(host: MiddlewareContext) -> InprocMiddleware:
 class InprocMiddleware:
     """All connections of one component within the process."""
 
-    def __init__(self, host: MiddlewareContext, domain: _Domain) -> None:
+    def __init__(self, host: ComponentContext, domain: _Domain) -> None:
         self._host = host
         self._domain = domain
         self._ports: list[_Port] = []
@@ -222,7 +223,7 @@ class InprocServiceChannel:
     """Calls the component that serves the interface."""
 
     def __init__(
-        self, owner: InprocMiddleware, host: MiddlewareContext, domain: _Domain, at: Endpoint
+        self, owner: InprocMiddleware, host: ComponentContext, domain: _Domain, at: Endpoint
     ) -> None:
         self.timeout = 10.0
         self._owner = owner
@@ -373,7 +374,7 @@ class InprocServiceChannel:
 class InprocTopicChannel:
     """Publishes to all subscribers, into the queue of each."""
 
-    def __init__(self, host: MiddlewareContext, domain: _Domain, at: Endpoint) -> None:
+    def __init__(self, host: ComponentContext, domain: _Domain, at: Endpoint) -> None:
         self.timeout = 0.0
         self._host = host
         self._domain = domain

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoints
 
-    from robocomp_dsl.runtime.middleware.base import Middleware, MiddlewareContext
+    from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
 
 ENTRY_POINT_GROUP = "robocomp_dsl.middleware"
 BUILT_IN = {
@@ -27,7 +27,7 @@ def middleware_names() -> list[str]:
     return sorted({*BUILT_IN, *(point.name for point in _entry_points())})
 
 
-def open_middleware(name: str, host: MiddlewareContext) -> Middleware:
+def open_middleware(name: str, host: ComponentContext) -> Middleware:
     """The middleware called `name`, connected for one component.
 
     Raises `UnknownMiddleware`, or `MiddlewareError` when it cannot be opened.
@@ -47,5 +47,5 @@ def _entry_points() -> EntryPoints:
     return entry_points(group=ENTRY_POINT_GROUP)
 
 
-def _open(opener: Callable[[MiddlewareContext], Middleware], host: MiddlewareContext) -> Middleware:
+def _open(opener: Callable[[ComponentContext], Middleware], host: ComponentContext) -> Middleware:
     return opener(host)

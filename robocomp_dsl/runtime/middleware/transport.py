@@ -20,8 +20,8 @@ from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.endpoint import Endpoint
     from robocomp_dsl.runtime.connection.served_port import ServedPort
-    from robocomp_dsl.runtime.middleware.base import Endpoint
 
 Payload: TypeAlias = Any
 """What travels: bytes, an object of a foreign library, or the values themselves."""

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from robocomp_dsl.runtime.clock import Clock, WallClock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.spec import ComponentSpec
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.ports import Middleware
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware, Qos
 from robocomp_dsl.runtime.time.clock_interface import (
     CLOCK,
     FOLLOWER,

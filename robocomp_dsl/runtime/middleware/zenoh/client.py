@@ -15,25 +15,26 @@ from typing import Any
 
 import zenoh
 
+from robocomp_dsl.runtime.codec.failures import decode_failure
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.naming import on_same_branch
 from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL
-from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable, Qos
-from robocomp_dsl.runtime.middleware.calling import (
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
+from robocomp_dsl.runtime.connection.losses import PublisherCounter
+from robocomp_dsl.runtime.connection.peer_selection import (
     DISCOVERY_TIMEOUT_S,
     discovery_complete,
     eligible_servers,
     matches,
     select_server,
 )
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.connection.sequence import SEQUENCE_FORMAT
+from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HeldPublisher
-from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken
-from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherCounter
-from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
-from robocomp_dsl.runtime.middleware.zenoh.sequence import SEQUENCE_FORMAT
+from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.keys import PortToken
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
 PRIORITIES = {
     "realtime": zenoh.Priority.REAL_TIME,
@@ -62,7 +63,7 @@ class ZenohServiceChannel:
         self,
         session: zenoh.Session,
         directory: PortRegistry,
-        host: MiddlewareContext,
+        host: ComponentContext,
         at: Endpoint,
     ) -> None:
         self._timeout = 10.0
@@ -296,7 +297,7 @@ class ZenohTopicChannel:
     """Publishes to all subscribers."""
 
     def __init__(
-        self, session: zenoh.Session, directory: PortRegistry, host: MiddlewareContext, at: Endpoint
+        self, session: zenoh.Session, directory: PortRegistry, host: ComponentContext, at: Endpoint
     ) -> None:
         self.timeout = 0.0
         self._session = session

@@ -1,6 +1,6 @@
 """zenoh middleware: components in any processes of one machine, each with its own session.
 
-In: a `MiddlewareContext`. Out: its `Middleware`. Components are discovered through liveliness
+In: a `ComponentContext`. Out: its `Middleware`. Components are discovered through liveliness
 tokens, one per port.
 """
 
@@ -13,17 +13,19 @@ import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
-from robocomp_dsl.runtime.middleware.zenoh import keys, reliable_queue
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.losses import PublisherRegistry
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.middleware.zenoh import reliable_queue
 from robocomp_dsl.runtime.middleware.zenoh.client import ZenohServiceChannel, ZenohTopicChannel
-from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
 from robocomp_dsl.runtime.middleware.zenoh.held_publisher import HOLD_S
-from robocomp_dsl.runtime.middleware.zenoh.losses import PublisherRegistry
-from robocomp_dsl.runtime.middleware.zenoh.port_registry import PortRegistry
 from robocomp_dsl.runtime.middleware.zenoh.server import ServedZenohPort
+from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.domain_session import DomainSession, open_session
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 
 
-def open_for(host: MiddlewareContext) -> ZenohMiddleware:
+def open_for(host: ComponentContext) -> ZenohMiddleware:
     """A session for one component."""
     name = host.component if host.unique_name else ""
     return ZenohMiddleware(host, open_session(host.domain, host.listen_port, name))
@@ -32,7 +34,7 @@ def open_for(host: MiddlewareContext) -> ZenohMiddleware:
 class ZenohMiddleware:
     """All connections of one component."""
 
-    def __init__(self, host: MiddlewareContext, opened: DomainSession) -> None:
+    def __init__(self, host: ComponentContext, opened: DomainSession) -> None:
         self._host = host
         self._opened = opened
         self._session = opened.session

@@ -18,23 +18,24 @@ from typing import Any, TypeAlias
 
 import zenoh
 
+from robocomp_dsl.runtime.codec.failures import encode_failure
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.naming import ANY, on_same_branch
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue
 from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts
 from robocomp_dsl.runtime.component.user_errors import log_failure
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext, OperationCallable
-from robocomp_dsl.runtime.middleware.calling import log, with_deadline_check
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.answers import encode_failure
-from robocomp_dsl.runtime.middleware.zenoh.losses import (
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.losses import (
     MAX_PENDING,
     LossCounter,
     PublisherRegistry,
 )
+from robocomp_dsl.runtime.connection.peer_selection import log, with_deadline_check
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
 from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
+from robocomp_dsl.runtime.presence import keys
 
 DEPTH = 256
 """Default queue length."""
@@ -48,7 +49,7 @@ class ServedZenohPort:
 
     def __init__(
         self,
-        host: MiddlewareContext,
+        host: ComponentContext,
         at: Endpoint,
         handlers: Mapping[str, OperationCallable],
         execution: CallbackGroup,

@@ -13,8 +13,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.clock import NANO
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import Middleware
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint, Middleware
 from robocomp_dsl.runtime.time.clock_interface import FOLLOWER, FollowerProxy, Hearer, Tick
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 from robocomp_dsl.runtime.time.lockstep.follower import NEVER

@@ -15,10 +15,11 @@ from typing import Any
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.peer_selection import matches
+from robocomp_dsl.runtime.connection.ports import Channel, Middleware, OperationCallable
 from robocomp_dsl.runtime.data.schema import LONG
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer, RemoteError
-from robocomp_dsl.runtime.middleware.base import Channel, Endpoint, Middleware, OperationCallable
-from robocomp_dsl.runtime.middleware.calling import matches
 from robocomp_dsl.runtime.time.clock_interface import CLOCK, Hearer
 
 PUBLISH_TIME_FRACTION = 0.25

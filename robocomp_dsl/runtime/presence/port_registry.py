@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import zenoh
 
-from robocomp_dsl.runtime.middleware.base import Endpoint
-from robocomp_dsl.runtime.middleware.calling import log
-from robocomp_dsl.runtime.middleware.zenoh.keys import PortToken, domain_prefix, parse_port_token
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.peer_selection import log
+from robocomp_dsl.runtime.presence.keys import PortToken, domain_prefix, parse_port_token
 
 
 class PortRegistry:

@@ -1,7 +1,7 @@
 """Protocols of a middleware: channels, and the ports of one component.
 
 A middleware is a package here, or an entry point of the group `robocomp_dsl.middleware` in another
-distribution: a function from a `MiddlewareContext` to a `Middleware`. The conformance suite in
+distribution: a function from a `ComponentContext` to a `Middleware`. The conformance suite in
 `tests/middleware/` defines the behaviour; failures are those of `robocomp_dsl.runtime.errors`.
 """
 
@@ -15,42 +15,14 @@ from typing import Any, Protocol, TypeAlias
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 
 OperationCallable: TypeAlias = Callable[..., Any]
 log = logging.getLogger("robocomp")
 
 
 @dataclass(frozen=True, slots=True)
-class Qos:
-    """Quality of service of one port; None: the default of the middleware.
-
-    `depth` is the length of the receive queue; `deadline` in s is the maximum time between two
-    publications before one counts as missed.
-    """
-
-    reliable: bool | None = None
-    depth: int | None = None
-    priority: str | None = None
-    deadline: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Endpoint:
-    """One port of one running component. `peers`: its connections, empty for any peer.
-
-    A peer is `component`, `component.port`, or `*.port` for that port of any component. "Any" means
-    components on the same branch (`naming.on_same_branch`); of servers, the nearest.
-    """
-
-    interface: Interface
-    component: str
-    port: str
-    peers: tuple[str, ...] = ()
-    qos: Qos = Qos()
-
-
-@dataclass(frozen=True, slots=True)
-class MiddlewareContext:
+class ComponentContext:
     """The component that a middleware serves. Components of other domains are invisible.
 
     `listen_port` 0: chosen by the middleware. `fail` ends the component as failed, with a reason; a

@@ -25,14 +25,14 @@ import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.middleware.base import Endpoint
-from robocomp_dsl.runtime.middleware.calling import matches
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.sequence import (
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.peer_selection import matches
+from robocomp_dsl.runtime.connection.sequence import (
     MAX_RATE,
     SEQUENCE_FORMAT,
     SequenceTracker,
 )
+from robocomp_dsl.runtime.presence import keys
 
 COUNT_TIMEOUT_S = 0.2
 """A publisher replies within a millisecond; one that hangs is not waited for."""
