@@ -11,6 +11,7 @@ Exception
 │   └── MalformedMessage      the bytes do not match the interface (offset and field)
 ├── DeclaredError             base of the exceptions that an IDSL file declares
 ├── EncodeError               a value that its type cannot carry (also a ValueError)
+├── MonitorError              a monitor of the deployment cannot be loaded
 ├── NotImplementedOperation   the component has no method for it (also a NotImplementedError)
 ├── ConfigError               an invalid configuration         } defined in
 └── ParameterRejected         a live change that was rejected  } `runtime.parameters`
@@ -29,6 +30,7 @@ __all__ = [
     "InterfaceMismatch",
     "MalformedMessage",
     "MiddlewareError",
+    "MonitorError",
     "NoServer",
     "NotImplementedOperation",
     "RemoteError",
@@ -91,6 +93,10 @@ class MalformedMessage(MiddlewareError):
     def __str__(self) -> str:
         where = f"field {self.path}" if self.path else "message"
         return f"malformed message: {where}, byte {self.offset}: {self.reason}"
+
+
+class MonitorError(Exception):
+    """A monitor that cannot be loaded, or does not fit to its connection; the component stops."""
 
 
 class NotImplementedOperation(NotImplementedError):

@@ -1,28 +1,28 @@
 """All monitors of one component: where they are attached, and their state.
 
-In: the settings, the interfaces of the ports, the clock. Out: channels whose calls are monitored,
-and the ports that a served or subscribed port consists of: one for each monitored connection, since
-a message does not say by which connection it came, and one for all others.
+In: the settings, the ports of the component, the clock. Out: the monitored ends of connections by
+port, and their state.
 """
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from threading import Lock
 
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.interface import Interface
-from robocomp_dsl.runtime.component.naming import connection_port, resolve_name
+from robocomp_dsl.runtime.component.naming import resolve_name
+from robocomp_dsl.runtime.component.settings import RunSettings
+from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
 from robocomp_dsl.runtime.connection.arbiter import Arbiter
 from robocomp_dsl.runtime.connection.event_container import EventContainer
 from robocomp_dsl.runtime.connection.monitor_loader import load_monitor_class
 from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
-from robocomp_dsl.runtime.connection.monitored_channel import MonitoredChannel, is_query
 from robocomp_dsl.runtime.connection.monitored_connection import MonitoredConnection
 from robocomp_dsl.runtime.connection.running_monitor import RunningMonitor
-from robocomp_dsl.runtime.middleware.base import Channel, Endpoint, OperationCallable
+from robocomp_dsl.runtime.errors import MonitorError
 
 log = logging.getLogger("robocomp")
 
@@ -49,20 +49,19 @@ class MonitorStatus:
 
 
 class ComponentMonitors:
-    """The monitors of the component `name`; `interfaces` are those of its ports, by name.
+    """The monitors of one component. A port has the name that its peers see.
 
     The constructor loads the classes and raises `MonitorError`; `create` makes the objects.
     """
 
-    def __init__(
-        self,
-        settings: Sequence[ConnectionMonitors],
-        name: str,
-        prefix: str,
-        interfaces: Mapping[str, Interface],
-    ) -> None:
-        self._name = name
-        resolved = [replace(s, peer=resolve_name(prefix, s.peer)) for s in settings]
+    def __init__(self, spec: ComponentSpec, settings: RunSettings) -> None:
+        self._name = settings.full_name(spec.name)
+        interfaces = _interfaces(spec)
+        resolved = [
+            replace(s, peer=resolve_name(settings.prefix, s.peer)) for s in settings.monitors
+        ]
+        for s in resolved:
+            _check_role(s, spec)
         self._servers = {s.port: s.peer for s in resolved if s.position == "identify"}
         senders = [s for s in resolved if s.position == "sender"]
         self._settings = [s for s in resolved if s.position == "receiver"]
@@ -72,6 +71,7 @@ class ComponentMonitors:
             for s in self._settings
             for m in s.monitors
         }
+        self._remaps = {p.name: settings.remaps.get(p.name, p.name) for p in _own_ports(spec)}
         self._receivers: dict[str, list[MonitoredConnection]] = {}
         self._senders: dict[str, MonitoredConnection] = {}
 
@@ -84,10 +84,11 @@ class ComponentMonitors:
             arbiter = Arbiter(constraints, events, log.warning) if constraints else None
             connections = [self._connection(s, events, lock, arbiter) for s in inputs]
             if connections:
-                self._receivers[port] = connections
+                self._receivers[self._remaps.get(port, port)] = connections
         for s in self._settings:
             if s.position == "sender":
-                self._senders[s.port] = self._connection(s, EventContainer(clock), Lock(), None)
+                sender = self._connection(s, EventContainer(clock), Lock(), None)
+                self._senders[self._remaps.get(s.port, s.port)] = sender
         for connection in self._connections():
             connection.create()
 
@@ -98,7 +99,8 @@ class ComponentMonitors:
         lock: Lock,
         arbiter: Arbiter | None,
     ) -> MonitoredConnection:
-        port, peer = f"{self._name}.{settings.port}", settings.peer
+        port = f"{self._name}.{self._remaps.get(settings.port, settings.port)}"
+        peer = settings.peer
         ends = (peer, port) if settings.position == "receiver" else (port, peer)
         monitors = [
             RunningMonitor(self._classes[settings.port, m], m, " -> ".join(ends))
@@ -111,57 +113,17 @@ class ComponentMonitors:
             yield from connections
         yield from self._senders.values()
 
-    def calling_endpoint(self, at: Endpoint) -> Endpoint:
-        """The endpoint of a required port; a server that monitors it has a port for it."""
-        server = self._servers.get(at.port)
-        if server is None:
-            return at
-        component, _, port = server.rpartition(".")
-        own = connection_port(port, f"{at.component}.{at.port}")
-        return replace(at, peers=(f"{component}.{own}",))
+    def server_port(self, port: str) -> str:
+        """The server (`component.Port`) that monitors the connection of a port; "" if none does."""
+        return self._servers.get(port, "")
 
-    def channel(self, port: str, channel: Channel, *, is_topic: bool) -> Channel:
-        """The channel of a required or published port; monitored if it has monitors."""
-        connection = self._senders.get(port)
-        return MonitoredChannel(channel, connection, is_topic=is_topic) if connection else channel
+    def sender(self, port: str) -> MonitoredConnection | None:
+        """The monitored end of a required or published port."""
+        return self._senders.get(port)
 
-    def receiving_endpoints(
-        self,
-        port: str,
-        at: Endpoint,
-        handlers: Mapping[str, OperationCallable],
-        *,
-        is_topic: bool,
-    ) -> Iterator[tuple[Endpoint, Mapping[str, OperationCallable]]]:
-        """The endpoints, with their handlers, of which a served or subscribed port consists.
-
-        An arbitrated port has no endpoint for peers without a connection.
-        """
-        connections = self._receivers.get(port, [])
-        for connection in connections:
-            name = connection_port(at.port, connection.peer)
-            peers = (connection.peer,) if is_topic else ()
-            monitored = {
-                operation.name: connection.wrap(
-                    operation,
-                    handlers[operation.name],
-                    is_query=is_query(operation, is_topic=is_topic),
-                    is_sender=False,
-                )
-                for operation in at.interface.operations
-                if operation.name in handlers
-            }
-            yield replace(at, port=name, peers=peers), monitored
-        if any(connection.arbiter for connection in connections):
-            return
-        if not connections or not is_topic:
-            yield at, handlers
-            return
-        names = {connection.peer for connection in connections}
-        names |= {name.rpartition(".")[0] for name in names}
-        others = tuple(peer for peer in at.peers if peer not in names)
-        if others:
-            yield replace(at, peers=others), handlers
+    def receivers(self, port: str) -> list[MonitoredConnection]:
+        """The monitored connections into a served or subscribed port."""
+        return self._receivers.get(port, [])
 
     def statuses(self) -> list[MonitorStatus]:
         """The state of every monitored end of a connection."""
@@ -171,6 +133,33 @@ class ComponentMonitors:
         """Destroy all monitors, after the last message."""
         for connection in self._connections():
             connection.destroy()
+
+
+def _own_ports(spec: ComponentSpec) -> tuple[ServedPort | CalledPort, ...]:
+    """The ports that a remap renames for their peers."""
+    return (*spec.implements, *spec.publishes)
+
+
+def _interfaces(spec: ComponentSpec) -> dict[str, Interface]:
+    """The interfaces of all ports."""
+    called = (*spec.requires, *spec.publishes)
+    served = (*spec.implements, *spec.subscribes)
+    interfaces = {port.name: port.proxy.INTERFACE for port in called}
+    return interfaces | {port.name: port.interface for port in served}
+
+
+def _check_role(settings: ConnectionMonitors, spec: ComponentSpec) -> None:
+    """Check that the component has the port, at that end. Raises `MonitorError`."""
+    ports: tuple[ServedPort | CalledPort, ...] = spec.requires
+    if settings.position == "receiver":
+        ports = (*spec.implements, *spec.subscribes)
+    elif settings.position == "sender":
+        ports = (*spec.requires, *spec.publishes)
+    if settings.port not in (port.name for port in ports):
+        raise MonitorError(
+            f"{spec.name} has no port `{settings.port}` that is the {settings.position} of a"
+            f" connection with {settings.peer}"
+        )
 
 
 def _merge(senders: Sequence[ConnectionMonitors], port: str) -> ConnectionMonitors:

@@ -7,9 +7,10 @@ drops or changes messages, and sets events that select among the connections int
 from __future__ import annotations
 
 import logging
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from robocomp_dsl.runtime.connection.event_container import EventContainer
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.event_container import EventContainer
 
 
 class Monitor:

@@ -20,10 +20,7 @@ from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe
 from robocomp_dsl.runtime.connection.monitor import Monitor
 from robocomp_dsl.runtime.connection.monitor_settings import MonitorSettings
 from robocomp_dsl.runtime.data.schema import BOOL, DOUBLE, FLOAT, STRING, Primitive, Type
-
-
-class MonitorError(Exception):
-    """A monitor that cannot be loaded."""
+from robocomp_dsl.runtime.errors import MonitorError
 
 
 def load_monitor_class(settings: MonitorSettings, operations: Iterable[Operation]) -> type[Monitor]:

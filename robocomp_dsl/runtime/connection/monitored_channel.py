@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.connection.monitored_connection import MonitoredConnection
-from robocomp_dsl.runtime.middleware.base import Channel, OperationCallable
+from robocomp_dsl.runtime.connection.ports import Channel, OperationCallable
 
 
 def is_query(operation: Operation, *, is_topic: bool) -> bool:
@@ -25,7 +25,7 @@ class MonitoredChannel:
 
     @property
     def timeout(self) -> float:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.timeout
 
     @timeout.setter
@@ -33,7 +33,7 @@ class MonitoredChannel:
         self._channel.timeout = seconds
 
     def bind(self, operation: Operation) -> OperationCallable:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._connection.wrap(
             operation,
             self._channel.bind(operation),
@@ -42,9 +42,9 @@ class MonitoredChannel:
         )
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.wait(timeout)
 
     def has_subscribers(self) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.has_subscribers()

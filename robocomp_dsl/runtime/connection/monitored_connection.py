@@ -16,6 +16,7 @@ from robocomp_dsl.runtime.connection.arbiter import Arbiter
 from robocomp_dsl.runtime.connection.argument_types import ArgumentTypes
 from robocomp_dsl.runtime.connection.event_container import EventContainer
 from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
+from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.connection.running_monitor import (
     AcceptFunction,
     Arguments,
@@ -24,7 +25,6 @@ from robocomp_dsl.runtime.connection.running_monitor import (
     UpdateFunction,
 )
 from robocomp_dsl.runtime.errors import CallRejected
-from robocomp_dsl.runtime.middleware.base import OperationCallable
 
 
 class _Hooks(NamedTuple):

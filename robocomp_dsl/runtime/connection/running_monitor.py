@@ -60,14 +60,11 @@ def _as_arguments(
     result: Any, hook: _Hook, types: ArgumentTypes, arguments: Arguments
 ) -> Arguments:
     """The result of `update`, as a receiver expects it. Raises `WrongResult`."""
-    if result is arguments:
-        return arguments
-    if hook.returns_value:
-        result = (result,)
-    if not isinstance(result, tuple | list):
+    values = (result,) if hook.returns_value else result
+    if not isinstance(values, tuple | list):
         raise WrongResult(f"returned {described(result)}, not a tuple of arguments", hook)
     try:
-        return types.convert_changed(tuple(result), arguments)
+        return types.convert_changed(tuple(values), arguments)
     except EncodeError as error:
         raise WrongResult(f"returned a wrong value: {error}", hook) from None
 
