@@ -16,7 +16,7 @@ class EventClock(Protocol):
 
     @property
     def reset_count(self) -> int:
-        """How often time was reset."""
+        """How often time was reset; -1: the clock has not started."""
 
     def now(self) -> float:
         """Seconds since a fixed moment."""
@@ -65,7 +65,8 @@ class EventContainer:
         """The time; events of the time before a reset are removed."""
         count = self._clock.reset_count
         if count != self._reset_count:
+            if self._reset_count >= 0:  # the clock had started
+                permanent = {e: t for e, t in self._expiries.items() if t == math.inf}
+                self._expiries = permanent
             self._reset_count = count
-            permanent = {e: t for e, t in self._expiries.items() if t == math.inf}
-            self._expiries = permanent
         return self._clock.now()

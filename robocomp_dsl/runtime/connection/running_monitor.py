@@ -89,7 +89,7 @@ class RunningMonitor:
     def create(self, port: str, peer: str, events: EventContainer) -> None:
         """Create the object and call `on_create`. Raises `ConnectionClosed`."""
         monitor = self._class.__new__(self._class)
-        logger = logging.getLogger(port.partition(".")[0])
+        logger = logging.getLogger(port.rpartition(".")[0])
         attributes = {"port": port, "peer": peer, "log": logger, "_events": events}
         for name, value in attributes.items():
             object.__setattr__(monitor, name, value)  # also of a frozen dataclass
