@@ -316,7 +316,7 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
 def _monitors(text: str) -> tuple[ConnectionMonitors, ...]:
     if not text:
         return ()
-    from robocomp_dsl.runtime.connection.monitor_settings import parse_monitors  # noqa: PLC0415
+    from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors  # noqa: PLC0415
 
     return parse_monitors(text)
 

@@ -14,7 +14,7 @@ from robocomp_dsl.runtime import CalledPort, Component, ComponentSpec, ServedPor
 from robocomp_dsl.runtime.clock import Clock
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
-from robocomp_dsl.runtime.connection.monitor_settings import parse_monitors
+from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 HEADER = "from robocomp_dsl.runtime import Monitor\n"

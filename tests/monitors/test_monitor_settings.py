@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime.component.settings import InvalidSetting
-from robocomp_dsl.runtime.connection.monitor_settings import MonitorSettings, parse_monitors
+from robocomp_dsl.runtime.connection.monitor_settings import MonitorSettings
+from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors
 
 ENTRY = {"port": "Target", "at": "receiver", "peer": "face.TargetPub"}
 MONITOR = {"file": "/m.py", "class": "Face"}

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime.component.lifecycle import LifecycleState
-from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors, parse_monitors
+from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
+from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors
 from tests.runtime.lockstep_components import Base, Driver, Recorder, running
 from tests.support.waiting import wait_until
 
