@@ -73,6 +73,13 @@ class CallRejected(MiddlewareError):
     """A monitor of the connection rejected the call, or another connection wins the input."""
 
 
+class RejectedByReceiver(CallRejected):
+    """A monitor of the served port rejected the call; the caller gets a `CallRejected`.
+
+    A `CallRejected` of a call that a handler makes is a failure of that handler.
+    """
+
+
 class RemoteError(MiddlewareError):
     """The server failed with an exception that its interface does not declare."""
 

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import pytest
 
-from robocomp_dsl.runtime.errors import CallRejected, EncodeError, NoServer, RemoteError
+from robocomp_dsl.runtime.codec.failures import decode_failure, encode_failure
+from robocomp_dsl.runtime.errors import (
+    CallRejected,
+    EncodeError,
+    NoServer,
+    RejectedByReceiver,
+    RemoteError,
+)
+from tests.middleware.probe_types import PROBE
 from tests.monitors.components import Caller, Deployment, Server
 from tests.monitors.manual_clock import ManualClock
 from tests.support.waiting import wait_until
@@ -65,7 +73,7 @@ def test_monitor_at_the_server_knows_the_caller(deployment: Deployment) -> None:
     proxies = [runner.worker.probe_proxy for runner in (first, second, third)]
     assert all(proxy.wait_for_server(60) for proxy in proxies)
     assert [proxy.add(3, 1) for proxy in proxies] == [2, 4, 4]
-    with pytest.raises(RemoteError, match="CallRejected: add of the connection between server"):
+    with pytest.raises(CallRejected, match="add of the connection between server"):
         proxies[0].add(10, 1)
     assert proxies[1].add(10, 1) == 11
     (status,) = server.monitors.statuses()
@@ -100,7 +108,7 @@ def test_arbitrated_service_takes_commands_of_the_winner(deployment: Deployment)
     note(user, "b", 2)
     note(planner, "urgent", 3)
     note(user, "c", 4)
-    with pytest.raises(RemoteError, match="`when not e_urgent` is false"):
+    with pytest.raises(CallRejected, match="`when not e_urgent` is false"):
         user.add(1, 2)
     clock.time = 5.0
     note(user, "d", 6)
@@ -118,3 +126,13 @@ def test_arbitrated_service_has_no_server_for_others(
         other = quick_deployment.start(Caller, f"other{len(peers)}", peers=peers)
         with pytest.raises(NoServer):
             other.worker.probe_proxy.add(1, 2)
+
+
+def test_rejected_call_of_a_handler_is_a_failure_of_that_handler() -> None:
+    operation = PROBE.operation("add")
+    for error, kind in (
+        (RejectedByReceiver("no"), CallRejected),
+        (CallRejected("no"), RemoteError),
+    ):
+        reply = encode_failure(operation, error)
+        assert type(decode_failure(operation, "server.Probe", reply, 1.0)) is kind

@@ -22,7 +22,7 @@ from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, Operation
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.errors import CallRejected, EncodeError, MalformedMessage, Timeout
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -114,7 +114,7 @@ class IncomingOperation:
         """
         counts = self.counts
         counts.failures += 1
-        if isinstance(error, (*self.operation.throws, CallRejected)):
+        if isinstance(error, (*self.operation.throws, RejectedByReceiver)):
             return
         what = f"{counts.port}.{counts.operation}"
         if isinstance(error, EncodeError):

@@ -24,7 +24,7 @@ from robocomp_dsl.runtime.connection.running_monitor import (
     RunningMonitor,
     UpdateFunction,
 )
-from robocomp_dsl.runtime.errors import CallRejected
+from robocomp_dsl.runtime.errors import CallRejected, RejectedByReceiver
 
 
 class _Hooks(NamedTuple):
@@ -103,7 +103,8 @@ class MonitoredConnection:
             if passing is not None:
                 return call(*passing)
             if is_query:
-                raise CallRejected(self._describe_rejection(operation))
+                error = CallRejected if is_sender else RejectedByReceiver
+                raise error(self._describe_rejection(operation))
             return None
 
         return monitored
