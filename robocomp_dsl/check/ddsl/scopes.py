@@ -155,6 +155,8 @@ def flatten(scope: DeploymentScope, report: Report) -> list[tuple[ast.Instance, 
                 tree.memory,
                 tree.cpu,
                 tree.watchdog,
+                tree.middleware,
+                tree.own_ports,
                 tree.doc,
                 tree.is_program,
             )

@@ -13,22 +13,28 @@ from robocomp_dsl.runtime.parameters import Parameters
 
 @dataclass(frozen=True, slots=True)
 class ServedPort:
-    """An interface that other components use; `methods` maps its operations to methods."""
+    """An interface that other components use; `methods` maps its operations to methods.
+
+    `middlewares`, in order of preference, are empty for that of the component.
+    """
 
     name: str
     interface: Interface
     methods: Mapping[str, str] = field(default_factory=dict)
-    middleware: str = ""
+    middlewares: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class CalledPort:
-    """An interface that this component calls or publishes, through the proxy at `attribute`."""
+    """An interface that this component calls or publishes, through the proxy at `attribute`.
+
+    `middlewares` are as in `ServedPort`.
+    """
 
     name: str
     proxy: type[Proxy]
     attribute: str
-    middleware: str = ""
+    middlewares: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
+
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoints
@@ -25,6 +29,37 @@ class UnknownMiddleware(Exception):
 def middleware_names() -> list[str]:
     """Names of all middlewares that can be opened."""
     return sorted({*BUILT_IN, *(point.name for point in _entry_points())})
+
+
+@cache
+def description_of(name: str) -> MiddlewareDescription | None:
+    """The description of a middleware; None if there is none of this name."""
+    if name == "inproc":
+        return MiddlewareDescription(
+            "inproc",
+            "all components in one process, for tests",
+            Capabilities(
+                between_processes=False,
+                sequence_numbers=True,
+                reports_source=True,
+                qos=frozenset({"reliable"}),
+            ),
+            opener="robocomp_dsl.runtime.middleware.inproc:open_for",
+        )
+    if name in BUILT_IN:
+        module = import_module(f"robocomp_dsl.runtime.middleware.{name}.description")
+        built_in: MiddlewareDescription = module.MIDDLEWARE
+        return built_in
+    for point in _entry_points():
+        if point.name == name:
+            description: MiddlewareDescription = point.load()
+            return description
+    return None
+
+
+def missing_modules(description: MiddlewareDescription) -> list[str]:
+    """The modules that a middleware requires and that are not installed."""
+    return [name for name in description.requires if find_spec(name.partition(".")[0]) is None]
 
 
 def open_middleware(name: str, host: ComponentContext) -> Middleware:
