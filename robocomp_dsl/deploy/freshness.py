@@ -20,7 +20,9 @@ from robocomp_dsl.model.deployment import Deployment
 LANGUAGE = "python"
 
 
-def find_outdated(deployment: Deployment, middlewares: Callable[[], Iterable[str]]) -> Iterator[Diagnostic]:
+def find_outdated(
+    deployment: Deployment, middlewares: Callable[[], Iterable[str]]
+) -> Iterator[Diagnostic]:
     """One warning per outdated component, at its first instance.
 
     `middlewares` returns the names of all middlewares.

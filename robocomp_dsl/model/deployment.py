@@ -181,6 +181,7 @@ class Connection(Record):
     qos: Qos = Qos()
     implied: bool = False
     middleware: str = ""
+    middleware_span: Span | None = None
     monitors: tuple[Monitor, ...] = ()
     condition: str = ""
 

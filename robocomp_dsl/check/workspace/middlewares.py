@@ -41,7 +41,7 @@ class KnownMiddlewares:
 
             try:
                 self._descriptions[name] = description_of(name)
-            except Exception:  # noqa: BLE001 - code of another distribution
+            except Exception:  # of the code of another distribution
                 self._descriptions[name] = None
         return self._descriptions[name]
 

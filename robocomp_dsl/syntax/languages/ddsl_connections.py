@@ -128,9 +128,7 @@ class ConnectionsBuilder(Builder):
         """`arbitrate b.Y { … };`."""
         return ast.Arbitration(span, target, of_kind(ast.Candidate, items))
 
-    def candidate(
-        self, span: Span, source: ast.PortRef, condition: ast.Condition
-    ) -> ast.Candidate:
+    def candidate(self, span: Span, source: ast.PortRef, condition: ast.Condition) -> ast.Candidate:
         """`from a.X when seen;`."""
         return ast.Candidate(span, source, condition)
 

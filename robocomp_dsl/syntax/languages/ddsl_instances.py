@@ -111,9 +111,7 @@ class InstancesBuilder(DevicesBuilder):
         """`port 7451;`."""
         return BlockSetting(span, "port", value)
 
-    def own_port(
-        self, span: Span, port: Name, over: Name, address: Text | None
-    ) -> ast.OwnPort:
+    def own_port(self, span: Span, port: Name, over: Name, address: Text | None) -> ast.OwnPort:
         """`port Laser over ice at "tcp -p 10001";`."""
         return ast.OwnPort(span, port, over, address)
 

@@ -1,0 +1,2 @@
+class Near(Monitor):
+    def accept(self
