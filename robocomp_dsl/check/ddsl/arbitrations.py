@@ -166,9 +166,9 @@ def _check_conflicts(
     constraints: Sequence[tuple[ast.Candidate, Constraint]], report: Report
 ) -> None:
     """Report two conditions that hold together."""
-    for (first, one), (second, other) in combinations(constraints, 2):
+    for (first, condition), (second, other) in combinations(constraints, 2):
         try:
-            events = find_conflict(one, other)
+            events = find_conflict(condition, other)
         except TooManyEvents as error:
             report.add(codes.ARBITRATION, second.condition.span, f"too many events: {error}")
             return

@@ -1,2 +1,0 @@
-class Near(Monitor):
-    def accept(self
