@@ -32,9 +32,7 @@ def check_middlewares(deployment: Deployment) -> Iterator[Diagnostic]:
         elif missing := missing_modules(description):
             message = f"`{instance.name}` uses the middleware `{name}`, which needs "
             message += f"{', '.join(f'`{module}`' for module in missing)}"
-            yield Diagnostic(
-                codes.MIDDLEWARE, instance.span, message, help=f"install it: {description.install}"
-            )
+            yield Diagnostic(codes.MIDDLEWARE, instance.span, message, help=description.install)
 
 
 def _first_users(deployment: Deployment) -> dict[str, Instance]:

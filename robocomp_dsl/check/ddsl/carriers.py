@@ -206,7 +206,7 @@ def _reach_problems(
     if not capabilities.between_processes:
         message = f"`{name}` cannot connect processes, and each component is a process"
         yield _Problem(code, message)
-    elif len(hosts) > 1 and not external and not capabilities.between_hosts:
+    elif len(hosts) > 1 and connection.middleware and not external | capabilities.between_hosts:
         message = (
             f"`{name}` connects components of one machine; `{connection.source.name}` and "
             f"`{connection.target.name}` are on two"

@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.parameters import Parameters
 class ServedPort:
     """An interface that other components use; `methods` maps its operations to methods.
 
-    `middlewares`, in order of preference, are empty for that of the component.
+    `middlewares` are the marks of the CDSL file, in order of preference; empty: the component's.
     """
 
     name: str
@@ -56,3 +56,14 @@ class ComponentSpec:
     version: str = ""
     machine: MachineSpec | None = None
     watchdog: float = 0.0
+
+    @property
+    def ports(self) -> tuple[ServedPort | CalledPort, ...]:
+        """All ports."""
+        return (*self.implements, *self.requires, *self.publishes, *self.subscribes)
+
+    def role_of_peers(self, port: ServedPort | CalledPort) -> str:
+        """The role of what the port is connected to: `server`, `subscriber` or `publisher`."""
+        if port in self.requires:
+            return "server"
+        return "subscriber" if port in self.publishes else "publisher"

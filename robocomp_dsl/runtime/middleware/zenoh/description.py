@@ -1,19 +1,16 @@
-"""What zenoh can do."""
-
-from __future__ import annotations
+"""zenoh: the house transport, between processes of one machine."""
 
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 
 MIDDLEWARE = MiddlewareDescription(
     name="zenoh",
-    summary="between processes and machines; the default",
+    summary="the default: components in any processes of one machine",
     capabilities=Capabilities(
-        between_hosts=True,
         sequence_numbers=True,
         reports_source=True,
         qos=frozenset({"reliable", "priority"}),
     ),
     opener="robocomp_dsl.runtime.middleware.zenoh.transport:open_transport",
     requires=("zenoh",),
-    install="pip install eclipse-zenoh",
+    install="run: pip install eclipse-zenoh",
 )

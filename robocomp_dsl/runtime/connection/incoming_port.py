@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping
+from functools import partial
 from threading import get_ident
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -21,7 +22,7 @@ from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, Operation
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, Timeout
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -33,20 +34,29 @@ MAX_PENDING_NUMBERS = 32
 log = logging.getLogger("robocomp")
 
 
-class ServedOperation:
+class IncomingOperation:
     """One operation of a served or subscribed port.
 
     `handle` passes arguments to the handler under the callback group; `numbers` takes the number of
     each publication, for the losses.
     """
 
-    __slots__ = ("_port", "_reported", "counts", "handle", "losses", "numbers", "operation")
+    __slots__ = (
+        "_handler",
+        "_port",
+        "_reported",
+        "counts",
+        "handle",
+        "losses",
+        "numbers",
+        "operation",
+    )
 
     def __init__(
         self,
         operation: Operation,
         handler: OperationCallable,
-        port: ServedPort,
+        port: IncomingPort,
         losses: LossCounter | None = None,
     ) -> None:
         self.operation = operation
@@ -55,23 +65,27 @@ class ServedOperation:
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
-        self.handle: Handle = self.handle_by(handler)
+        self._handler = handler
+        self.handle: Handle = self.handle_within(None)
 
-    def handle_by(self, handler: OperationCallable) -> Handle:
-        """A function that calls `handler`, and counts and times the call.
+    def handle_within(self, timeout: float | None) -> Handle:
+        """A function that calls the handler, and counts and times the call.
 
-        Code that runs for every message uses local names and is inlined: its thread has just been
-        woken, and its caches are cold.
+        It raises `Timeout` if the callback group has no slot within `timeout` s. Code that runs for
+        every message uses local names and is inlined: its thread has just been woken, and its
+        caches are cold.
         """
-        counts, group = self.counts, self._port.callback_group
-        acquire, release, holders = group.acquire, group.release, group.holders
+        counts, group, handler = self.counts, self._port.callback_group, self._handler
+        acquire = group.acquire if timeout is None else partial(group.acquire, True, timeout)
+        release, holders = group.release, group.holders
         process = self.losses.process if self.losses else None
         numbers = self.numbers
 
         def handle(arguments: tuple[Any, ...]) -> Any:
             counts.calls += 1
             if counts.calls % TIMING_INTERVAL:
-                acquire()
+                if not acquire():
+                    raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
                 holders[get_ident()] = perf_counter_ns()
                 try:
                     return handler(*arguments)
@@ -79,7 +93,8 @@ class ServedOperation:
                     holders.pop(get_ident(), None)
                     release()
             start = perf_counter_ns()
-            acquire()
+            if not acquire():
+                raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
             holders[get_ident()] = perf_counter_ns()
             try:
                 return handler(*arguments)
@@ -115,7 +130,7 @@ class ServedOperation:
                 log.warning("rejected a message for %s: %s", what, error)
 
 
-class ServedPort:
+class IncomingPort:
     """One served or subscribed port of a component on one middleware."""
 
     def __init__(
@@ -131,12 +146,12 @@ class ServedPort:
         self.callback_group = callback_group
         self.statistics = statistics
         self.fail = fail
-        self.operations: dict[str, ServedOperation] = {}
+        self.operations: dict[str, IncomingOperation] = {}
         for operation in at.interface.operations:
             if operation.name in handlers:
                 counts = statistics.of(at.port, operation.name)
                 counter = losses(counts) if losses else None
-                self.operations[operation.name] = ServedOperation(
+                self.operations[operation.name] = IncomingOperation(
                     operation, handlers[operation.name], self, counter
                 )
         self._receivers: list[LeaderFollowerQueue] = []
