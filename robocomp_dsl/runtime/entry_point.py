@@ -266,7 +266,8 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     middleware, port_middlewares = parse_middlewares(options.middleware)
     ports = list(_ports(spec))
     own = (port for _, port in addresses)
-    for name in (*connections, *external, *qos, *remaps, *port_middlewares, *own):
+    qualified = (port.partition("/")[0] for port in qos)
+    for name in (*connections, *external, *qualified, *remaps, *port_middlewares, *own):
         if name not in ports:
             known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
             raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
