@@ -13,7 +13,11 @@ from robocomp_dsl.check.ddsl.qos import PRIORITIES
 from robocomp_dsl.check.passes import check_cdsl
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.language_server.completion import complete_devices
-from robocomp_dsl.language_server.completion.candidates import CompletionCandidate, value_candidates
+from robocomp_dsl.language_server.completion.candidates import (
+    CompletionCandidate,
+    middleware_candidates,
+    value_candidates,
+)
 from robocomp_dsl.language_server.completion.context import CompletionContext
 from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.symbols_cdsl import component_symbol, port_symbol
@@ -61,8 +65,8 @@ def candidates(session: Session, context: CompletionContext) -> Iterator[Complet
     ):
         kind = lsp.CompletionItemKind.Variable
         yield from (CompletionCandidate(name, kind, f": {of}") for name, of in instances.items())
-    elif last == "MIDDLEWARE":
-        yield from value_candidates(*session.workspace.middlewares)
+    elif last in ("MIDDLEWARE", "OVER"):
+        yield from middleware_candidates(session.workspace.middlewares)
     else:
         fixed = _KEYWORD_VALUES.get(last, ())
         yield from value_candidates(*(_prefixes(all_instances) if last == "PREFIX" else fixed))

@@ -215,7 +215,10 @@ def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:
 
 
 def parse_qos(texts: Iterable[str]) -> dict[str, Qos]:
-    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`."""
+    """`PORT=best_effort,depth=1,priority=high,deadline=40` (ms). Raises `InvalidSetting`.
+
+    `PORT/PEER=…` is the quality of service of one connection; its key is `PORT/PEER`.
+    """
     parsed: dict[str, Qos] = {}
     for text in texts:
         port, separator, items = text.partition("=")

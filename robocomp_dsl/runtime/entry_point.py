@@ -271,15 +271,8 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     ports = list(_ports(spec))
     monitors = _monitors(options.monitors)
     own = (*(port for _, port in addresses), *(connection.port for connection in monitors))
-    for name in (
-        *connections,
-        *external,
-        *qos,
-        *remaps,
-        *port_middlewares,
-        *own,
-        *(m.port for m in monitors),
-    ):
+    qualified = (port.partition("/")[0] for port in qos)
+    for name in (*connections, *external, *qualified, *remaps, *port_middlewares, *own):
         if name not in ports:
             known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
             raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
