@@ -11,8 +11,9 @@ from typing import Any
 
 import pytest
 
-from robocomp_dsl.check.passes import check_cdsl
+from robocomp_dsl.check.passes import check_cdsl, check_ddsl
 from robocomp_dsl.check.workspace.workspace import Workspace
+from robocomp_dsl.deploy.plan import plan as plan_deployment
 from robocomp_dsl.diagnostics import Report
 from robocomp_dsl.generate.plan import plan
 from robocomp_dsl.generate.write import write
@@ -22,10 +23,13 @@ from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.connection.parse_monitors import parse_monitors
 from tests.docs.blocks import ROOT, blocks
+from tests.docs.session import Session
+from tests.docs.test_tutorials import environment
 from tests.monitors.manual_clock import ManualClock
 from tests.support.waiting import wait_until
 
 PAGE = ROOT / "docs" / "how-to" / "monitors.md"
+__all__ = ["environment"]  # a fixture
 COMPONENTS = ("face_detector", "explorer", "head_control")
 
 
@@ -117,6 +121,26 @@ def test_gaze_example_follows_the_face_until_its_event_expires(
     assert [(s.passed, s.rejected) for s in head.monitors.statuses()] == [(1, 2), (2, 1)]
     head.stop()
     assert head.wait()
+
+
+def test_gaze_example_plan_passes_the_monitors_that_the_page_shows(folder: Path) -> None:
+    (json,) = [block.text for block in blocks(PAGE) if block.language == "json"]
+    report = Report()
+    deployment = check_ddsl(folder / "gaze.ddsl", Workspace([folder], environ={}), report)
+    assert deployment is not None
+    assert not list(report)
+    planned = plan_deployment(deployment, name="gaze", domain="d", interpreter="/py")
+    arguments = {process.name: process.argv for process in planned.processes}
+    head = arguments.pop("head_control")
+    value = head[head.index("--monitors") + 1].replace(f"{folder}/", "")
+    assert parse_monitors(value) == parse_monitors(json)
+    assert all("--monitors" not in argv for argv in arguments.values())
+
+
+def test_gaze_example_runs_as_the_page_shows(tmp_path: Path, environment: dict[str, str]) -> None:
+    with Session(tmp_path, environment) as session:
+        for block in blocks(PAGE):
+            session.execute(block)
 
 
 def test_gaze_example_monitor_fits_its_interface(folder: Path) -> None:
