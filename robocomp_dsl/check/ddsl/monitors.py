@@ -7,7 +7,6 @@ the events that the classes set.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Port
 from robocomp_dsl.model.deployment import Monitor
 from robocomp_dsl.model.interface import Interface
+from robocomp_dsl.record import Record
 from robocomp_dsl.source import Source, Span, UnreadableSource
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Bool, Literal, Name, Number
@@ -40,8 +40,7 @@ _PYTHON_TYPES = {
 }
 
 
-@dataclass(slots=True)
-class ConnectionContext:
+class ConnectionContext(Record):
     """The context for resolving connections. `path` is the path of the DDSL file.
 
     `events` are the events that each monitor sets; None: they cannot be read from its code.
@@ -49,7 +48,7 @@ class ConnectionContext:
 
     path: Path
     workspace: Workspace
-    events: dict[Monitor, frozenset[str] | None] = field(default_factory=dict)
+    events: dict[Monitor, frozenset[str] | None]
 
 
 def resolve_monitors(

@@ -7,16 +7,15 @@ diagnostics of this file, and the errors of the files that it imports.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from ipaddress import ip_address
 
 from robocomp_dsl.check.cdsl.middlewares import find_middleware
 from robocomp_dsl.check.codes import deployment as codes
-from robocomp_dsl.check.ddsl.arbitrations import apply_arbitrations
 from robocomp_dsl.check.ddsl.carriers import check_carriers, check_deployment_middleware
 from robocomp_dsl.check.ddsl.clocks import resolve_clock
 from robocomp_dsl.check.ddsl.components import CheckComponent, imported_components
-from robocomp_dsl.check.ddsl.connections import explicit_connections
+from robocomp_dsl.check.ddsl.connections import ExplicitConnections, explicit_connections
 from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_externals
 from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
@@ -25,6 +24,7 @@ from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.ddsl.order import start_order
 from robocomp_dsl.check.ddsl.own_ports import report_shared_addresses
 from robocomp_dsl.check.ddsl.scopes import (
+    DeploymentScope,
     arbitrations_of,
     check_exports,
     connections_of,
@@ -35,7 +35,7 @@ from robocomp_dsl.check.names.duplicates import unique_by_name
 from robocomp_dsl.check.workspace.source_cache import Parsed
 from robocomp_dsl.check.workspace.workspace import Workspace
 from robocomp_dsl.diagnostics import Report
-from robocomp_dsl.model.deployment import THIS_MACHINE, Connection, Deployment, Host
+from robocomp_dsl.model.deployment import THIS_MACHINE, Connection, Deployment, Host, Instance
 from robocomp_dsl.syntax.ast import ddsl as ast
 from robocomp_dsl.syntax.ast.base import Name
 
@@ -71,11 +71,8 @@ def resolve_ddsl(
     externals = resolve_externals(
         scope.externals.values(), path, imported, known_middlewares, report
     )
-    connection_context = ConnectionContext(path, workspace)
-    ends = {**known, **externals}
-    connections, faulty = connections_of(scope, report)
-    written = explicit_connections(connections, ends, faulty, connection_context, report)
-    apply_arbitrations(arbitrations_of(scope, report), ends, written, connection_context, report)
+    connection_context = ConnectionContext(path, workspace, {})
+    written = _connections(scope, {**known, **externals}, connection_context, report)
     report_unused_externals(externals.values(), written.connections, report)
     report_shared_addresses(order, [node for node, _ in trees], report)
     check_exports(scope, report)
@@ -105,6 +102,22 @@ def resolve_ddsl(
         clock=resolve_clock(tree.clock, order, complete=complete, report=report),
         externals=tuple(externals.values()),
     )
+
+
+def _connections(
+    scope: DeploymentScope,
+    ends: Mapping[str, Instance],
+    context: ConnectionContext,
+    report: Report,
+) -> ExplicitConnections:
+    """The connections that are written, with their conditions."""
+    trees, faulty = connections_of(scope, report)
+    written = explicit_connections(trees, ends, faulty, context, report)
+    if arbitrations := arbitrations_of(scope, report):
+        from robocomp_dsl.check.ddsl.arbitrations import apply_arbitrations  # noqa: PLC0415 - few files need it
+
+        apply_arbitrations(arbitrations, ends, written, context, report)
+    return written
 
 
 def _follows_error(connection: Connection, faulty: Collection[str]) -> bool:
