@@ -69,14 +69,16 @@ class MonitoredPorts:
                 at,
                 port=connection_port(at.port, connection.peer),
                 peers=(connection.peer,),
-                external=tuple(peer for peer in at.external if peer.name == connection.peer),
+                external=tuple(
+                    e for e in at.external if e.component == _component(connection.peer)
+                ),
             )
             monitored = _monitored_handlers(at, handlers, connection.wrap, is_topic=True)
             self._inner.subscribe(own, monitored, execution)
         # A connection may name the component only, if it has one such port.
-        names |= {name.rpartition(".")[0] for name in names}
+        names |= {_component(name) for name in names}
         others = tuple(peer for peer in at.peers if peer not in names)
-        external = tuple(peer for peer in at.external if peer.name not in names)
+        external = tuple(peer for peer in at.external if peer.component not in names)
         is_arbitrated = any(connection.arbiter for connection in connections)
         if (others or external) and not is_arbitrated:
             # Without any peer it would also receive the monitored messages: it names itself.
@@ -98,6 +100,11 @@ class MonitoredPorts:
     def close(self) -> None:
         """See `Ports`."""
         self._inner.close()
+
+
+def _component(peer: str) -> str:
+    """`component` of `component.Port`; an external peer has one port."""
+    return peer.rpartition(".")[0]
 
 
 def _monitored_handlers(
