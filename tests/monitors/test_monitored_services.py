@@ -124,7 +124,9 @@ def test_arbitrated_service_has_no_server_for_others(
     quick_deployment.start(Server, "server", [entry])
     for peers in ((), ("server",)):
         other = quick_deployment.start(Caller, f"other{len(peers)}", peers=peers)
-        with pytest.raises(NoServer):
+        with pytest.raises(
+            NoServer, match=r"server\.Probe is arbitrated: it accepts its connections"
+        ):
             other.worker.probe_proxy.add(1, 2)
 
 

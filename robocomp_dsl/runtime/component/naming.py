@@ -39,6 +39,11 @@ def is_connection_port(port: str) -> bool:
     return _FROM in port
 
 
+def port_of_connection(port: str) -> str:
+    """The port that a connection port belongs to; any other port itself."""
+    return port.partition(_FROM)[0]
+
+
 def namespace_of(component: str) -> str:
     """`left` of `left/arm`."""
     return component.rpartition("/")[0]
