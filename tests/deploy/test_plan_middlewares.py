@@ -193,7 +193,7 @@ def test_plan_passes_qos_of_each_connection_if_they_differ(tmp_path: Path) -> No
     ]
 
 
-MONITOR = '''
+MONITOR = """
 from robocomp_dsl.runtime import Monitor
 
 class Limit(Monitor):
@@ -203,7 +203,7 @@ class Limit(Monitor):
     def accept(self, operation, arguments):
         self.set_event("seen", 0.5)
         return True
-'''
+"""
 
 
 def monitors_of(folder: Path, text: str, name: str) -> list[dict[str, object]]:
