@@ -117,7 +117,8 @@ def _monitor_entries(
             peer = f"{name_for(instance, connection.target)}.{connection.target_port.name}"
             if sends:
                 yield _entry(connection.source_port, "sender", peer, sends)
-            if receives and not connection.source_port.role.is_topic:
+            monitored = receives or connection.condition
+            if monitored and not connection.source_port.role.is_topic:
                 yield {"port": connection.source_port.name, "at": "identify", "peer": peer}
 
 

@@ -43,17 +43,25 @@ def check_monitor_class(
     parameters: Mapping[str, object],
 ) -> MonitorClass:
     """Check the class `name` of the Python file `text`. Never raises."""
-    result = MonitorClass()
     try:
-        tree = ast.parse(text)
+        return _check(text, ast.parse(text), name, operations, parameters)
     except SyntaxError as error:
         line, column = error.lineno or 1, max(error.offset or 1, 1)
         message = f"invalid Python: {error.msg}"
-        result.findings.append(MonitorFinding(line, column, line, column + 1, message))
-        return result
+        finding = MonitorFinding(line, column, line, column + 1, message)
     except (ValueError, RecursionError, MemoryError) as error:
-        result.findings.append(MonitorFinding(1, 1, 1, 2, f"invalid Python: {error}"))
-        return result
+        finding = MonitorFinding(1, 1, 1, 2, f"invalid Python: {error}")
+    return MonitorClass([finding], all_events_known=False)
+
+
+def _check(
+    text: str,
+    tree: ast.Module,
+    name: str,
+    operations: Sequence[MonitoredOperation],
+    parameters: Mapping[str, object],
+) -> MonitorClass:
+    result = MonitorClass()
     classes = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef)}
     cls = classes.get(name)
     if cls is None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 EVENT_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -55,7 +55,7 @@ class Constraint:
 
     text: str
     events: tuple[str, ...]
-    expression: Expression
+    expression: Expression = field(compare=False, repr=False)
 
     def evaluate(self, active: Collection[str]) -> bool:
         """Whether it is true while exactly the events `active` are."""

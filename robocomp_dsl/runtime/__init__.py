@@ -1,8 +1,8 @@
 """The runtime of components. It loads nothing of the toolchain.
 
 Generated code imports `Component`, its specification and `main` from here, and the types from
-`robocomp_dsl.runtime.types`. They are loaded on first use, because the toolchain imports the
-descriptions of middlewares from a subpackage and must start quickly.
+`robocomp_dsl.runtime.types`; users extend `Monitor`. They are loaded on first use, because the
+toolchain imports the descriptions of middlewares from a subpackage and must start quickly.
 """
 
 from __future__ import annotations
@@ -13,14 +13,16 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.component import Component
     from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
+    from robocomp_dsl.runtime.connection.monitor import Monitor
     from robocomp_dsl.runtime.entry_point import main
 
-__all__ = ["CalledPort", "Component", "ComponentSpec", "ServedPort", "main"]
+__all__ = ["CalledPort", "Component", "ComponentSpec", "Monitor", "ServedPort", "main"]
 
 _MODULES = {
     "CalledPort": "robocomp_dsl.runtime.component.spec",
     "Component": "robocomp_dsl.runtime.component.component",
     "ComponentSpec": "robocomp_dsl.runtime.component.spec",
+    "Monitor": "robocomp_dsl.runtime.connection.monitor",
     "ServedPort": "robocomp_dsl.runtime.component.spec",
     "main": "robocomp_dsl.runtime.entry_point",
 }

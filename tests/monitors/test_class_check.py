@@ -5,6 +5,8 @@ from __future__ import annotations
 from textwrap import dedent
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from robocomp_dsl.monitors.class_check import check_monitor_class
 from robocomp_dsl.monitors.monitor_finding import MonitoredOperation
@@ -142,6 +144,33 @@ def test_monitor_class_with_a_base_of_another_file_is_checked_in_part() -> None:
 def test_monitor_class_file_that_cannot_be_used(text: str, name: str, message: str) -> None:
     (finding,) = check_monitor_class(text, name, OPERATIONS, {}).findings
     assert message in finding.message
+
+
+@given(st.data())
+def test_monitor_class_of_any_text_is_checked(data: st.DataObject) -> None:
+    """Texts of the valid class with parts cut, repeated or replaced."""
+    text = VALID
+    for _ in range(data.draw(st.integers(1, 4))):
+        start = data.draw(st.integers(0, len(text)))
+        end = data.draw(st.integers(start, min(len(text), start + 40)))
+        new = data.draw(
+            st.sampled_from(("", "(", ")", "self", "*", "\n", "\t", ":", "=", "é", "\0"))
+        )
+        text = text[:start] + new + text[end:]
+    lines = len(text.splitlines()) + 1
+    for finding in check_monitor_class(text, "Face", OPERATIONS, {"certainty": 1}).findings:
+        assert 1 <= finding.line <= finding.end_line <= lines
+        assert finding.column >= 1
+        assert finding.message
+
+
+@pytest.mark.parametrize("depth", [100, 400, 5000])
+def test_monitor_class_with_deep_nesting_is_checked(depth: int) -> None:
+    annotation = "a[" * depth + "b" + "]" * depth
+    text = (
+        f"class Face(Monitor):\n    def accept_stop(self) -> {annotation}:\n        return True\n"
+    )
+    assert check_monitor_class(text, "Face", OPERATIONS, {}).findings
 
 
 def test_monitor_class_suggests_the_class() -> None:

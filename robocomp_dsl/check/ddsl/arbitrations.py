@@ -29,6 +29,7 @@ from robocomp_dsl.syntax.ast import ddsl as ast
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*|#[^\n]*", re.DOTALL)
 _CONSTANTS = ("true", "false")
+_INPUTS = (Role.SUBSCRIBES, Role.IMPLEMENTS)
 
 
 def apply_arbitrations(
@@ -62,7 +63,7 @@ def _apply(
     context: ConnectionContext,
     report: Report,
 ) -> None:
-    if not _is_subscribed(tree, instances, report):
+    if not _is_input(tree, instances, report):
         return
     constraints: dict[int, tuple[ast.Candidate, Constraint]] = {}
     for candidate in tree.candidates:
@@ -96,20 +97,18 @@ def _apply(
     _check_events(list(constraints.values()), into, context, report)
 
 
-def _is_subscribed(
-    tree: ast.Arbitration, instances: Mapping[str, Instance], report: Report
-) -> bool:
-    """Whether the port exists and is subscribed; reports a port of another role."""
+def _is_input(tree: ast.Arbitration, instances: Mapping[str, Instance], report: Report) -> bool:
+    """Whether the port exists and receives messages; reports a port of another role."""
     instance = instances.get(tree.target.instance.text)
     if instance is None:
         return False
     ports = [port for port in instance.component.ports if port.name == tree.target.port.text]
-    if ports and all(port.role is not Role.SUBSCRIBES for port in ports):
+    if ports and all(port.role not in _INPUTS for port in ports):
         report.add(
             codes.ARBITRATION,
             tree.target.port.span,
-            f"`{instance.name}` {ports[0].role} `{ports[0].name}`: only subscribed ports are "
-            "arbitrated",
+            f"`{instance.name}` {ports[0].role} `{ports[0].name}`: only subscribed and implemented "
+            "ports are arbitrated",
             notes=[Note(ports[0].span, "declared here")],
         )
         return False

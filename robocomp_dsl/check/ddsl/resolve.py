@@ -20,6 +20,7 @@ from robocomp_dsl.check.ddsl.externals import report_unused_externals, resolve_e
 from robocomp_dsl.check.ddsl.groups import resolve_groups, visible_exports
 from robocomp_dsl.check.ddsl.implicit_connections import implicit_connections
 from robocomp_dsl.check.ddsl.instances import InstanceContext, report_shared_ports, resolve_instance
+from robocomp_dsl.check.ddsl.monitored_servers import check_monitored_servers
 from robocomp_dsl.check.ddsl.monitors import ConnectionContext
 from robocomp_dsl.check.ddsl.order import start_order
 from robocomp_dsl.check.ddsl.own_ports import report_shared_addresses
@@ -82,6 +83,7 @@ def resolve_ddsl(
         list(known.values()), written, imported, visible_exports(scope), report, complete=complete
     )
     all_connections = (*written.connections, *implied)
+    check_monitored_servers(all_connections, report)
     middleware = find_middleware(tree.middleware, known_middlewares, report)
     if middleware and tree.middleware:
         middleware = check_deployment_middleware(
