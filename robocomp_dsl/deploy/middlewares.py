@@ -15,9 +15,8 @@ from robocomp_dsl.model.port_middlewares import port_middlewares
 from robocomp_dsl.runtime.middleware.registry import missing_modules
 
 
-def check_middlewares(deployment: Deployment) -> Iterator[Diagnostic]:
+def check_middlewares(deployment: Deployment, known: KnownMiddlewares) -> Iterator[Diagnostic]:
     """Middlewares that cannot connect processes, or whose modules are not installed."""
-    known = KnownMiddlewares()
     for name, instance in _first_users(deployment).items():
         description = known.describe(name)
         if description is None:

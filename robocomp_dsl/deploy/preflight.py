@@ -12,6 +12,7 @@ import socket
 from collections.abc import Iterator
 from pathlib import Path
 
+from robocomp_dsl.check.workspace.middlewares import KnownMiddlewares
 from robocomp_dsl.deploy import codes
 from robocomp_dsl.deploy.middlewares import check_middlewares
 from robocomp_dsl.deploy.parameters import runtime_schema
@@ -35,7 +36,7 @@ def preflight(deployment: Deployment, plan: Plan, *, ports: bool = True) -> list
     With `ports`, fixed ports must be free, and names must be unused in the domain.
     """
     findings: list[Diagnostic] = []
-    findings += check_middlewares(deployment)
+    findings += check_middlewares(deployment, KnownMiddlewares())
     for instance, process in zip(deployment.instances, plan.processes, strict=True):
         if not instance.host.is_local:
             findings.append(_remote_host(instance))

@@ -3,7 +3,8 @@
 In: ports, connections, and what their descriptions say. Out: names of middlewares in order of
 preference. The nearest word decides: that of the connection or of an external peer, of `port` and
 then `middleware` of the instance, the mark of the port in the CDSL file, `middleware` of the CDSL
-file, `middleware` of the deployment; at last the default of components.
+file, `middleware` of the deployment. A port without any word follows the other end of a connection,
+at last the default of components.
 """
 
 from __future__ import annotations
@@ -15,7 +16,10 @@ from robocomp_dsl.model.deployment import Connection, External, Instance
 
 
 def declared_middlewares(instance: Instance, port: Port, deployment: str) -> tuple[str, ...]:
-    """The middlewares of a port, apart from its connections; `deployment`: that of the file."""
+    """The middlewares that words name for a port, apart from its connections; may be empty.
+
+    `deployment` is the middleware of the file, or empty.
+    """
     component = instance.component
     chosen = tuple(own.middleware for own in instance.own_ports if own.port == port.name)
     if chosen:
@@ -24,9 +28,9 @@ def declared_middlewares(instance: Instance, port: Port, deployment: str) -> tup
         return (instance.middleware,)
     if port.middlewares:
         return port.middlewares
-    if component.middleware_span is None and deployment:
-        return (deployment,)
-    return (component.middleware,)
+    if component.middleware_span is not None:
+        return (component.middleware,)
+    return (deployment,) if deployment else ()
 
 
 def connection_middleware(connection: Connection) -> str:
@@ -42,15 +46,19 @@ def shared_middlewares(connection: Connection, deployment: str) -> tuple[str, ..
     named = connection_middleware(connection)
     if named:
         return (named,)
-    target = declared_middlewares(connection.target, connection.target_port, deployment)
     source = declared_middlewares(connection.source, connection.source_port, deployment)
-    return tuple(name for name in source if name in target)
+    target = declared_middlewares(connection.target, connection.target_port, deployment)
+    if source and target:
+        return tuple(name for name in source if name in target)
+    return source or target or (connection.source.component.middleware,)
 
 
 def port_middlewares(
     instance: Instance, port: Port, connections: Iterable[Connection], deployment: str
 ) -> tuple[str, ...]:
-    """All middlewares that a port uses: those of its connections, or the declared ones."""
+    """All middlewares that a port uses: the declared ones and those of its connections."""
+    declared = declared_middlewares(instance, port, deployment)
+    default = declared or (instance.component.middleware,)
     names: dict[str, None] = {}
     for connection in connections:
         ends = (
@@ -59,6 +67,6 @@ def port_middlewares(
         )
         if (instance, port) in ends:
             named = connection_middleware(connection)
-            own = (named,) if named else declared_middlewares(instance, port, deployment)
+            own = (named,) if named else declared or shared_middlewares(connection, deployment)
             names.update(dict.fromkeys(own))
-    return tuple(names) or declared_middlewares(instance, port, deployment)
+    return tuple(names) or default

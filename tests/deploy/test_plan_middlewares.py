@@ -103,6 +103,18 @@ def test_middleware_flags_of_marks_and_connections(tmp_path: Path) -> None:
     assert flags(tmp_path, text, "reflex") == ["--middleware", "Laser=shm", *CONNECT]
 
 
+def test_port_without_words_follows_other_end(tmp_path: Path) -> None:
+    text = """
+        component body; component marked; component reflex;
+        connect marked.Laser -> body.Laser;
+    """
+    assert flags(tmp_path, text, "marked") == CONNECT
+    assert flags(tmp_path, text, "body") == [
+        *("--middleware", "Laser=rpc,zenoh", "--middleware", "LaserPub=shm,zenoh"),
+    ]
+    assert flags(tmp_path, text, "reflex") == CONNECT
+
+
 EXTERNALS = """
     component body { port Laser over rpc at "tcp -p 1"; }; component reflex;
     /// The old robot.

@@ -11,7 +11,8 @@ NO_SHARED_MIDDLEWARE = Code(
     """\
 The two ends of a connection use the same middleware. The nearest word decides: `over` of the
 connection, `port` and `middleware` of the component in the deployment, the mark of the port in the
-CDSL file, `middleware` of the CDSL file, `middleware` of the deployment.
+CDSL file, `middleware` of the CDSL file, `middleware` of the deployment. A port of which nothing is
+said follows the other end.
 
 Wrong, where `body` implements `Skin(local)` and `reflex` requires `Skin(zenoh)`:
 

@@ -178,7 +178,7 @@ def _problems(
     )
     for instance, port in ends:
         if not isinstance(instance, External):
-            for word in (*instance.full_name.split("/"), port.name):
+            for word in (instance.full_name, port.name):
                 if capabilities.valid_names and not re.fullmatch(capabilities.valid_names, word):
                     message = f"`{word}` is not a valid name over `{name}`"
                     yield _Problem(codes.UNSUITABLE_MIDDLEWARE, message)
