@@ -157,7 +157,7 @@ ARBITRATION = Code(
     Severity.ERROR,
     "invalid arbitration",
     """\
-An arbitration names every connection into a subscribed port, with the events under which it
+An arbitration names every connection into a port, with the events under which it
 delivers. The monitors of the connections set the events. At most one condition holds at a time.
 
 Wrong: both conditions hold if `seen` is set.

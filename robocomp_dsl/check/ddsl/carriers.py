@@ -59,16 +59,10 @@ def check_carriers(
     connections: Sequence[Connection], deployment: str, known: KnownMiddlewares, report: Report
 ) -> None:
     """Check every connection; `deployment` is the middleware of the file, or empty."""
-    inputs: dict[tuple[int, int], int] = {}
-    for connection in connections:
-        key = (id(connection.target), id(connection.target_port))
-        inputs[key] = inputs.get(key, 0) + 1
     for connection in connections:
         _check_topic_qos(connection, report)
-        if _is_plain(connection, deployment):
-            continue
-        several = inputs[id(connection.target), id(connection.target_port)] > 1
-        _check(connection, deployment, known, report, several=several)
+        if not _is_plain(connection, deployment):
+            _check(connection, deployment, known, report)
     _check_sender_monitors(connections, report)
 
 
@@ -82,8 +76,6 @@ def _is_plain(connection: Connection, deployment: str) -> bool:
         not deployment
         and not connection_middleware(connection)
         and connection.qos == Qos()
-        and not connection.monitors
-        and not connection.condition
         and not any(_says_middleware(instance, port) for instance, port in ends)
     )
 
@@ -98,8 +90,6 @@ def _check(
     deployment: str,
     known: KnownMiddlewares,
     report: Report,
-    *,
-    several: bool,
 ) -> None:
     if _contradicts_external(connection, report):
         return
@@ -112,11 +102,11 @@ def _check(
         description = known.describe(name)
         if description is None:
             return  # it cannot be loaded: nothing is known of it
-        found = list(_problems(connection, name, description.capabilities, several=several))
+        found = list(_problems(connection, name, description.capabilities))
         if not found:
             return
         problems = problems or found
-    able = _able(lambda other: not any(_problems(connection, "", other, several=several)), known)
+    able = _able(lambda other: not any(_problems(connection, "", other)), known)
     for problem in problems:
         report.add(
             problem.code,
@@ -168,9 +158,7 @@ def _report_none_shared(connection: Connection, deployment: str, report: Report)
     )
 
 
-def _problems(
-    connection: Connection, name: str, capabilities: Capabilities, *, several: bool
-) -> Iterator[_Problem]:
+def _problems(connection: Connection, name: str, capabilities: Capabilities) -> Iterator[_Problem]:
     yield from _reach_problems(connection, name, capabilities)
     ends = (
         (connection.source, connection.source_port),
@@ -186,15 +174,6 @@ def _problems(
         if item not in capabilities.qos:
             message = f"`{name}` does not honour `{_NAMES.get(item, item)}`"
             yield _Problem(codes.UNSUPPORTED_QOS, message)
-    needs_source = connection.condition or any(
-        monitor.position == "receiver" for monitor in connection.monitors
-    )
-    if needs_source and several and not capabilities.reports_source:
-        yield _Problem(
-            codes.UNSUITABLE_MIDDLEWARE,
-            f"over `{name}` a receiver does not learn from whom a message is: connections into one "
-            "port cannot have monitors of their own",
-        )
 
 
 def _reach_problems(
