@@ -1,0 +1,187 @@
+"""The calling side: one connection for each thread that calls, which reads its replies itself.
+
+In: the record of a server. Out: functions that send a request and return the reply. No other thread
+is involved. A connection on which a call failed is not used again, so a late reply is never taken
+for another one.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import socket
+import threading
+import weakref
+from collections.abc import Callable
+from typing import Any, NoReturn
+
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
+from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
+from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.middleware.local import packets
+from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
+from robocomp_dsl.runtime.middleware.local.packets import MalformedPacket, SharedPacket
+from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, parse_address
+from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
+from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+
+POLLS = 30
+"""Before it sleeps, a caller looks so often whether the reply is there, and yields the processor:
+about 30 us. To wake a sleeping thread on an idle processor takes longer."""
+CALLS_WITHOUT_POLL = 31
+"""After a reply that took longer."""
+
+
+class Connection:
+    """The connection of one thread to a server."""
+
+    __slots__ = ("__weakref__", "socket", "without_poll", "poll")
+
+    def __init__(self, opened: socket.socket) -> None:
+        self.socket = opened
+        poll = select.poll()
+        poll.register(opened, select.POLLIN)
+        self.poll: Callable[[int], Any] = poll.poll
+        self.without_poll = 0
+
+    def wait_briefly(self) -> None:
+        """Return when a reply has come, or soon."""
+        if self.without_poll:
+            self.without_poll -= 1
+            return
+        poll, give_way = self.poll, os.sched_yield
+        for _ in range(POLLS):
+            if poll(0):
+                return
+            give_way()
+        self.without_poll = CALLS_WITHOUT_POLL
+
+
+class LocalClient:
+    """The connections of a required port to one server."""
+
+    def __init__(self, at: Endpoint, server: PortRecord, timeout: float) -> None:
+        self._at = at
+        self._server = server
+        self._timeout = timeout
+        self._of_thread = threading.local()
+        self._connections: weakref.WeakSet[Connection] = weakref.WeakSet()
+        self._lock = threading.Lock()
+        self._cancelled = False
+
+    def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
+        """See `transport.ServiceClient`."""
+        encode = message_encoder(operation.inputs)
+        if operation.pattern is Pattern.COMMAND:
+            return BoundOperation(encode, self._command(operation, counts))
+        return BoundOperation(encode, self._query(operation, counts))
+
+    def _command(self, operation: Operation, counts: OperationCounts) -> Callable[[Message], None]:
+        head = head_of(packets.COMMAND, self._at.interface, operation)
+        of_thread = self._of_thread
+
+        def command(message: Message) -> None:
+            connection = getattr(of_thread, "connection", None) or self._open(operation)
+            try:
+                counts.bytes_out += _send(connection.socket, head, message)
+            except BaseException as error:
+                self._fail(connection, operation, error)
+
+        return command
+
+    def _query(self, operation: Operation, counts: OperationCounts) -> Callable[[Message], Any]:
+        head = head_of(packets.QUERY, self._at.interface, operation)
+        result = head_of(packets.RESULT, self._at.interface, operation)
+        of_thread, decode = self._of_thread, operation.decode_reply
+        receive = packets.receive
+
+        def query(message: Message) -> Any:
+            connection = getattr(of_thread, "connection", None) or self._open(operation)
+            try:
+                counts.bytes_out += _send(connection.socket, head, message)
+                connection.wait_briefly()
+                reply = receive(connection.socket)
+                if reply.__class__ is bytes:
+                    start, body = reply[:4], reply[4:]
+                else:
+                    start, body = reply.start, reply.body
+                if not start:
+                    raise ConnectionResetError
+            except BaseException as error:
+                self._fail(connection, operation, error)
+            counts.bytes_in += len(body)
+            if start == result:
+                return decode(body)
+            if start[0] != packets.FAILURE:
+                self._fail(connection, operation, MalformedPacket("an unexpected reply"))
+            raise decode_failure(operation, self._server.name, bytes(body), self._timeout)
+
+        return query
+
+    def _open(self, operation: Operation) -> Connection:
+        """The connection of this thread, which the server has accepted."""
+        path, port = parse_address(self._server.address)
+        with self._lock:
+            if self._cancelled:
+                self._fail(None, operation, ConnectionResetError())
+            connection = Connection(packets.new_socket(self._timeout))
+            self._connections.add(connection)
+        try:
+            connection.socket.connect(path)
+            connection.socket.send(hello_packet(self._at, port, packets.QUERY))
+            answer = packets.receive(connection.socket)
+            if not isinstance(answer, bytes) or not answer:
+                raise ConnectionResetError
+            if answer[0] == packets.REFUSED:
+                raise InterfaceMismatch(answer[packets.HEAD.size :].decode(errors="replace"))
+            if not packets.is_same_user(connection.socket):
+                raise MalformedPacket("its server belongs to another user")
+        except BaseException as error:
+            self._fail(connection, operation, error)
+        self._of_thread.connection = connection
+        return connection
+
+    def _fail(
+        self, connection: Connection | None, operation: Operation, error: BaseException
+    ) -> NoReturn:
+        """Close the connection and raise what `error` means for the caller."""
+        self._of_thread.connection = None
+        if connection is not None:
+            connection.socket.close()
+        what = f"{self._server.name}.{operation.name}"
+        if isinstance(error, BlockingIOError):
+            raise Timeout(f"{what} did not reply within {self._timeout:g} s") from None
+        if isinstance(error, OSError):
+            reason = "the component that served it exited"
+            if self._cancelled:
+                reason = f"{self._at.component}, which called it, is stopping"
+            raise ServerLost(f"{what}: {reason}") from None
+        if isinstance(error, MalformedPacket):
+            raise MalformedMessage(f"{what}: {error}") from None
+        raise error
+
+    def cancel(self) -> None:
+        """See `transport.ServiceClient`."""
+        with self._lock:
+            self._cancelled = True
+            connections = list(self._connections)
+        for connection in connections:
+            try:
+                connection.socket.shutdown(socket.SHUT_RDWR)
+            except OSError:
+                continue  # not connected, or closed by its thread
+
+    def close(self) -> None:
+        """See `transport.ServiceClient`."""
+        self.cancel()
+
+
+def _send(to: socket.socket, head: bytes, message: Message) -> int:
+    """Send a message; returns its size."""
+    if isinstance(message, bytes):
+        to.send(head + message)
+        return len(message)
+    packets.send_shared(to, head, message)
+    return message.size
