@@ -7,6 +7,7 @@ for another one.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import select
 import socket
@@ -18,13 +19,13 @@ from typing import Any, NoReturn
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.packets import MalformedPacket, SharedPacket
 from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, parse_address
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
-from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure
+from robocomp_dsl.runtime.codec.failures import decode_failure
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 POLLS = 30
@@ -162,16 +163,21 @@ class LocalClient:
             raise MalformedMessage(f"{what}: {error}") from None
         raise error
 
+    def set_timeout(self, seconds: float) -> None:
+        """See `transport.ServiceClient`."""
+        self._timeout = seconds
+        for connection in list(self._connections):
+            with contextlib.suppress(OSError):  # closed by its thread
+                packets.limit_waits(connection.socket, seconds)
+
     def cancel(self) -> None:
         """See `transport.ServiceClient`."""
         with self._lock:
             self._cancelled = True
             connections = list(self._connections)
         for connection in connections:
-            try:
+            with contextlib.suppress(OSError):  # not connected, or closed by its thread
                 connection.socket.shutdown(socket.SHUT_RDWR)
-            except OSError:
-                continue  # not connected, or closed by its thread
 
     def close(self) -> None:
         """See `transport.ServiceClient`."""

@@ -7,7 +7,7 @@ from robocomp_dsl.runtime.middleware.capabilities import Capabilities, Middlewar
 MAX_MESSAGE_BYTES = 1 << 30
 """Larger messages are refused by the sender, and by the receiver."""
 
-DESCRIPTION = MiddlewareDescription(
+MIDDLEWARE = MiddlewareDescription(
     name="local",
     summary="fast, on one machine: unix sockets, and shared memory for large messages",
     capabilities=Capabilities(

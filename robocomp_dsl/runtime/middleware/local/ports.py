@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.component.interface import Interface, Operation
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.ports import head_of

@@ -26,10 +26,10 @@ from robocomp_dsl.runtime.middleware.local.listener import Listener
 from robocomp_dsl.runtime.middleware.local.packets import Received
 from robocomp_dsl.runtime.middleware.local.ports import Hello, head_of
 from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
-from robocomp_dsl.runtime.middleware.zenoh.answers import encode_failure
+from robocomp_dsl.runtime.codec.failures import encode_failure
 
 if TYPE_CHECKING:
-    from robocomp_dsl.runtime.connection.served_port import ServedOperation, ServedPort
+    from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 
 DEPTH = 256
 """Length of a receive queue without `depth`; the queue is then in the socket and its sender."""
@@ -47,7 +47,7 @@ Handler = Callable[[socket.socket, bytes, Any], None]
 class ReceivingPort:
     """A served port (`kind` is `packets.QUERY`) or a subscription (`packets.PUBLICATION`)."""
 
-    def __init__(self, port: ServedPort, kind: int, listener: Listener) -> None:
+    def __init__(self, port: IncomingPort, kind: int, listener: Listener) -> None:
         self.port = port
         self.kind = kind
         self.depth = port.at.qos.depth or DEPTH
@@ -99,7 +99,7 @@ class ReceivingPort:
             self._reported = True
             log.warning("%s closed the connection of %s: %s", self.name, sender, error)
 
-    def _handler(self, served: ServedOperation) -> tuple[bytes, Handler]:
+    def _handler(self, served: IncomingOperation) -> tuple[bytes, Handler]:
         kind, handler = packets.PUBLICATION, _publication_handler
         if self.kind == packets.QUERY:
             is_command = served.operation.pattern is Pattern.COMMAND
@@ -107,7 +107,7 @@ class ReceivingPort:
             handler = _command_handler if is_command else self._query_handler
         return head_of(kind, self.port.interface, served.operation), handler(served)
 
-    def _query_handler(self, served: ServedOperation) -> Handler:
+    def _query_handler(self, served: IncomingOperation) -> Handler:
         operation, counts, handle = served.operation, served.counts, served.handle
         decode, encode = operation.decode_request, message_encoder(operation.outputs, result=True)
         result = head_of(packets.RESULT, self.port.interface, operation)
@@ -136,7 +136,7 @@ class ReceivingPort:
         return query
 
 
-def _command_handler(served: ServedOperation) -> Handler:
+def _command_handler(served: IncomingOperation) -> Handler:
     counts, decode, handle = served.counts, served.operation.decode_request, served.handle
 
     def command(_connection: socket.socket, _start: bytes, body: Any) -> None:
@@ -149,7 +149,7 @@ def _command_handler(served: ServedOperation) -> Handler:
     return command
 
 
-def _publication_handler(served: ServedOperation) -> Handler:
+def _publication_handler(served: IncomingOperation) -> Handler:
     counts, decode, handle = served.counts, served.operation.decode_request, served.handle
     add_number = served.numbers.append
 

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.ports import hello_packet, parse_address
 from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket, SharedMessage

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.client import LocalClient
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
@@ -24,7 +24,7 @@ from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.private_folder import UnsafeFolder, private_folder
 
 if TYPE_CHECKING:
-    from robocomp_dsl.runtime.connection.served_port import ServedPort
+    from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
 
 class _Closable(Protocol):
@@ -52,11 +52,11 @@ class LocalTransport:
         except UnsafeFolder as error:
             raise MiddlewareError(str(error)) from None
 
-    def serve(self, port: ServedPort) -> ReceivingPort:
+    def serve(self, port: IncomingPort) -> ReceivingPort:
         """See `transport.Transport`."""
         return self._add(ReceivingPort(port, packets.QUERY, self._listener))
 
-    def subscribe(self, port: ServedPort) -> ReceivingPort:
+    def subscribe(self, port: IncomingPort) -> ReceivingPort:
         """See `transport.Transport`."""
         return self._add(ReceivingPort(port, packets.PUBLICATION, self._listener))
 
