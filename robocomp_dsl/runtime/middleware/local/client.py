@@ -16,16 +16,17 @@ import weakref
 from collections.abc import Callable
 from typing import Any, NoReturn
 
+from robocomp_dsl.runtime.codec.failures import decode_failure
 from robocomp_dsl.runtime.component.interface import Operation, Pattern
 from robocomp_dsl.runtime.component.statistics import OperationCounts
-from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
-from robocomp_dsl.runtime.middleware.local.packets import MalformedPacket, SharedPacket
+from robocomp_dsl.runtime.middleware.local.packets import Body
 from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, parse_address
+from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
-from robocomp_dsl.runtime.codec.failures import decode_failure
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 POLLS = 30
@@ -38,7 +39,7 @@ CALLS_WITHOUT_POLL = 31
 class Connection:
     """The connection of one thread to a server."""
 
-    __slots__ = ("__weakref__", "socket", "without_poll", "poll")
+    __slots__ = ("__weakref__", "poll", "socket", "without_poll")
 
     def __init__(self, opened: socket.socket) -> None:
         self.socket = opened
@@ -86,7 +87,7 @@ class LocalClient:
         def command(message: Message) -> None:
             connection = getattr(of_thread, "connection", None) or self._open(operation)
             try:
-                counts.bytes_out += _send(connection.socket, head, message)
+                counts.bytes_out += packets.send(connection.socket, head, message)
             except BaseException as error:
                 self._fail(connection, operation, error)
 
@@ -96,15 +97,16 @@ class LocalClient:
         head = head_of(packets.QUERY, self._at.interface, operation)
         result = head_of(packets.RESULT, self._at.interface, operation)
         of_thread, decode = self._of_thread, operation.decode_reply
-        receive = packets.receive
+        receive, send = packets.receive, packets.send
 
         def query(message: Message) -> Any:
+            body: Body
             connection = getattr(of_thread, "connection", None) or self._open(operation)
             try:
-                counts.bytes_out += _send(connection.socket, head, message)
+                counts.bytes_out += send(connection.socket, head, message)
                 connection.wait_briefly()
                 reply = receive(connection.socket)
-                if reply.__class__ is bytes:
+                if isinstance(reply, bytes):
                     start, body = reply[:4], reply[4:]
                 else:
                     start, body = reply.start, reply.body
@@ -182,12 +184,3 @@ class LocalClient:
     def close(self) -> None:
         """See `transport.ServiceClient`."""
         self.cancel()
-
-
-def _send(to: socket.socket, head: bytes, message: Message) -> int:
-    """Send a message; returns its size."""
-    if isinstance(message, bytes):
-        to.send(head + message)
-        return len(message)
-    packets.send_shared(to, head, message)
-    return message.size

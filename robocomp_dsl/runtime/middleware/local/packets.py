@@ -77,7 +77,9 @@ def limit_waits(opened: socket.socket, send: float, receive: float | None = None
         (socket.SO_RCVTIMEO, send if receive is None else receive),
     ):
         seconds, rest = divmod(limit, 1)
-        opened.setsockopt(socket.SOL_SOCKET, option, struct.pack("ll", int(seconds), int(rest * 1e6)))
+        opened.setsockopt(
+            socket.SOL_SOCKET, option, struct.pack("ll", int(seconds), int(rest * 1e6))
+        )
 
 
 def _close_in_child() -> None:
@@ -95,6 +97,15 @@ def is_same_user(peer: socket.socket) -> bool:
     return struct.unpack("iII", credentials)[1] == os.getuid()
 
 
+def send(to: socket.socket, head: bytes, message: bytes | SharedMessage) -> int:
+    """Send a packet with this head; returns the size of the message."""
+    if isinstance(message, bytes):
+        to.send(head + message)
+        return len(message)
+    send_shared(to, head, message)
+    return message.size
+
+
 def send_shared(to: socket.socket, start: bytes, message: SharedMessage, flags: int = 0) -> None:
     """Send a packet that begins with `start` and has its body in shared memory."""
     head = start[:1] + bytes((SHARED,)) + start[2:] + SIZE.pack(message.size)
@@ -110,9 +121,7 @@ def receive(sender: socket.socket, flags: int = 0) -> Received:
     return data
 
 
-def open_shared(
-    data: bytes, ancillary: list[tuple[int, int, bytes]], state: int
-) -> SharedPacket:
+def open_shared(data: bytes, ancillary: list[tuple[int, int, bytes]], state: int) -> SharedPacket:
     """A packet with its body mapped. Raises `MalformedPacket`; closes what it received."""
     received: array[int] = array("i")
     for level, kind, content in ancillary:

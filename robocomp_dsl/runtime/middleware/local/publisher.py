@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -50,8 +49,9 @@ class LocalPublisher:
         self, head: bytes, counts: OperationCounts
     ) -> Callable[[Message, bytes], None]:
         def publish(message: Message, number: bytes) -> None:
-            if message.__class__ is bytes:
-                packet, shared = head + number + message, None
+            shared = None
+            if isinstance(message, bytes):
+                packet = head + number + message
                 counts.bytes_out += len(message)
             else:
                 packet, shared = head + number, message

@@ -15,18 +15,17 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from struct import Struct
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+from robocomp_dsl.runtime.codec.failures import encode_failure
 from robocomp_dsl.runtime.component.interface import Pattern
 from robocomp_dsl.runtime.component.receiver import QueueClosed
-from robocomp_dsl.runtime.errors import DeclaredError
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.listener import Listener
-from robocomp_dsl.runtime.middleware.local.packets import Received
+from robocomp_dsl.runtime.middleware.local.packets import Body, Received
 from robocomp_dsl.runtime.middleware.local.ports import Hello, head_of
 from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
-from robocomp_dsl.runtime.codec.failures import encode_failure
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
@@ -40,7 +39,7 @@ _COUNT = Struct("i")
 _ZERO = bytes(_COUNT.size)
 log = logging.getLogger("robocomp")
 
-Handler = Callable[[socket.socket, bytes, Any], None]
+Handler: TypeAlias = Callable[[socket.socket, bytes, Any], None]
 """Handles the message of a connection: its start (head and number), and its body."""
 
 
@@ -123,12 +122,7 @@ class ReceivingPort:
                 served.report(error)
                 head, reply = failure, encode_failure(operation, error)[: packets.INLINE_BYTES]
             try:
-                if reply.__class__ is bytes:
-                    counts.bytes_out += len(reply)
-                    connection.send(head + reply)
-                else:
-                    counts.bytes_out += reply.size
-                    packets.send_shared(connection, head, reply)
+                counts.bytes_out += packets.send(connection, head, reply)
             except OSError:  # the caller has ended, or takes no replies
                 with contextlib.suppress(OSError):
                     connection.shutdown(socket.SHUT_RDWR)
@@ -222,13 +216,14 @@ class _Connection:
 
     def handle(self, packet: Received) -> None:
         """Pass a packet to the handler of its operation."""
-        if packet.__class__ is bytes:
-            size = self._start_size
+        size = self._start_size
+        body: Body
+        if isinstance(packet, bytes):
             start, body = packet[:size], packet[size:]
         else:
             start, body = packet.start, packet.body
         handler = self._handlers.get(start[:4])
-        if handler is None or len(start) != self._start_size:
+        if handler is None or len(start) != size:
             self._port.malformed(MalformedPacket("no packet of an operation"), self._sender)
             with contextlib.suppress(OSError):
                 self.socket.shutdown(socket.SHUT_RDWR)

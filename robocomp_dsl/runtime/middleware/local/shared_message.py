@@ -42,8 +42,9 @@ class SharedMessage:
         self.size = size
         self.descriptor = -1
         if size > MAX_MESSAGE_BYTES:
-            raise EncodeError(f"{size} bytes are more than a message of `local` may have"
-                              f" ({MAX_MESSAGE_BYTES})")
+            raise EncodeError(
+                f"{size} bytes are more than a message of `local` may have ({MAX_MESSAGE_BYTES})"
+            )
         try:
             self.descriptor = os.memfd_create("robocomp", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
             _write(self.descriptor, [PADDING, *parts])

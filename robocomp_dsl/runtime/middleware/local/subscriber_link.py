@@ -114,9 +114,7 @@ class SubscriberLink:
         packets.send_shared(self._socket, packet, shared)
         self._shared += 1
 
-    def _hold(
-        self, packet: bytes, shared: SharedMessage | None, counts: OperationCounts
-    ) -> None:
+    def _hold(self, packet: bytes, shared: SharedMessage | None, counts: OperationCounts) -> None:
         """Wait for room for a reliable publication; drop it if the subscriber takes nothing."""
         start = time.monotonic()
         poll = select.poll()

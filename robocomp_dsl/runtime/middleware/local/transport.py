@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import threading
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, TypeVar
 
-from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.client import LocalClient
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
@@ -27,8 +27,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
 
-class _Closable(Protocol):
-    def close(self) -> None: ...
+_Port = TypeVar("_Port", ReceivingPort, LocalClient, LocalPublisher)
 
 
 def open_transport(context: TransportContext) -> LocalTransport:
@@ -44,7 +43,7 @@ class LocalTransport:
         self._listener = Listener(self._folder, context.fail)
         self._flusher = Flusher(context.fail)
         self._lock = threading.Lock()
-        self._ports: list[_Closable] = []
+        self._ports: list[ReceivingPort | LocalClient | LocalPublisher] = []
 
     def _folder(self) -> Path:
         try:
@@ -68,7 +67,7 @@ class LocalTransport:
         """See `transport.Transport`."""
         return self._add(LocalPublisher(at, self._flusher))
 
-    def _add(self, port):
+    def _add(self, port: _Port) -> _Port:
         with self._lock:
             self._ports.append(port)
         return port
