@@ -114,7 +114,7 @@ def over_all() -> list[dict[str, Any]]:
         {"name": f"{name} round trip", "value": median(values), "unit": "us"}
         for name, values in took.items()
     ]
-    for name, above, below, goal in (
+    for title, above, below, goal in (
         ("generated query / raw query, zenoh", "zenoh query", "raw query", 1.10),
         ("generated publish / raw publish, zenoh", "zenoh publish", "raw publish", 1.20),
         *(
@@ -123,7 +123,7 @@ def over_all() -> list[dict[str, Any]]:
             for kind, goal in (("query", GOALS.get(name)), ("publish", None))
         ),
     ):
-        figures.append({"name": name, "value": ratio(took, above, below), "unit": "x"})
+        figures.append({"name": title, "value": ratio(took, above, below), "unit": "x"})
         if goal:
             figures[-1]["goal"] = goal
     return figures

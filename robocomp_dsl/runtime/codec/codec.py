@@ -69,7 +69,7 @@ def decode(type_: type[R], message: Buffer) -> R:
 
 @once
 def _encoder_of(type_: type[Struct]) -> Callable[[Any], bytes]:
-    return compile_encoder((("", type_),), result=True)
+    return encoder_function((("", type_),), "one")
 
 
 @once
@@ -86,7 +86,7 @@ def compile_error_encoder(
     def encode_error(error: DeclaredError) -> bytes:
         for index, throw in enumerate(throws):
             if isinstance(error, throw):
-                return encoders[index]((index, error))
+                return cast("bytes", encoders[index]((index, error)))
         raise EncodeError(f"{type(error).__name__} is not declared by the operation")
 
     return encode_error

@@ -23,7 +23,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
-from robocomp_dsl.runtime.middleware.local.packets import Body
+from robocomp_dsl.runtime.middleware.local.packets import Body, Received
 from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, parse_address
 from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
@@ -96,8 +96,9 @@ class LocalClient:
     def _query(self, operation: Operation, counts: OperationCounts) -> Callable[[Message], Any]:
         head = head_of(packets.QUERY, self._at.interface, operation)
         result = head_of(packets.RESULT, self._at.interface, operation)
-        of_thread, decode = self._of_thread, operation.decode_reply
+        of_thread = self._of_thread
         receive, send = packets.receive, packets.send
+        decode: Callable[[Any], Any] = operation.decode_reply
 
         def query(message: Message) -> Any:
             body: Body
@@ -110,8 +111,6 @@ class LocalClient:
                     start, body = reply[:4], reply[4:]
                 else:
                     start, body = reply.start, reply.body
-                if not start:
-                    raise ConnectionResetError
             except BaseException as error:
                 self._fail(connection, operation, error)
             counts.bytes_in += len(body)
@@ -134,13 +133,7 @@ class LocalClient:
         try:
             connection.socket.connect(path)
             connection.socket.send(hello_packet(self._at, port, packets.QUERY))
-            answer = packets.receive(connection.socket)
-            if not isinstance(answer, bytes) or not answer:
-                raise ConnectionResetError
-            if answer[0] == packets.REFUSED:
-                raise InterfaceMismatch(answer[packets.HEAD.size :].decode(errors="replace"))
-            if not packets.is_same_user(connection.socket):
-                raise MalformedPacket("its server belongs to another user")
+            _check_answer(packets.receive(connection.socket))
         except BaseException as error:
             self._fail(connection, operation, error)
         self._of_thread.connection = connection
@@ -184,3 +177,11 @@ class LocalClient:
     def close(self) -> None:
         """See `transport.ServiceClient`."""
         self.cancel()
+
+
+def _check_answer(answer: Received) -> None:
+    """The answer to the first packet. Raises `InterfaceMismatch` and `MalformedPacket`."""
+    if isinstance(answer, bytes) and answer[0] == packets.REFUSED:
+        raise InterfaceMismatch(answer[packets.HEAD.size :].decode(errors="replace"))
+    if not isinstance(answer, bytes) or answer[0] != packets.READY:
+        raise MalformedPacket("an unexpected answer to the first packet")

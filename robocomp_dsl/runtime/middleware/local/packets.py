@@ -94,7 +94,8 @@ os.register_at_fork(after_in_child=_close_in_child)
 def is_same_user(peer: socket.socket) -> bool:
     """Whether the process on the other side belongs to this user."""
     credentials = peer.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, 12)
-    return struct.unpack("iII", credentials)[1] == os.getuid()
+    _, user, _ = struct.unpack("iII", credentials)
+    return bool(user == os.getuid())
 
 
 def send(to: socket.socket, head: bytes, message: bytes | SharedMessage) -> int:
@@ -114,10 +115,12 @@ def send_shared(to: socket.socket, start: bytes, message: SharedMessage, flags: 
 
 
 def receive(sender: socket.socket, flags: int = 0) -> Received:
-    """The next packet; b"" at the end. Raises `OSError`, `BlockingIOError`, `MalformedPacket`."""
+    """The next packet. Raises `MalformedPacket`, and `OSError` at the end of the connection."""
     data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags | _CLOEXEC)
     if ancillary or state & _CUT:
         return open_shared(data, ancillary, state)
+    if not data:
+        raise ConnectionResetError
     return data
 
 

@@ -62,7 +62,7 @@ class SharedMessage:
 def _write(descriptor: int, parts: list[Any]) -> None:
     if len(parts) > _MAX_PARTS:
         parts = [b"".join(parts)]
-    left = [memoryview(np.frombuffer(part, np.uint8)) for part in parts if len(part)]
+    left: list[Any] = [np.frombuffer(part, np.uint8) for part in parts if len(part)]
     while left:
         written = os.writev(descriptor, left)
         while left and written >= len(left[0]):

@@ -1,7 +1,7 @@
 """Socket files of components in the folder of this middleware in a domain.
 
-    <pid>-<n>          the socket
-    <pid>-<n>.lock     locked by its owner; the lock of a killed process is free
+    <pid>-<random>          the socket; a restarted component has another address
+    <pid>-<random>.lock     locked by its owner; the lock of a killed process is free
 
 In: a folder. Out: a listening socket. Sockets that killed processes left are deleted on the way.
 """
@@ -9,17 +9,17 @@ In: a folder. Out: a listening socket. Sockets that killed processes left are de
 from __future__ import annotations
 
 import contextlib
-import itertools
 import os
+import secrets
 import socket
 from pathlib import Path
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import FileLock, try_lock
 from robocomp_dsl.runtime.middleware.local import packets
+from robocomp_dsl.runtime.presence.stale_sockets import LOCK_SUFFIX, sweep_sockets
 
 BACKLOG = 128
-_LOCK = ".lock"
 
 
 class SocketFile:
@@ -28,7 +28,7 @@ class SocketFile:
     def __init__(self, folder: Path) -> None:
         """Create it. Raises `MiddlewareError`."""
         try:
-            sweep(folder)
+            sweep_sockets(folder)
             self.path, self._lock = _claim(folder)
             self.socket = packets.new_socket(0)
             self.socket.bind(str(self.path))
@@ -47,18 +47,8 @@ class SocketFile:
 
 
 def _claim(folder: Path) -> tuple[Path, FileLock]:
-    """A path of this process that no other of its components has."""
-    for number in itertools.count():
-        path = folder / f"{os.getpid()}-{number}"
-        if lock := try_lock(path.with_name(path.name + _LOCK)):
-            path.unlink(missing_ok=True)  # of a killed process with the same id
+    """A path that no other component has or had."""
+    while True:
+        path = folder / f"{os.getpid()}-{secrets.token_hex(4)}"
+        if lock := try_lock(path.with_name(path.name + LOCK_SUFFIX)):
             return path, lock
-    raise AssertionError
-
-
-def sweep(folder: Path) -> None:
-    """Delete the sockets of processes that have ended."""
-    for path in folder.glob(f"*{_LOCK}"):
-        if lock := try_lock(path):
-            path.with_suffix("").unlink(missing_ok=True)
-            lock.release(delete=True)
