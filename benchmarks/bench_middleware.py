@@ -12,6 +12,7 @@ import sys
 import threading
 import uuid
 from collections.abc import Callable
+from functools import partial
 from statistics import median
 from time import perf_counter_ns
 from typing import Any
@@ -44,13 +45,19 @@ def once(call: Callable[[], Any]) -> float:
     return median(took) / 1000
 
 
-def in_turns(calls: dict[str, Callable[[], Any]]) -> dict[str, list[float]]:
-    """The medians of every round of every call; the order changes from round to round."""
-    took: dict[str, list[float]] = {name: [] for name in calls}
-    names = list(calls)
+def in_turns(
+    calls: dict[str, Callable[[], Any]], rounds: dict[str, Callable[[], float]] | None = None
+) -> dict[str, list[float]]:
+    """The medians of every round of every call; the order changes from round to round.
+
+    `rounds` are functions that make one round elsewhere and return its median.
+    """
+    every = {name: partial(once, call) for name, call in calls.items()} | (rounds or {})
+    took: dict[str, list[float]] = {name: [] for name in every}
+    names = list(every)
     for number in range(ROUNDS):
         for name in names if number % 2 else reversed(names):
-            took[name].append(once(calls[name]))
+            took[name].append(every[name]())
     return took
 
 

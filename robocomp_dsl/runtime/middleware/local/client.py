@@ -23,9 +23,10 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, MalformedMessage, Timeout
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.packets import Body, Received
 from robocomp_dsl.runtime.middleware.local.ports import head_of, hello_packet, parse_address
-from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -39,10 +40,11 @@ CALLS_WITHOUT_POLL = 31
 class Connection:
     """The connection of one thread to a server."""
 
-    __slots__ = ("__weakref__", "poll", "socket", "without_poll")
+    __slots__ = ("__weakref__", "files", "poll", "socket", "without_poll")
 
     def __init__(self, opened: socket.socket) -> None:
         self.socket = opened
+        self.files = MappedFiles()
         poll = select.poll()
         poll.register(opened, select.POLLIN)
         self.poll: Callable[[int], Any] = poll.poll
@@ -64,8 +66,9 @@ class Connection:
 class LocalClient:
     """The connections of a required port to one server."""
 
-    def __init__(self, at: Endpoint, server: PortRecord, timeout: float) -> None:
+    def __init__(self, at: Endpoint, server: PortRecord, timeout: float, pool: MemoryPool) -> None:
         self._at = at
+        self._pool = pool
         self._server = server
         self._timeout = timeout
         self._of_thread = threading.local()
@@ -75,7 +78,7 @@ class LocalClient:
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.ServiceClient`."""
-        encode = message_encoder(operation.inputs)
+        encode = message_encoder(operation.inputs, self._pool)
         if operation.pattern is Pattern.COMMAND:
             return BoundOperation(encode, self._command(operation, counts))
         return BoundOperation(encode, self._query(operation, counts))
@@ -106,7 +109,7 @@ class LocalClient:
             try:
                 counts.bytes_out += send(connection.socket, head, message)
                 connection.wait_briefly()
-                reply = receive(connection.socket)
+                reply = receive(connection.socket, connection.files)
                 if isinstance(reply, bytes):
                     start, body = reply[:4], reply[4:]
                 else:
@@ -133,7 +136,7 @@ class LocalClient:
         try:
             connection.socket.connect(path)
             connection.socket.send(hello_packet(self._at, port, packets.QUERY))
-            _check_answer(packets.receive(connection.socket))
+            _check_answer(packets.receive(connection.socket, connection.files))
         except BaseException as error:
             self._fail(connection, operation, error)
         self._of_thread.connection = connection

@@ -1,4 +1,4 @@
-"""Encoders that write large messages directly into shared memory.
+"""Encoders that write large messages directly into memory files.
 
 In: the fields of an operation. Out: functions from values to bytes, or to a `SharedMessage` if they
 are more than `INLINE_BYTES`. The memory of an array is copied once, into the memory file.
@@ -14,26 +14,28 @@ import numpy as np
 from robocomp_dsl.runtime.codec.codec import compile_encoder
 from robocomp_dsl.runtime.data.schema import Array, Dictionary, Enum, Fields, Primitive, Sequence
 from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool, SharedMessage
 from robocomp_dsl.runtime.middleware.local.packets import INLINE_BYTES
-from robocomp_dsl.runtime.middleware.local.shared_message import SharedMessage
 
 Message: TypeAlias = "bytes | SharedMessage"
 
 
-def message_encoder(fields: Fields, *, result: bool = False) -> Callable[[Any], Message]:
-    """A function from values to a message, as `compile_encoder`. Raises `EncodeError`."""
+def message_encoder(
+    fields: Fields, pool: MemoryPool, *, result: bool = False
+) -> Callable[[Any], Message]:
+    """A function from values to a message, as `compile_encoder`. Raises as `MemoryPool.message`."""
     if _has_arrays(type_ for _, type_ in fields):
-        return _by_parts(compile_encoder(fields, result=result, join=tuple))
+        return _by_parts(compile_encoder(fields, result=result, join=tuple), pool)
     encode = compile_encoder(fields, result=result)
 
     def encode_message(values: Any) -> Message:
         data = encode(values)
-        return data if len(data) <= INLINE_BYTES else SharedMessage((data,), len(data))
+        return data if len(data) <= INLINE_BYTES else pool.message((data,), len(data))
 
     return encode_message
 
 
-def _by_parts(encode: Callable[[Any], Any]) -> Callable[[Any], Message]:
+def _by_parts(encode: Callable[[Any], Any], pool: MemoryPool) -> Callable[[Any], Message]:
     ndarray, join = np.ndarray, b"".join
 
     def encode_message(values: Any) -> Message:
@@ -43,7 +45,7 @@ def _by_parts(encode: Callable[[Any], Any]) -> Callable[[Any], Message]:
         size = 0
         for part in parts:
             size += part.nbytes if part.__class__ is ndarray else len(part)
-        return join(parts) if size <= INLINE_BYTES else SharedMessage(parts, size)
+        return join(parts) if size <= INLINE_BYTES else pool.message(parts, size)
 
     return encode_message
 

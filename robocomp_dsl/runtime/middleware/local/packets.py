@@ -10,13 +10,12 @@
     RESULT       reply
     FAILURE      error reply of `answers`
 
-A body of more than `INLINE_BYTES` is in a memory file (`shared_message`): the flag `SHARED` is set,
+A body of more than `INLINE_BYTES` is in a memory file (`memory_pool`): the flag `SHARED` is set,
 the packet has the size of the body in its place, and the descriptor of the file beside it.
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
 import socket
 import struct
@@ -24,11 +23,8 @@ import weakref
 from array import array
 from typing import TypeAlias
 
-from robocomp_dsl.runtime.middleware.local.shared_message import (
-    MalformedPacket,
-    SharedMessage,
-    map_message,
-)
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.memory_pool import SharedMessage
 
 HELLO, READY, REFUSED, QUERY, COMMAND, PUBLICATION, RESULT, FAILURE = range(1, 9)
 SHARED = 1
@@ -114,17 +110,19 @@ def send_shared(to: socket.socket, start: bytes, message: SharedMessage, flags: 
     to.sendmsg((head,), (rights,), flags)
 
 
-def receive(sender: socket.socket, flags: int = 0) -> Received:
+def receive(sender: socket.socket, files: MappedFiles, flags: int = 0) -> Received:
     """The next packet. Raises `MalformedPacket`, and `OSError` at the end of the connection."""
     data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags | _CLOEXEC)
     if ancillary or state & _CUT:
-        return open_shared(data, ancillary, state)
+        return _map_packet(data, ancillary, state, files)
     if not data:
         raise ConnectionResetError
     return data
 
 
-def open_shared(data: bytes, ancillary: list[tuple[int, int, bytes]], state: int) -> SharedPacket:
+def _map_packet(
+    data: bytes, ancillary: list[tuple[int, int, bytes]], state: int, files: MappedFiles
+) -> SharedPacket:
     """A packet with its body mapped. Raises `MalformedPacket`; closes what it received."""
     received: array[int] = array("i")
     for level, kind, content in ancillary:
@@ -135,9 +133,8 @@ def open_shared(data: bytes, ancillary: list[tuple[int, int, bytes]], state: int
             raise MalformedPacket("a packet is longer than allowed")
         if len(received) != 1 or data[1:2] != b"\1" or len(data) < HEAD.size + SIZE.size:
             raise MalformedPacket("a packet and its descriptors do not belong together")
-        body = map_message(received[0], SIZE.unpack(data[-SIZE.size :])[0])
+        body = files.view(received.pop(), SIZE.unpack(data[-SIZE.size :])[0])
     finally:
         for descriptor in received:
-            with contextlib.suppress(OSError):
-                os.close(descriptor)
+            os.close(descriptor)
     return SharedPacket(data[:1] + b"\0" + data[2 : -SIZE.size], body)

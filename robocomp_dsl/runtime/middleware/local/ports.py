@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
-from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket
 
 
 @dataclass(frozen=True, slots=True)

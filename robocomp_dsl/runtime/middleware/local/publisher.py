@@ -17,6 +17,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
+from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.ports import head_of
 from robocomp_dsl.runtime.middleware.local.subscriber_link import SubscriberLink
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
@@ -33,7 +34,8 @@ class LocalPublisher:
 
     address = ""
 
-    def __init__(self, at: Endpoint, flusher: Flusher) -> None:
+    def __init__(self, at: Endpoint, flusher: Flusher, pool: MemoryPool) -> None:
+        self._pool = pool
         self._at = at
         self._flusher = flusher
         self._lock = threading.Lock()
@@ -43,7 +45,8 @@ class LocalPublisher:
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.Publisher`."""
         head = head_of(packets.PUBLICATION, self._at.interface, operation)
-        return BoundOperation(message_encoder(operation.inputs), self._publication(head, counts))
+        encode = message_encoder(operation.inputs, self._pool)
+        return BoundOperation(encode, self._publication(head, counts))
 
     def _publication(
         self, head: bytes, counts: OperationCounts

@@ -23,9 +23,10 @@ from robocomp_dsl.runtime.component.receiver import QueueClosed
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.listener import Listener
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.packets import Body, Received
 from robocomp_dsl.runtime.middleware.local.ports import Hello, head_of
-from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
@@ -46,7 +47,8 @@ Handler: TypeAlias = Callable[[socket.socket, bytes, Any], None]
 class ReceivingPort:
     """A served port (`kind` is `packets.QUERY`) or a subscription (`packets.PUBLICATION`)."""
 
-    def __init__(self, port: IncomingPort, kind: int, listener: Listener) -> None:
+    def __init__(self, port: IncomingPort, kind: int, listener: Listener, pool: MemoryPool) -> None:
+        self._pool = pool
         self.port = port
         self.kind = kind
         self.depth = port.at.qos.depth or DEPTH
@@ -108,7 +110,8 @@ class ReceivingPort:
 
     def _query_handler(self, served: IncomingOperation) -> Handler:
         operation, counts, handle = served.operation, served.counts, served.handle
-        decode, encode = operation.decode_request, message_encoder(operation.outputs, result=True)
+        decode = operation.decode_request
+        encode = message_encoder(operation.outputs, self._pool, result=True)
         result = head_of(packets.RESULT, self.port.interface, operation)
         failure = head_of(packets.FAILURE, self.port.interface, operation)
 
@@ -179,6 +182,7 @@ class _Connection:
         self._start_size = port.start_size
         self._sender = hello.name
         self._queue: deque[Received] = deque(maxlen=port.depth)
+        self._files = MappedFiles()
         self._ended = False
 
     def take(self) -> Received:
@@ -201,7 +205,7 @@ class _Connection:
 
     def _receive(self, flags: int) -> Received:
         try:
-            packet = packets.receive(self.socket, flags)
+            packet = packets.receive(self.socket, self._files, flags)
         except BlockingIOError:
             raise
         except OSError:

@@ -22,8 +22,9 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
+from robocomp_dsl.runtime.middleware.local.mapped_files import MalformedPacket, MappedFiles
+from robocomp_dsl.runtime.middleware.local.memory_pool import SharedMessage
 from robocomp_dsl.runtime.middleware.local.ports import hello_packet, parse_address
-from robocomp_dsl.runtime.middleware.local.shared_message import MalformedPacket, SharedMessage
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 if TYPE_CHECKING:
@@ -162,7 +163,7 @@ class SubscriberLink:
     def _read_greeting(self) -> None:
         """The depth of the subscriber, if it has answered."""
         try:
-            answer = packets.receive(self._socket, socket.MSG_DONTWAIT)
+            answer = packets.receive(self._socket, MappedFiles(), socket.MSG_DONTWAIT)
         except (OSError, MalformedPacket):
             return
         end = packets.HEAD.size + packets.DEPTH.size

@@ -17,6 +17,7 @@ from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.client import LocalClient
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 from robocomp_dsl.runtime.middleware.local.listener import Listener
+from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.publisher import LocalPublisher
 from robocomp_dsl.runtime.middleware.local.receiving import ReceivingPort
 from robocomp_dsl.runtime.middleware.transport import TransportContext
@@ -42,6 +43,7 @@ class LocalTransport:
         self._context = context
         self._listener = Listener(self._folder, context.fail)
         self._flusher = Flusher(context.fail)
+        self._pool = MemoryPool()
         self._lock = threading.Lock()
         self._ports: list[ReceivingPort | LocalClient | LocalPublisher] = []
 
@@ -53,19 +55,19 @@ class LocalTransport:
 
     def serve(self, port: IncomingPort) -> ReceivingPort:
         """See `transport.Transport`."""
-        return self._add(ReceivingPort(port, packets.QUERY, self._listener))
+        return self._add(ReceivingPort(port, packets.QUERY, self._listener, self._pool))
 
     def subscribe(self, port: IncomingPort) -> ReceivingPort:
         """See `transport.Transport`."""
-        return self._add(ReceivingPort(port, packets.PUBLICATION, self._listener))
+        return self._add(ReceivingPort(port, packets.PUBLICATION, self._listener, self._pool))
 
     def connect(self, at: Endpoint, server: PortRecord, timeout: float) -> LocalClient:
         """See `transport.Transport`."""
-        return self._add(LocalClient(at, server, timeout))
+        return self._add(LocalClient(at, server, timeout, self._pool))
 
     def advertise(self, at: Endpoint) -> LocalPublisher:
         """See `transport.Transport`."""
-        return self._add(LocalPublisher(at, self._flusher))
+        return self._add(LocalPublisher(at, self._flusher, self._pool))
 
     def _add(self, port: _Port) -> _Port:
         with self._lock:
