@@ -11,8 +11,8 @@ import subprocess
 import sys
 import tempfile
 import uuid
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from statistics import median
 from time import perf_counter_ns
@@ -23,31 +23,12 @@ import numpy as np
 from benchmarks import large_links, raw_links
 from benchmarks.bench_middleware import CALLS, Client, in_turns, ratio
 from benchmarks.camera_frames import frames_to_three, image_round_trips
+from benchmarks.processes import line, process
 
 ROUNDS_LARGE = 20
 SIZES_MB = (0.9, 4, 8, 64)
 PYTHONS_WITH_ICE = (sys.executable, "/usr/bin/python3")
 READY_BYTES = 88
-
-
-@contextmanager
-def process(*arguments: str, python: str = sys.executable) -> Iterator[subprocess.Popen[str]]:
-    """A process that runs until the end of its input; its first line has not been read."""
-    command = [python, *arguments]
-    with subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as started:
-        try:
-            yield started
-        finally:
-            assert started.stdin
-            started.stdin.close()
-
-
-def line(started: subprocess.Popen[str]) -> str:
-    """The next line of a process."""
-    assert started.stdout
-    return started.stdout.readline().strip()
 
 
 def ice_rounds(stack: ExitStack) -> Callable[[], float] | None:

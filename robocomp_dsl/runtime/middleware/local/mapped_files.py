@@ -42,18 +42,20 @@ class MappedFiles:
         """
         try:
             memory = self._map(descriptor, len(PADDING) + size)
-            if len(_views) >= MAX_VIEWS:
-                return memory[len(PADDING) : len(PADDING) + size]
-            message = np.frombuffer(memory, np.uint8, size, len(PADDING))
-            weakref.finalize(message, _release, descriptor).atexit = False
-            _views.add(descriptor)
-            descriptor = -1
-            return message.data
         except OSError as error:
+            os.close(descriptor)
             raise MalformedPacket(f"cannot map {size} bytes: {error.strerror}") from None
-        finally:
-            if descriptor >= 0:
-                os.close(descriptor)
+        except MalformedPacket:
+            os.close(descriptor)
+            raise
+        if len(_views) >= MAX_VIEWS:
+            copied = memory[len(PADDING) : len(PADDING) + size]
+            os.close(descriptor)
+            return copied
+        message = np.frombuffer(memory, np.uint8, size, len(PADDING))
+        _views.add(descriptor)
+        weakref.finalize(message, _release, descriptor).atexit = False
+        return message.data
 
     def _map(self, descriptor: int, size: int) -> mmap.mmap:
         """The memory of a file, which the peer cannot truncate: reading would be a bus error."""

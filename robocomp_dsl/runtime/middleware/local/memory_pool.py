@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import contextlib
 import fcntl
+import mmap
 import os
 import threading
 import time
@@ -51,7 +52,7 @@ class MemoryPool:
     """The memory files of one component."""
 
     def __init__(self) -> None:
-        self._files: list[_MemoryFile] = []
+        self._files: list[MemoryFile] = []
         self._lock = threading.Lock()
 
     def message(self, parts: Sequence[Any], size: int) -> SharedMessage:
@@ -73,7 +74,7 @@ class MemoryPool:
         self._give_back(file)
         return message
 
-    def _take(self, size: int) -> _MemoryFile:
+    def _take(self, size: int) -> MemoryFile:
         """A file that nobody reads."""
         capacity = 1 << (size - 1).bit_length()
         with self._lock:
@@ -81,9 +82,9 @@ class MemoryPool:
                 if file.capacity == capacity and file.is_free():
                     self._files.remove(file)
                     return file
-        return _MemoryFile(capacity)
+        return MemoryFile(capacity)
 
-    def _give_back(self, file: _MemoryFile) -> None:
+    def _give_back(self, file: MemoryFile) -> None:
         now = file.used_at = time.monotonic()
         with self._lock:
             self._files.append(file)
@@ -96,12 +97,14 @@ class MemoryPool:
                 total -= self._files.pop(0).capacity
 
 
-class _MemoryFile:
+class MemoryFile:
     """A file without a name; of its capacity, only written pages use memory."""
 
     def __init__(self, capacity: int) -> None:
         self.capacity = capacity
         self.used_at = 0.0
+        self.is_written = False
+        self._memory: np.ndarray[Any, np.dtype[np.uint8]] | None = None
         self._descriptor = -1
         created = os.memfd_create("robocomp", os.MFD_CLOEXEC | os.MFD_ALLOW_SEALING)
         try:
@@ -130,18 +133,30 @@ class _MemoryFile:
         return descriptor
 
     def write(self, parts: list[Any]) -> None:
-        """Write at the beginning."""
+        """Write at the beginning: new pages by a system call, which does not clear them first."""
         if len(parts) > _MAX_PARTS:
             parts = [b"".join(parts)]
-        left: list[Any] = [np.frombuffer(part, np.uint8) for part in parts if len(part)]
+        sources: list[Any] = [np.frombuffer(part, np.uint8) for part in parts if len(part)]
+        if not self.is_written:
+            self._write_new(sources)
+            self.is_written = True
+            return
+        if self._memory is None:
+            self._memory = np.frombuffer(mmap.mmap(self._descriptor, self.capacity), np.uint8)
+        start = 0
+        for source in sources:
+            self._memory[start : start + source.size] = source
+            start += source.size
+
+    def _write_new(self, sources: list[Any]) -> None:
         offset = 0
-        while left:
-            written = os.pwritev(self._descriptor, left, offset)
+        while sources:
+            written = os.pwritev(self._descriptor, sources, offset)
             offset += written
-            while left and written >= len(left[0]):
-                written -= len(left.pop(0))
-            if left:
-                left[0] = left[0][written:]
+            while sources and written >= len(sources[0]):
+                written -= len(sources.pop(0))
+            if sources:
+                sources[0] = sources[0][written:]
 
     def __del__(self) -> None:
         if self._descriptor >= 0:
