@@ -50,6 +50,9 @@ class Connection:
         self.poll: Callable[[int], Any] = poll.poll
         self.without_poll = 0
 
+    def __del__(self) -> None:
+        self.socket.close()
+
     def wait_briefly(self) -> None:
         """Return when a reply has come, or soon."""
         if self.without_poll:

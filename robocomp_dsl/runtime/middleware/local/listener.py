@@ -141,7 +141,8 @@ class Listener:
                 accepted.close()
             else:
                 head = packets.HEAD.pack(packets.READY, 0, 0)
-                accepted.send(head + packets.DEPTH.pack(port.depth), socket.MSG_DONTWAIT)
+                with contextlib.suppress(OSError):  # it has sent everything, and closed
+                    accepted.send(head + packets.DEPTH.pack(port.depth), socket.MSG_DONTWAIT)
                 port.accept(accepted, hello)
         except MalformedPacket as error:
             self._reject(accepted, f"rejected {error}")

@@ -35,6 +35,10 @@ class MappedFiles:
     def __init__(self) -> None:
         self._files: dict[tuple[int, int], mmap.mmap] = {}
 
+    def clear(self) -> None:
+        """Forget all files; messages in use stay mapped."""
+        self._files.clear()
+
     def view(self, descriptor: int, size: int) -> bytes | memoryview:
         """The message of `size` bytes in a memory file. Raises `MalformedPacket`.
 

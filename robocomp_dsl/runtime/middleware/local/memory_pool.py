@@ -89,10 +89,10 @@ class MemoryPool:
         with self._lock:
             self._files.append(file)
             total = sum(each.capacity for each in self._files)
-            while (
+            while self._files and (
                 total > MAX_POOL_BYTES
                 or len(self._files) > MAX_FILES
-                or (now - self._files[0].used_at > IDLE_S)
+                or now - self._files[0].used_at > IDLE_S
             ):
                 total -= self._files.pop(0).capacity
 

@@ -112,7 +112,12 @@ def send_shared(to: socket.socket, start: bytes, message: SharedMessage, flags: 
 
 def receive(sender: socket.socket, files: MappedFiles, flags: int = 0) -> Received:
     """The next packet. Raises `MalformedPacket`, and `OSError` at the end of the connection."""
-    data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags | _CLOEXEC)
+    flags |= _CLOEXEC
+    try:
+        data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags)
+    except ConnectionResetError:
+        # The peer has closed without reading everything; what it sent before comes after this.
+        data, ancillary, state, _ = sender.recvmsg(MAX_PACKET, DESCRIPTOR_SPACE, flags)
     if ancillary or state & _CUT:
         return _map_packet(data, ancillary, state, files)
     if not data:

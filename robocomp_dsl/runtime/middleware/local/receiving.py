@@ -72,7 +72,8 @@ class ReceivingPort:
                 return
             self._connections.add(connection)
         take = connection.take
-        if self.kind == packets.PUBLICATION and self.port.at.qos.depth:
+        qos = self.port.at.qos
+        if self.kind == packets.PUBLICATION and qos.depth and not qos.reliable:
             take = connection.take_latest
         self.port.receive(take, connection.handle)
 
@@ -239,4 +240,5 @@ class _Connection:
         self._port.forget(self)
         if not self._ended:
             self._ended = True
+            self._files.clear()
             self.socket.close()

@@ -8,8 +8,9 @@ ports of one component.
 from __future__ import annotations
 
 import threading
+import weakref
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MiddlewareError
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
 
+_AnyPort: TypeAlias = ReceivingPort | LocalClient | LocalPublisher
 _Port = TypeVar("_Port", ReceivingPort, LocalClient, LocalPublisher)
 
 
@@ -45,7 +47,7 @@ class LocalTransport:
         self._flusher = Flusher(context.fail)
         self._pool = MemoryPool()
         self._lock = threading.Lock()
-        self._ports: list[ReceivingPort | LocalClient | LocalPublisher] = []
+        self._ports: weakref.WeakSet[_AnyPort] = weakref.WeakSet()
 
     def _folder(self) -> Path:
         try:
@@ -71,14 +73,14 @@ class LocalTransport:
 
     def _add(self, port: _Port) -> _Port:
         with self._lock:
-            self._ports.append(port)
+            self._ports.add(port)
         return port
 
     def close(self) -> None:
         """See `transport.Transport`."""
         self._listener.close()
         with self._lock:
-            ports, self._ports = self._ports, []
+            ports = list(self._ports)
         for port in ports:
             port.close()
         self._flusher.close()
