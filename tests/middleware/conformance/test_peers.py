@@ -15,6 +15,8 @@ from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_handlers import HANDLERS, blocked
 from tests.support.waiting import wait_until
 
+pytestmark = [pytest.mark.feature("Servers that come and go"), pytest.mark.needs("services")]
+
 
 def test_proxy_follows_restarted_server(network: Network) -> None:
     server = network.node("server")
@@ -53,7 +55,7 @@ def test_proxy_reports_departed_server_at_once(network: Network, how: str) -> No
 @pytest.mark.usefixtures("short_discovery_timeout")
 def test_domains_are_separate(network: Network) -> None:
     network.node("server").serve(HANDLERS)
-    other = Network(network.kind)
+    other = Network(network.middleware)
     try:
         with pytest.raises(NoServer):
             other.node("client").probe().add(1, 2)
@@ -61,9 +63,8 @@ def test_domains_are_separate(network: Network) -> None:
         other.close()
 
 
+@pytest.mark.needs("between_processes")
 def test_interrupt_ends_waiting_call(network: Network) -> None:
-    if network.kind == "inproc":
-        pytest.skip("a call within the process runs in the caller; there is nothing to wait for")
     free = threading.Event()
     server = network.node("server")
     server.serve({"block": lambda: blocked(free)})
@@ -78,8 +79,6 @@ def test_interrupt_ends_waiting_call(network: Network) -> None:
 
 
 def test_calls_after_component_end_report_it(network: Network) -> None:
-    if network.kind == "inproc":
-        pytest.skip("a call within the process needs no connection")
     network.node("server").serve(HANDLERS)
     client = network.node("client")
     called, fresh = client.probe(), client.probe()
