@@ -6,12 +6,13 @@ one of another distribution.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pytest
 
 from robocomp_dsl.runtime.middleware.registry import capabilities_of
 from tests.middleware.conformance import report
+from tests.middleware.conformance.peer_launcher import Peer, PeerLauncher, launched
 from tests.middleware.conformance.selection import missing_capability, tested_middlewares
 from tests.middleware.network import Network
 
@@ -94,3 +95,21 @@ def case_of_the_table(request: pytest.FixtureRequest) -> None:
     if callspec and feature and "middleware" in callspec.params:
         properties = request.node.user_properties
         properties += [("middleware", callspec.params["middleware"]), ("feature", feature.args[0])]
+
+
+@pytest.fixture(scope="session")
+def launcher() -> Iterator[PeerLauncher]:
+    """Starts components in other processes."""
+    with launched() as started:
+        yield started
+
+
+@pytest.fixture
+def start_peer(network: Network, launcher: PeerLauncher) -> Iterator[Callable[..., Peer]]:
+    """Starts a program of `peer_programs` on the middleware and in the domain of the test."""
+
+    def start(program: str, **options: object) -> Peer:
+        return launcher.start(program, network.middleware, network.domain, **options)
+
+    yield start
+    launcher.end_peers()
