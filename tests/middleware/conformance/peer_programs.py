@@ -67,9 +67,14 @@ def call(middleware: str, domain: str, name: str = "caller", peer: str = "server
 def _answer(replies: dict[str, Callable[[], object]]) -> None:
     """Reply to each line until the end of standard input."""
     sys.stdin = open(0, closefd=False)  # noqa: SIM115 - the one before the fork has a buffer
-    print("ready", flush=True)
+    _print("ready")
     for line in sys.stdin:
-        print(replies[line.strip()](), flush=True)
+        _print(replies[line.strip()]())
+
+
+def _print(reply: object) -> None:
+    sys.stdout.write(f"{reply}\n")
+    sys.stdout.flush()
 
 
 PROGRAMS: dict[str, Callable[..., None]] = {

@@ -1,6 +1,7 @@
 """Writes which cases passed as JSON, for the table of the documentation.
 
-In: the reports of a run. Out: {middleware: {feature: {"passed": n, "failed": n, "skipped": [why]}}}.
+In: the reports of a run. Out: for each middleware and feature the numbers of cases that passed and
+failed, and why others were skipped.
 """
 
 from __future__ import annotations

@@ -233,7 +233,7 @@ def test_killed_processes_leave_nothing_behind(network: Network, start_peer: Sta
         wait_until(lambda role=role, i=interface: not registry.find(role, i.name))
     for program in programs:
         start_peer(program)
-    wait_until(lambda: not [path for path in files if os.path.exists(path)], str(files))
+    wait_until(lambda: not [path for path in files if Path(path).exists()], str(files))
 
 
 def _shared_memory_of(pid: int) -> set[str]:

@@ -128,7 +128,11 @@ def test_query_raises_declared_exception_with_all_its_fields(echo: Callable[...,
     with pytest.raises(Failure) as caught:
         echo("fail", False)
     error = caught.value
-    assert (error.reason, list(error.codes), error.color) == ("no such thing ñ", [1, -1], Color.BLUE)
+    assert (error.reason, list(error.codes), error.color) == (
+        "no such thing ñ",
+        [1, -1],
+        Color.BLUE,
+    )
     assert identical(error.at, READING)
     with pytest.raises(PlainFailure):
         echo("fail", True)
