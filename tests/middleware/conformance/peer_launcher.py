@@ -17,6 +17,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 from tests.support.waiting import wait_until
@@ -51,6 +52,16 @@ class Peer:
         """End the process as kill -9 does, and wait for its end."""
         self.signal(signal.SIGKILL)
         self.wait()
+
+    def stop(self) -> None:
+        """Stop the process as SIGSTOP does, and wait until it has stopped."""
+        self.signal(signal.SIGSTOP)
+        stat = Path(f"/proc/{self.pid}/stat")  # proc(5): the third field is the state
+        wait_until(lambda: stat.read_text().rpartition(")")[2].split()[0] == "T")
+
+    def resume(self) -> None:
+        """Let a stopped process continue."""
+        self.signal(signal.SIGCONT)
 
     def signal(self, number: int) -> None:
         """Send a signal to the process, if it still exists."""

@@ -97,19 +97,19 @@ def test_concurrent_callers_of_one_proxy_get_their_own_results(network: Network)
 
 
 @pytest.mark.needs("topics")
-def test_concurrent_publishers_of_one_port_lose_nothing(network: Network) -> None:
+def test_concurrent_publishers_of_one_port_keep_their_order(network: Network) -> None:
     received: list[tuple[str, int]] = []
     network.node("s").subscribe(lambda who, n: received.append((who, n)), qos=Qos(depth=2000))
     news = network.node("p").news()
     wait_until(lambda: news.announced("begin", 0) or received)
 
     def publish_often(who: str) -> None:
-        for n in range(100):
+        for n in range(50):
             news.announced(who, n)
 
     names = [f"thread {i}" for i in range(4)]
     with ThreadPoolExecutor(4) as pool:
         list(pool.map(publish_often, names, timeout=DEADLINE))
-    wait_until(lambda: len([who for who, _ in received if who != "begin"]) == 400)
+    wait_until(lambda: len([who for who, _ in received if who != "begin"]) == 200)
     for name in names:
-        assert [n for who, n in received if who == name] == list(range(100))
+        assert [n for who, n in received if who == name] == list(range(50))

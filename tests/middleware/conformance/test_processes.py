@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import threading
 import time
 from collections.abc import Callable
@@ -102,11 +101,11 @@ def test_call_of_stopped_server_times_out_and_returns_when_it_continues(
     server = start_peer("serve")
     probe = network.node("client").probe()
     assert probe.add(1, 1) == 2
-    server.signal(signal.SIGSTOP)
+    server.stop()
     probe.set_timeout(0.2)
     with pytest.raises(Timeout):
         probe.add(1, 1)
-    server.signal(signal.SIGCONT)
+    server.resume()
     probe.set_timeout(DEADLINE)
     assert probe.add(2, 2) == 4
 
@@ -119,11 +118,11 @@ def test_no_reply_of_a_timed_out_call_is_taken_for_another(
     probe = network.node("client").probe()
     assert probe.add(1, 1) == 2
     for round_ in range(3):
-        server.signal(signal.SIGSTOP)
+        server.stop()
         probe.set_timeout(0.05)
         with pytest.raises(Timeout):
             probe.add(1000, round_)
-        server.signal(signal.SIGCONT)
+        server.resume()
         probe.set_timeout(DEADLINE)
         assert [probe.add(round_, n) for n in range(5)] == [round_ + n for n in range(5)]
 
@@ -188,19 +187,13 @@ def test_stopped_subscriber_does_not_hold_publisher(
 
     def is_not_held() -> bool:
         wait_until(lambda: news.announced("", sent) or int(subscriber.ask("last")) == sent)
-        subscriber.signal(signal.SIGSTOP)
-        wait_until(lambda: _state_of(subscriber.pid) == "T")
+        subscriber.stop()
         longest = longest_publication()
-        subscriber.signal(signal.SIGCONT)
+        subscriber.resume()
         return longest <= HOLD_S
 
     assert any(is_not_held() for _ in range(5))
     wait_until(lambda: news.announced("", sent) or int(subscriber.ask("last")) == sent)
-
-
-def _state_of(pid: int) -> str:
-    """The state of a process (`proc(5)`, field 3 of `stat`)."""
-    return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
 
 
 @pytest.mark.needs("services", "topics")
@@ -210,7 +203,7 @@ def test_stopped_subscriber_does_not_delay_others(network: Network, start_peer: 
     news = node.news()
     node.serve(HANDLERS)
     wait_until(lambda: news.announced("", 0) or int(stopped.ask("count")) > 0)
-    stopped.signal(signal.SIGSTOP)
+    stopped.stop()
     for n in range(1, 2000):
         news.announced("x" * 1000, n)
     wait_until(lambda: news.announced("", 2000) or int(other.ask("last")) == 2000)
