@@ -21,9 +21,10 @@ from benchmarks.middleware_peer import drain
 from benchmarks.pose_interface import MOVER, TRACK, MoverProxy, Pose, TrackProxy
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.connection.component_ports import open_ports
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
+from robocomp_dsl.runtime.presence.domain_session import open_session
 
 ROUNDS = 60
 CALLS = 100
@@ -82,8 +83,8 @@ def over_zenoh() -> list[dict[str, Any]]:
         assert peer.stdout
         peer.stdout.readline()
         raw = open_session(domain)
-        host = MiddlewareContext("client", domain, CallbackGroup(), Statistics())
-        middleware = open_middleware("zenoh", host)
+        host = ComponentContext("client", domain, CallbackGroup(), Statistics())
+        middleware = open_ports("zenoh", host)
         try:
             took = in_turns(_calls(raw.session, middleware, host))
         finally:
@@ -112,7 +113,7 @@ def over_zenoh() -> list[dict[str, Any]]:
 
 
 def _calls(
-    session: zenoh.Session, middleware: Any, host: MiddlewareContext
+    session: zenoh.Session, middleware: Any, host: ComponentContext
 ) -> dict[str, Callable[[], Any]]:
     pose = Pose()
     ready = MOVER.operations[0].encode_request((pose,))
@@ -159,10 +160,10 @@ def in_process() -> list[dict[str, Any]]:
     """A synchronous call of a component in the same process."""
     domain = f"bench-{uuid.uuid4().hex[:8]}"
     hosts = [
-        MiddlewareContext(name, domain, CallbackGroup(), Statistics())
+        ComponentContext(name, domain, CallbackGroup(), Statistics())
         for name in ("server", "client")
     ]
-    server, client = (open_middleware("inproc", host) for host in hosts)
+    server, client = (open_ports("inproc", host) for host in hosts)
     pose = Pose()
 
     class Servant:

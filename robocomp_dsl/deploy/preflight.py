@@ -19,8 +19,8 @@ from robocomp_dsl.diagnostics import Code, Diagnostic, Note
 from robocomp_dsl.finding import Finding
 from robocomp_dsl.model.deployment import Deployment, Instance
 from robocomp_dsl.runtime.config import ConfigRequest, SearchEnvironment, resolve_config
-from robocomp_dsl.runtime.middleware.zenoh.domain_names import running_components
 from robocomp_dsl.runtime.parameters import ConfigError, load_values, overrides
+from robocomp_dsl.runtime.presence.domain_names import running_components
 from robocomp_dsl.runtime.private_folder import UnsafeFolder
 from robocomp_dsl.source import Source, UnreadableSource
 

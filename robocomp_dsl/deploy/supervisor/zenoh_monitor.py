@@ -13,10 +13,10 @@ import zenoh
 from robocomp_dsl.deploy.status import SimulatedTime
 from robocomp_dsl.deploy.supervisor.lifecycle_monitor import StateCallback
 from robocomp_dsl.runtime.clock import NANO
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MalformedMessage
-from robocomp_dsl.runtime.middleware.base import Endpoint
-from robocomp_dsl.runtime.middleware.zenoh import keys
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.domain_session import open_session
 from robocomp_dsl.runtime.time.clock_interface import CLOCK
 
 _TICK = CLOCK.operation("tick")

@@ -10,14 +10,14 @@ from typing import TypeAlias
 
 import zenoh
 
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
-from robocomp_dsl.runtime.middleware.zenoh.keys import domain_prefix, parse_state
+from robocomp_dsl.runtime.presence.domain_session import open_session
+from robocomp_dsl.runtime.presence.keys import domain_prefix, parse_state
 
 StateCallback: TypeAlias = Callable[[str, int, str], None]
 """`on_state_changed(name, pid, state)`; an empty state: no longer alive. Called from any thread."""
 
 
-class LivelinessMonitor:
+class StateMonitor:
     """Monitors one domain. Raises `MiddlewareError` if no session can be opened."""
 
     def __init__(self, domain: str) -> None:

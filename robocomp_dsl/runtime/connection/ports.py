@@ -1,7 +1,6 @@
-"""Protocols of a middleware: channels, and the ports of one component.
+"""Protocols of the ports of one component, and of the channels that its proxies use.
 
-A middleware is a package here, or an entry point of the group `robocomp_dsl.middleware` in another
-distribution: a function from a `MiddlewareContext` to a `Middleware`. The conformance suite in
+`component_ports.ComponentPorts` implements them for every middleware. The conformance suite in
 `tests/middleware/` defines the behaviour; failures are those of `robocomp_dsl.runtime.errors`.
 """
 
@@ -9,52 +8,25 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 
 OperationCallable: TypeAlias = Callable[..., Any]
 log = logging.getLogger("robocomp")
 
 
 @dataclass(frozen=True, slots=True)
-class Qos:
-    """Quality of service of one port; None: the default of the middleware.
+class ComponentContext:
+    """The component that has the ports. Components of other domains are invisible.
 
-    `depth` is the length of the receive queue; `deadline` in s is the maximum time between two
-    publications before one counts as missed.
-    """
-
-    reliable: bool | None = None
-    depth: int | None = None
-    priority: str | None = None
-    deadline: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Endpoint:
-    """One port of one running component. `peers`: its connections, empty for any peer.
-
-    A peer is `component`, `component.port`, or `*.port` for that port of any component. "Any" means
-    components on the same branch (`naming.on_same_branch`); of servers, the nearest.
-    """
-
-    interface: Interface
-    component: str
-    port: str
-    peers: tuple[str, ...] = ()
-    qos: Qos = Qos()
-
-
-@dataclass(frozen=True, slots=True)
-class MiddlewareContext:
-    """The component that a middleware serves. Components of other domains are invisible.
-
-    `listen_port` 0: chosen by the middleware. `fail` ends the component as failed, with a reason; a
-    middleware calls it when one of its threads dies. `unique_name`: opening fails with
+    `listen_port` 0: none. `fail` ends the component as failed, with a reason; a middleware calls it
+    when one of its threads dies. `addresses` are chosen by the user: of middleware and port;
+    `transport_settings` by middleware and key. `unique_name`: opening fails with
     `MiddlewareError` if another process runs a component of this name in the domain; clients share
     names.
     """
@@ -66,6 +38,8 @@ class MiddlewareContext:
     listen_port: int = 0
     fail: Callable[[str], None] = log.error
     unique_name: bool = False
+    addresses: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    transport_settings: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
 
 class Channel(Protocol):
@@ -83,8 +57,8 @@ class Channel(Protocol):
         """Whether a publication would have a receiver now; cheap, does not wait."""
 
 
-class Middleware(Protocol):
-    """All connections of one component."""
+class Ports(Protocol):
+    """All ports of one component."""
 
     def serve(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup

@@ -17,7 +17,7 @@ from typing import Literal
 from urllib.parse import quote
 
 from robocomp_dsl.runtime.file_lock import FileLock, try_lock, wait_for_lock
-from robocomp_dsl.runtime.middleware.zenoh.domain_folder import (
+from robocomp_dsl.runtime.presence.domain_folder import (
     delete_if_unused,
     domain_folder,
     domain_path,

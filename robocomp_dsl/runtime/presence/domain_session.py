@@ -19,9 +19,9 @@ import zenoh
 
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import FileLock
-from robocomp_dsl.runtime.middleware.zenoh.close_session import close_session
-from robocomp_dsl.runtime.middleware.zenoh.domain_folder import Membership, join
-from robocomp_dsl.runtime.middleware.zenoh.domain_names import NameTaken, claim_component
+from robocomp_dsl.runtime.presence.close_session import close_session
+from robocomp_dsl.runtime.presence.domain_folder import Membership, join
+from robocomp_dsl.runtime.presence.domain_names import NameTaken, claim_component
 from robocomp_dsl.runtime.private_folder import USER, UnsafeFolder, read_token, token_file
 
 _WAIT_BEFORE_DROP_US = "transport/link/tx/queue/congestion_control/drop/wait_before_drop"

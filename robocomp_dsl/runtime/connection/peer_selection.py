@@ -12,8 +12,9 @@ from typing import Any, TypeVar
 
 from robocomp_dsl.runtime.component.naming import ANY, distance, nearest, on_same_branch
 from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import OperationCallable
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint, OperationCallable
 
 DISCOVERY_TIMEOUT_S = 1.0
 """After the start of a component, its calls wait this long for a server to appear."""
