@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.codec.ice.read import Reader
 from robocomp_dsl.runtime.data.declared_error import DeclaredError
 from robocomp_dsl.runtime.data.schema import Fields
 from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
+from robocomp_dsl.slice_identifiers import valid_path
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.component.interface import Operation
@@ -74,7 +75,7 @@ def _result_last(outputs: Fields) -> tuple[int, ...]:
 
 def type_id(exception: type[DeclaredError], module: str) -> str:
     """The name of an exception on the wire; `module` is for types that were written by hand."""
-    return f"::{exception._type_id_ or f'{module}::{exception.__name__}'}"
+    return f"::{valid_path(exception._type_id_ or f'{module}::{exception.__name__}')}"
 
 
 def error_encoder(
