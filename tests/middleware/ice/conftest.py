@@ -15,9 +15,6 @@ from click.testing import CliRunner
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
-
-pytest.importorskip("Ice", reason="needs ZeroC Ice: `make test-peers` installs it")
-
 from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.ports import ComponentContext
@@ -92,9 +89,7 @@ class IceComponent:
         self, interface: Any, handler: Callable[..., Any], *external: str, **options: Any
     ) -> None:
         handlers = {operation.name: handler for operation in interface.operations}
-        self.ports.subscribe(
-            self.endpoint(interface, *external, **options), handlers, self.group
-        )
+        self.ports.subscribe(self.endpoint(interface, *external, **options), handlers, self.group)
 
 
 @pytest.fixture

@@ -29,7 +29,7 @@ EMPTY = bytes.fromhex("060000000101")
 
 
 @pytest.fixture
-def servant(slices: SimpleNamespace) -> Any:
+def servant(slices: SimpleNamespace) -> Any:  # noqa: C901 - one method per operation
     """An object as a RoboComp programmer writes it."""
     store = slices.store
 
@@ -170,7 +170,10 @@ def test_limit_of_plain_server_is_named(
 @pytest.mark.parametrize(
     ("address", "message"),
     [
-        ("store:tcp -h localhost -p {port}", r"localhost -p \d+\) cannot be reached: Connection re"),
+        (
+            "store:tcp -h localhost -p {port}",
+            r"localhost -p \d+\) cannot be reached: Connection",
+        ),
         ("store:tcp -h nohost.invalid -p 1", "the host `nohost.invalid` is unknown"),
     ],
 )
@@ -310,6 +313,6 @@ def test_server_that_is_no_ice_program_is_reported(
         thread = threading.Thread(target=answer)
         thread.start()
         proxy = connect(f"store:tcp -h localhost -p {port}").proxy
-        with pytest.raises(MiddlewareError, match="store:tcp|plain.Store"):
+        with pytest.raises(MiddlewareError, match=r"store:tcp|plain\.Store"):
             proxy.list_(1)
         thread.join(30)

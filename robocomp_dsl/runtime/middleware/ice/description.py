@@ -13,6 +13,7 @@ MIDDLEWARE = MiddlewareDescription(
         qos=frozenset({"reliable"}),
     ),
     opener="robocomp_dsl.runtime.middleware.ice.transport:open_transport",
+    configuration="robocomp_dsl.runtime.middleware.ice.configuration:apply",
     requires=("Ice",),
     install=(
         "on Debian and Ubuntu run: sudo apt-get install python3-zeroc-ice, and see"

@@ -99,9 +99,7 @@ class StormPublisher:
         if proxy != self._proxy or self._sender is None or self._sender.is_broken:
             qos = self._at.qos
             self._proxy = proxy
-            self._sender = SubscriberLink(
-                proxy, self._name, qos.depth, reliable=bool(qos.reliable)
-            )
+            self._sender = SubscriberLink(proxy, self._name, qos.depth, reliable=bool(qos.reliable))
 
     def send(self, name: str, mode: Any, data: bytes, counts: OperationCounts) -> None:
         """Send one publication."""
