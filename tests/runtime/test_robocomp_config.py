@@ -122,13 +122,13 @@ def test_configuration_names_adapter_of_component_or_interface(tmp_path: Path, k
 
 def test_command_line_takes_precedence_over_configuration(tmp_path: Path) -> None:
     peer = ExternalPeer("other", "ice", "other:tcp -p 1")
-    given = RunSettings(
+    command_line = RunSettings(
         external={"Laser": (peer,)},
         connections={"JointMotor1": ("motor",)},
         addresses={("ice", "Arm"): "tcp -p 2"},
         transport_settings={("ice", "TopicManager"): "X/TopicManager:tcp -p 3"},
     )
-    settings = configured(tmp_path, OLD, given)
+    settings = configured(tmp_path, OLD, command_line)
     assert settings.external["Laser"] == (peer,)
     assert "JointMotor1" not in settings.external
     assert settings.addresses["ice", "Arm"] == "tcp -p 2"
@@ -136,8 +136,8 @@ def test_command_line_takes_precedence_over_configuration(tmp_path: Path) -> Non
 
 
 def test_configuration_does_not_connect_ports_on_other_middlewares(tmp_path: Path) -> None:
-    given = RunSettings(middleware="zenoh", port_middlewares={"Laser": ("ice",)})
-    settings = configured(tmp_path, OLD, given)
+    command_line = RunSettings(middleware="zenoh", port_middlewares={"Laser": ("ice",)})
+    settings = configured(tmp_path, OLD, command_line)
     assert list(settings.external) == ["Laser"]
     assert settings.addresses == {}
 

@@ -72,8 +72,8 @@ def _without_unknown(root: Mapping, schema: Schema, path: Path) -> Mapping:
     unknown = [name for name in root.members if name not in known]
     if unknown:
         log.warning("%s: ignored keys that are no parameters: %s", path, ", ".join(unknown))
-    kept = {name: member for name, member in root.members.items() if name in known}
-    return Mapping(root.place, kept)
+    parameters = {name: member for name, member in root.members.items() if name in known}
+    return Mapping(root.place, parameters)
 
 
 def load_connection_keys(path: Path | None) -> ConnectionKeys:

@@ -46,12 +46,12 @@ def read_connection_keys(root: Mapping) -> ConnectionKeys:
 
 def without_connection_keys(root: Mapping, parameters: Container[str]) -> Mapping:
     """`root` without the members that are only about connections; `parameters` always stay."""
-    kept = {
+    remaining = {
         name: member
         for name, member in root.members.items()
         if name in parameters or not _is_connection(name, member.value)
     }
-    return Mapping(root.place, kept)
+    return Mapping(root.place, remaining)
 
 
 def _is_connection(name: str, value: Node) -> bool:

@@ -7,6 +7,7 @@ TopicManager, `Host` the address where ports listen (127.0.0.1), and `Ice.*` are
 from __future__ import annotations
 
 import contextlib
+import secrets
 import threading
 import uuid
 from collections.abc import Callable
@@ -75,7 +76,7 @@ class IceTransport:
         adapters = [adapter]
         if queue and port.at.port not in self._context.addresses:
             adapters.append(self._own_adapter(ordered=True))
-        proxies = [str(_add(each, servant, identity)) for each in adapters]
+        proxies = [str(each.add(servant, identity)) for each in adapters]
 
         def close() -> None:
             for each in adapters:
@@ -98,7 +99,7 @@ class IceTransport:
         queue = AcknowledgedQueue(port) if at.qos.reliable else MessageQueue(port)
         servant = topic_servant(port, queue)
         adapter, identity = self._adapter_of(port, ordered=True)
-        proxy = _add(adapter, servant, identity)
+        proxy = adapter.add(servant, identity)
         topics = []
         for name in names:
             topic = name.removeprefix(ICESTORM)
@@ -125,7 +126,9 @@ class IceTransport:
         at = port.at
         text = self._context.addresses.get(at.port)
         if text is None:
-            return self._own_adapter(ordered=ordered), Ice.Identity(at.port, at.component)
+            # Ice has no passwords: who does not know the record cannot name the object.
+            name = f"{at.port}.{secrets.token_hex(16)}"
+            return self._own_adapter(ordered=ordered), Ice.Identity(name, at.component)
         try:
             identity, endpoints = parse_fixed(text, at.port)
         except ValueError as error:
@@ -159,15 +162,6 @@ class IceTransport:
         """See `Transport`."""
         communicator.close(self._outgoing)
         communicator.close(self._incoming)
-
-
-def _add(adapter: Any, servant: Any, identity: Any) -> Any:
-    """Add a servant; a second interface of one port has its own facet-like name."""
-    try:
-        return adapter.add(servant, identity)
-    except Ice.AlreadyRegisteredException:
-        identity.name = f"{identity.name} {uuid.uuid4().hex}"
-        return adapter.add(servant, identity)
 
 
 def _remove(adapter: Any, identity: Any) -> None:
