@@ -136,9 +136,10 @@ class IceTransport:
         with self._lock:
             if endpoints not in self._adapters:
                 name = f"fixed{len(self._adapters)}"
-                commands = any(o.pattern is Pattern.COMMAND for o in port.interface.operations)
+                in_order = any(o.pattern is Pattern.COMMAND for o in port.interface.operations)
+                in_order |= self._is_shared(endpoints)
                 self._incoming.getProperties().setProperty(
-                    f"{name}.ThreadPool.Serialize", "1" if commands else "0"
+                    f"{name}.ThreadPool.Serialize", "1" if in_order else "0"
                 )
                 try:
                     self._adapters[endpoints] = communicator.create_adapter(
@@ -147,6 +148,11 @@ class IceTransport:
                 except MiddlewareError as error:
                     raise MiddlewareError(f"{at.name}: {error}") from None
             return self._adapters[endpoints], Ice.Identity(identity, "")
+
+    def _is_shared(self, endpoints: str) -> bool:
+        """Whether several ports are at these endpoints."""
+        texts = self._context.addresses.values()
+        return sum(text.strip().endswith(endpoints) for text in texts) > 1
 
     def _own_adapter(self, *, ordered: bool) -> Any:
         """The adapter of all ports without an address, created on first use."""
