@@ -1,4 +1,5 @@
 """A Python component as RoboComp's generator wrote them, with slice2py's code and etc/config."""
+# ruff: noqa
 
 import sys
 import time
