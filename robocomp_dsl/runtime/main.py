@@ -37,7 +37,6 @@ from robocomp_dsl.runtime.component.settings import (
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.configured import with_configured_connections
 from robocomp_dsl.runtime.middleware.registry import UnknownMiddleware
 from robocomp_dsl.runtime.parameters import ConfigError, Parameters
 from robocomp_dsl.runtime.parameters.shown import describe_parameters
@@ -64,7 +63,12 @@ def main(component: type[Component], argv: Sequence[str] | None = None) -> int:
         config, save_beside = _configuration(options, settings, component.SPEC.name)
         params = component.SPEC.parameters.load(config, settings.overrides, save_beside=save_beside)
         settings = replace(settings, config=config)
-        settings = with_configured_connections(settings, component.SPEC, config)
+        if config:
+            from robocomp_dsl.runtime.middleware.configured import (  # noqa: PLC0415 - for files
+                with_configured_connections,
+            )
+
+            settings = with_configured_connections(settings, component.SPEC, config)
     except ConfigError as error:
         print(error, file=sys.stderr)  # noqa: T201 - located findings, not a record
         return 1

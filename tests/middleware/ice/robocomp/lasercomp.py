@@ -1,5 +1,5 @@
 """A Python component as RoboComp's generator wrote them, with slice2py's code and etc/config."""
-# ruff: noqa
+# ruff: noqa: E402, N802, T201
 
 import sys
 import time
