@@ -32,6 +32,16 @@ class ConnectionKeys:
     properties: dict[str, str] = field(default_factory=dict)
     topic_manager: str = ""
 
+    def proxy_of(self, port: str, interface: str) -> str:
+        """The proxy of a required port, or empty. RoboComp may number the first port 0."""
+        is_numbered = port.startswith(interface) and port[-1].isdigit()
+        names = [port] if is_numbered else [port, f"{interface}0", interface]
+        return next((self.proxies[n.lower()] for n in names if n.lower() in self.proxies), "")
+
+    def has_topic(self, interface: str) -> bool:
+        """Whether a topic goes through IceStorm."""
+        return bool(self.topic_manager) or f"{interface}topic".lower() in self.endpoints
+
     def __bool__(self) -> bool:
         return bool(self.proxies or self.endpoints or self.properties or self.topic_manager)
 

@@ -52,13 +52,9 @@ def _peer(
     """The program that a port is connected to."""
     interface = _interface(port)
     if port in spec.requires:
-        for name in _names(port.name, interface):
-            if proxy := keys.proxies.get(name):
-                identity = proxy.partition(":")[0].split()[0]
-                return ExternalPeer(identity, NAME, proxy)
-    elif port not in spec.implements and (
-        keys.topic_manager or f"{interface}topic".lower() in keys.endpoints
-    ):
+        if proxy := keys.proxy_of(port.name, interface):
+            return ExternalPeer(proxy.partition(":")[0].split()[0], NAME, proxy)
+    elif port not in spec.implements and keys.has_topic(interface):
         return ExternalPeer(f"topic {interface}", NAME, f"{ICESTORM}{interface}")
     return None
 
@@ -67,7 +63,7 @@ def _endpoints(port: ServedPort | CalledPort, spec: ComponentSpec, keys: Connect
     """Where a port listens; RoboComp's oldest components name their only adapter themselves."""
     interface = _interface(port)
     if port in spec.implements:
-        names = [*_names(port.name, interface), f"{interface}Comp", spec.name, f"{spec.name}Comp"]
+        names = [port.name, interface, f"{interface}Comp", spec.name, f"{spec.name}Comp"]
     elif port in spec.subscribes:
         names = [f"{port.name}Topic", f"{interface}Topic"]
     else:
@@ -78,10 +74,3 @@ def _endpoints(port: ServedPort | CalledPort, spec: ComponentSpec, keys: Connect
 def _interface(port: ServedPort | CalledPort) -> str:
     interface = port.proxy.INTERFACE if isinstance(port, CalledPort) else port.interface
     return interface.name.rpartition("::")[2]
-
-
-def _names(port: str, interface: str) -> list[str]:
-    """The names of a port in keys, in lower case; RoboComp may number the first port 0."""
-    is_numbered = port.startswith(interface) and port[-1].isdigit()
-    names = [port] if is_numbered else [port, f"{interface}0", interface]
-    return [name.lower() for name in names]
