@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from robocomp_dsl.runtime.middleware.transport import Transport, TransportContext
 
 ENTRY_POINT_GROUP = "robocomp_dsl.middleware"
-BUILT_IN = ("ice", "inproc", "local", "zenoh")
+BUILT_IN = ("ice", "inproc", "local", "yarp", "zenoh")
 DEFAULT = "zenoh"
 """The middleware of a component that names none."""
 _broken: dict[str, str] = {}
@@ -50,7 +50,7 @@ def _load(point: EntryPoint) -> MiddlewareDescription | None:
     distribution = point.dist.name if point.dist else "another distribution"
     try:
         found = point.load()
-    except Exception as error:  # noqa: BLE001 - code of others
+    except Exception as error:
         reason = f"{type(error).__name__}: {error}"
     else:
         if isinstance(found, MiddlewareDescription):
