@@ -94,7 +94,11 @@ class _Reader:
             inner = self._int()
             if not inner & LIST or inner == DICT:
                 raise self._unknown(inner)
-            return Dict(self._list(inner, depth + 1))
+            items = self._list(inner, depth + 1)
+            if isinstance(items, np.ndarray):
+                kind = self._profile.by_tag[inner - LIST].type
+                return Dict(kind(item) for item in items.tolist())
+            return Dict(items)
         if not tag & LIST:
             raise self._unknown(tag)
         return self._list(tag, depth + 1)
