@@ -137,14 +137,14 @@ def main(arguments: list[str] | None = None) -> int:
         help="where to listen; default: as in yarp.conf, else 127.0.0.1:10000",
     )
     chosen = parser.parse_args(arguments)
-    ended = threading.Event()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: ended.set())
     try:
         server = NameServer(name_server_address(chosen.at))
     except MiddlewareError as error:
         sys.stderr.write(f"error: {error}\n")
         return 1
+    ended = threading.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: ended.set())
     sys.stdout.write(f"name server {server.name} at {server.host}:{server.number}\n")
     sys.stdout.flush()
     ended.wait()
