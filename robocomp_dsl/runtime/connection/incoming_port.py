@@ -176,7 +176,9 @@ class IncomingPort:
         receiver = LeaderFollowerQueue(
             name, take, handle, self.callback_group, self.fail, closed_error
         )
-        self._receivers.append(receiver)
+        # Some transports have one for each connection: forget those that have ended.
+        running = [each for each in self._receivers if each.is_running]
+        self._receivers = [*running, receiver]
         return receiver
 
     def join(self, timeout: float) -> None:

@@ -65,14 +65,7 @@ class MonitoredPorts:
             return
         names = {connection.peer for connection in connections}
         for connection in connections:
-            own = replace(
-                at,
-                port=connection_port(at.port, connection.peer),
-                peers=(connection.peer,),
-                external=tuple(
-                    e for e in at.external if e.component == _component(connection.peer)
-                ),
-            )
+            own = _endpoint_of_connection(at, connection.peer)
             monitored = _monitored_handlers(at, handlers, connection.wrap, is_topic=True)
             self._inner.subscribe(own, monitored, execution)
         # A connection may name the component only, if it has one such port.
@@ -100,6 +93,16 @@ class MonitoredPorts:
     def close(self) -> None:
         """See `Ports`."""
         self._inner.close()
+
+
+def _endpoint_of_connection(at: Endpoint, peer: str) -> Endpoint:
+    """The endpoint of a subscribed port that receives from one peer."""
+    external = tuple(e for e in at.external if e.component == _component(peer))
+    if not external:
+        return replace(at, port=connection_port(at.port, peer), peers=(peer,), external=())
+    # A program outside knows the port by its own name and address.
+    used = tuple(dict.fromkeys(e.middleware for e in external))
+    return replace(at, peers=(peer,), external=external, middlewares=used)
 
 
 def _component(peer: str) -> str:
