@@ -29,7 +29,16 @@ def find_middleware(written: Name | None, known: KnownMiddlewares, report: Repor
     name = known.find(written.text)
     if name is None:
         _report_unknown(written, known, report)
-    return name or ""
+        return ""
+    return _loadable(written, name, known, report)
+
+
+def _loadable(written: Name, name: str, known: KnownMiddlewares, report: Report) -> str:
+    """`name` if its distribution can be loaded; empty otherwise, which is reported."""
+    problem = known.problem(name)
+    if problem:
+        report.add(codes.UNKNOWN_MIDDLEWARE, written.span, problem)
+    return "" if problem else name
 
 
 def port_middlewares(
@@ -76,7 +85,9 @@ def _port_middleware(mark: Name, known: KnownMiddlewares, report: Report) -> str
         )
     elif name is None:
         _report_unknown(mark, known, report)
-    return name or ""
+    else:
+        return _loadable(mark, name, known, report)
+    return ""
 
 
 def _report_unknown(written: Name, known: KnownMiddlewares, report: Report) -> None:
