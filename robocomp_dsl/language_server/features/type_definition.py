@@ -8,7 +8,7 @@ from robocomp_dsl.language_server.session import Session
 from robocomp_dsl.language_server.symbols.lookup import location_of, occurrences_at
 from robocomp_dsl.model import types
 from robocomp_dsl.model.component import Port
-from robocomp_dsl.model.deployment import Instance
+from robocomp_dsl.model.deployment import External, Instance
 from robocomp_dsl.model.interface import Operation, Param
 from robocomp_dsl.source import Span
 
@@ -27,6 +27,8 @@ def _type_span(model_object: object) -> Span | None:
     match model_object:
         case Port():
             return model_object.interface.span
+        case External():
+            return model_object.only_port.interface.span
         case Instance():
             return model_object.component.span
         case (
