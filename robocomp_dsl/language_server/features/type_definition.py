@@ -25,10 +25,8 @@ def type_definition(session: Session, params: lsp.TypeDefinitionParams) -> list[
 
 def _type_span(model_object: object) -> Span | None:
     match model_object:
-        case Port():
-            return model_object.interface.span
-        case External():
-            return model_object.only_port.interface.span
+        case Port(interface=interface) | External(only_port=Port(interface=interface)):
+            return interface.span
         case Instance():
             return model_object.component.span
         case (
