@@ -90,6 +90,7 @@ class Runner:
             unique_name=True,
             addresses=settings.addresses,
             transport_settings=settings.transport_settings,
+            call_hook=self._call_hook,
         )
         self.ports = open_ports(
             settings.middleware or self.spec.middleware,
@@ -127,6 +128,10 @@ class Runner:
             if limit
             else None
         )
+
+    def _call_hook(self, hook: str, *arguments: object) -> None:
+        """Call a hook of the user's class for an event of a connection."""
+        getattr(self.worker, hook)(*arguments)
 
     def _watchdog_limit(self) -> float:
         """The time in s that a callback may take; 0.0: no limit.
@@ -181,6 +186,7 @@ class Runner:
             # All components share the clock, whatever their middlewares are.
             () if interface.name == CLOCK.name else self.middlewares_of(port),
             settings.external_records(port.name, self.spec.role_of_peers(port), interface.name),
+            settings.connection_qos(port.name),
         )
 
     def middlewares_of(self, port: ServedPort | CalledPort) -> tuple[str, ...]:

@@ -31,7 +31,7 @@ class ServerSelector:
         at: Endpoint,
         registry: PortRegistry,
         callback_group: CallbackGroup,
-        is_usable: Callable[[PortRecord], bool],
+        is_usable: Callable[[Endpoint, PortRecord], bool],
     ) -> None:
         self.at = at
         self._registry = registry
@@ -113,7 +113,7 @@ class ServerSelector:
         return found
 
     def _matches(self, record: PortRecord) -> bool:
-        return matches(self.at, record.component, record.port) and self._is_usable(record)
+        return matches(self.at, record.component, record.port) and self._is_usable(self.at, record)
 
     def _is_nearest(self, record: PortRecord) -> bool:
         return self._matches(record) and discovery_complete(self.at, (record.component,))
