@@ -12,7 +12,7 @@ from pathlib import Path
 
 from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
-from robocomp_dsl.runtime.connection.endpoint import Qos
+from robocomp_dsl.runtime.connection.endpoint import NOBODY, Qos
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 
@@ -78,6 +78,8 @@ class RunSettings:
 
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""
+        if self.connections.get(port) == (NOBODY,):
+            return (NOBODY,)
         name = self.remaps.get(port)
         peers = self.connections.get(port, (f"{ANY}.{name}",) if name else ())
         names = (resolve_name(self.prefix, peer) for peer in peers)

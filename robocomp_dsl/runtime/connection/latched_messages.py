@@ -21,6 +21,7 @@ class LatchedMessages:
     """The latest messages of one published port."""
 
     def __init__(self, at: Endpoint, presence: Presence) -> None:
+        self._presence = presence
         self._latest: dict[str, LatestMessage] = {}
         self._id = secrets.randbits(64)
         self._lock = threading.Lock()
@@ -53,6 +54,12 @@ class LatchedMessages:
                 publish(*arguments)
 
         return publish_and_keep
+
+    def rename(self, at: Endpoint) -> None:
+        """Offer the messages under another name."""
+        former = self._offered
+        self._offered = self._presence.offer_latest(at, self.latest)
+        former.close()
 
     def close(self) -> None:
         """Offer the messages no longer."""

@@ -45,10 +45,12 @@ def connection_qos(at: Endpoint, peer: str) -> Qos:
     Items for the component of the peer apply, too; those for its port are stronger.
     """
     qos = at.qos
-    component = peer.rpartition(".")[0] or peer
-    for name in dict.fromkeys((component, peer)):
+    component, dot, _ = peer.rpartition(".")
+    names = (component, peer) if dot else (peer,)
+    for name in names:
         for named, items in at.peer_qos:
-            if named == name:
+            # A connection may name the component only; it then has one such port.
+            if named == name or (not dot and named.startswith(f"{peer}.")):
                 qos = override(qos, items)
     return qos
 

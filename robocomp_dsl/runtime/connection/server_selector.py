@@ -73,6 +73,11 @@ class ServerSelector:
         self._registry_version = version
         return server
 
+    def update(self, at: Endpoint) -> None:
+        """Select among the peers of `at` from now on."""
+        self.at = at
+        self._server = None
+
     def _candidates(self) -> list[PortRecord]:
         found = self._registry.find("server", self.at.interface.name)
         return self._best_of_each(record for record in found if self._matches(record))

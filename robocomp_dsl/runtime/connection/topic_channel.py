@@ -109,6 +109,16 @@ class TopicChannel:
         return publish
 
     @property
+    def ports(self) -> list[PublishedPort]:
+        """The port on each of its middlewares."""
+        return self._ports
+
+    @property
+    def is_latched(self) -> bool:
+        """Whether the latest messages are kept."""
+        return self._latched is not None
+
+    @property
     def at(self) -> Endpoint:
         """The port as it is now."""
         return self._at
@@ -117,6 +127,8 @@ class TopicChannel:
         """Publish with others from now on, one for each middleware; messages keep their numbers."""
         with self._lock:
             former = [port.publisher for port in self._ports]
+            if self._latched and at.name != self._at.name:
+                self._latched.rename(at)
             self._at = at
             for port, publisher in zip(self._ports, publishers, strict=True):
                 port.publisher = publisher
