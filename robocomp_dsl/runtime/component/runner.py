@@ -38,6 +38,7 @@ from robocomp_dsl.runtime.component.wiring import Wiring
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.connections_interface import COMPONENTCONNECTIONS
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.monitor_setup import load_monitors, monitored_ports
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
@@ -82,6 +83,7 @@ class Runner:
         self._stop_requests: SimpleQueue[None] = SimpleQueue()
         self._ended = threading.Event()
         self.wiring.check_qos()
+        self.monitors = load_monitors(self.spec, settings)
         host = ComponentContext(
             self.name,
             settings.domain,
@@ -103,8 +105,10 @@ class Runner:
         self._clock_binding = create_clock(
             settings.clock.with_prefix(settings.prefix), owner, self.ports
         )
+        clock = clock or self._clock_binding.clock
+        self._ports = monitored_ports(self._clock_binding.ports, self.monitors, clock)
         self.notifier = SystemdNotifier()
-        self.worker = self._create_worker(component, clock or self._clock_binding.clock)
+        self.worker = self._create_worker(component, clock)
         self.lifecycle = Lifecycle(
             self.worker,
             self.spec.period,
@@ -168,8 +172,7 @@ class Runner:
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
             at = self.wiring.endpoint(port)
-            ports = self._clock_binding.ports
-            link = ports.advertise(at) if publishes else ports.proxy(at)
+            link = self._ports.advertise(at) if publishes else self._ports.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
@@ -186,9 +189,9 @@ class Runner:
     def _open(self) -> None:
         """Serve and subscribe all ports."""
         for port in self.spec.implements:
-            self._serve(port, self._clock_binding.ports.serve)
+            self._serve(port, self._ports.serve)
         for port in self.spec.subscribes:
-            self._serve(port, self._clock_binding.ports.subscribe)
+            self._serve(port, self._ports.subscribe)
         self._clock_binding.open()
 
     def _serve(self, port: ServedPort, serve: Callable[..., Any]) -> None:
@@ -283,6 +286,8 @@ class Runner:
             self.watchdog.stop()
         self.ports.publish_state("")
         self.ports.close()
+        if self.monitors:
+            self.monitors.destroy()
         return not self.abandoned and self._succeeded and not self._failed
 
     def _abandon_hook(self, timeout: float) -> None:

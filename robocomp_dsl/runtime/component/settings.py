@@ -9,12 +9,16 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.component.invalid_setting import InvalidSetting
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
 from robocomp_dsl.runtime.connection.endpoint import NOBODY, Qos
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.monitor_settings import ConnectionMonitors
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]{0,99}")
 PORT = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,99}")
@@ -64,6 +68,7 @@ class RunSettings:
     listen_port: int = 0
     watchdog: float | None = None
     clock: ClockSettings = field(default_factory=ClockSettings)
+    monitors: tuple[ConnectionMonitors, ...] = ()
 
     def full_name(self, component: str) -> str:
         """The full name of the instance; `component` is the default name."""
@@ -75,6 +80,18 @@ class RunSettings:
             PortRecord(role, interface, peer.name, port, "", peer.middleware, peer.address)
             for peer in self.external.get(port, ())
         )
+
+    def middlewares_of(self, port: str, marked: tuple[str, ...], default: str) -> tuple[str, ...]:
+        """The middlewares of a port, in order of preference.
+
+        `marked` are those of the CDSL file, `default` is that of the component.
+        """
+        external = tuple(peer.middleware for peer in self.external.get(port, ()))
+        if external and port not in self.connections:
+            return tuple(dict.fromkeys(external))
+        chosen = self.port_middlewares.get(port, ())
+        usual = (self.middleware,) if self.middleware else marked
+        return tuple(dict.fromkeys((*(chosen or usual or (default,)), *external)))
 
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""

@@ -234,6 +234,8 @@ class ComponentPorts:
             address,
             at.peers if role == "subscriber" else (),
         )
+        if role == "subscriber" and at.external and not at.peers:
+            return record  # connected to external programs only: no component publishes to it
         self.presence.declare(record)
         return record
 
@@ -261,7 +263,8 @@ class ComponentPorts:
             port.withdraw(self.presence)
         for each in opened:
             each.close()
-        for incoming in self._incoming:
+        incoming_ports, self._incoming = self._incoming, []
+        for incoming in incoming_ports:
             incoming.join(0.5)
         if self._losses:
             self._context.statistics.off_refresh(self._losses.settle)
@@ -270,7 +273,9 @@ class ComponentPorts:
             channel.close()
         for topic in topics:
             topic.close()
-        for transport in self._transports.values():
+        with self._lock:
+            transports, self._transports = self._transports, {}
+        for transport in transports.values():
             transport.close()
         self.presence.close()
 
