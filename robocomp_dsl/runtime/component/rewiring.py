@@ -125,8 +125,8 @@ class Rewiring:
                 raise Refusal(
                     f"`{found.name}` is not connected to `{full}`; its connections: {listed}"
                 )
-            kept = tuple(f"/{name}" for name in names if name not in same)
-            connections = {**settings.connections, found.name: kept or (NOBODY,)}
+            remaining_names = tuple(f"/{name}" for name in names if name not in same)
+            connections = {**settings.connections, found.name: remaining_names or (NOBODY,)}
             settings = replace(settings, connections=connections)
         if not remaining and found.name not in settings.connections:
             connections = {**settings.connections, found.name: (NOBODY,)}
