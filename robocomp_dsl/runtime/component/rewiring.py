@@ -88,13 +88,16 @@ class Rewiring:
             raise Refusal(str(error)) from None
         for name in parsed.get(found.name, ()):
             full = resolve_name(settings.prefix, name)
-            if full in self._full_names(found):
-                raise Refusal(f"`{found.name}` is connected to `{full}` already")
+            component = full.rpartition(".")[0]
+            for other in self._full_names(found):
+                # Connected twice, it would receive every message twice.
+                if other in (full, component) or other.startswith(f"{full}."):
+                    raise Refusal(f"`{found.name}` is connected to `{other}` already")
             former = tuple(p for p in settings.connections.get(found.name, ()) if p != NOBODY)
             connections = {**settings.connections, found.name: (*former, f"/{full}")}
             settings = replace(settings, connections=connections)
-        for other in external.get(found.name, ()):
-            peers = (*settings.external.get(found.name, ()), other)
+        for program in external.get(found.name, ()):
+            peers = (*settings.external.get(found.name, ()), program)
             settings = replace(settings, external={**settings.external, found.name: peers})
         if middleware:
             if registry.known_capabilities(middleware) is None:
