@@ -99,7 +99,7 @@ def test_call_with_another_interface_is_a_mismatch(side: Open) -> None:
     record = side("server").serve(HANDLERS)
     call = side("client").calls(record, OTHER_PROBE)
     for _ in range(2):
-        with pytest.raises(InterfaceMismatch, match="client.Probe and server.Probe"):
+        with pytest.raises(InterfaceMismatch, match=r"client\.Probe and server\.Probe"):
             call("add", 1, 2)
 
 
@@ -214,4 +214,3 @@ def test_nested_calls_between_two_components_do_not_deadlock(side: Open) -> None
     call_left.append(right.calls(left.serve({"nested": from_left})))
     with left.group:
         assert waits(left, call_right, 12) == 12
-

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import threading
 import time
 from collections.abc import Callable
@@ -88,15 +87,15 @@ def mapped_file(array: np.ndarray) -> str:
 
 
 def test_arrays_that_a_subscriber_keeps_do_not_change(side: Open) -> None:
-    kept: list[np.ndarray] = []
-    record = side("s").subscribe({"taken": lambda _n, pixels: kept.append(pixels)}, FRAMES)
+    arrays: list[np.ndarray] = []
+    record = side("s").subscribe({"taken": lambda _n, pixels: arrays.append(pixels)}, FRAMES)
     publish = side("p").publisher(FRAMES, record)
     for number in range(40):
         publish("taken", number, PIXELS + number)
-        wait_until(lambda number=number: len(kept) > number)
+        wait_until(lambda number=number: len(arrays) > number)
         if number % 2:
-            kept[number] = PIXELS[:1]  # releases the message
-    assert all(set(array) == {n} for n, array in enumerate(kept) if n % 2 == 0)
+            arrays[number] = PIXELS[:1]  # releases the message
+    assert all(set(array) == {n} for n, array in enumerate(arrays) if n % 2 == 0)
 
 
 @pytest.mark.parametrize(("interface", "depth"), [(NEWS, None), (NEWS, 3), (FRAMES, None)])
@@ -262,4 +261,3 @@ def test_connections_that_have_ended_leave_nothing(side: Open) -> None:
     wait_until(lambda: len(received) == 30)
     wait_until(lambda: open_descriptors() <= before + 1)
     wait_until(lambda: threading.active_count() <= threads)
-    assert os.getpid()

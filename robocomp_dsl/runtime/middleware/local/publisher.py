@@ -7,26 +7,20 @@ for a limited time.
 
 from __future__ import annotations
 
-import logging
 import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.middleware.local import packets
 from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
+from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.ports import head_of
 from robocomp_dsl.runtime.middleware.local.subscriber_link import SubscriberLink
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
-
-if TYPE_CHECKING:
-    from robocomp_dsl.runtime.middleware.local.flusher import Flusher
-
-log = logging.getLogger("robocomp")
 
 
 class LocalPublisher:
