@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
-from robocomp_dsl.runtime.middleware.local import subscriber_link
+from robocomp_dsl.runtime.middleware.local import subscriber_socket
 from tests.middleware.local.direct import FRAMES, Side, open_descriptors
 from tests.middleware.probe_types import NEWS, OTHER_NEWS
 from tests.support.waiting import wait_until
@@ -127,7 +127,7 @@ def test_slow_subscriber_does_not_hold_the_publisher(
 def test_queue_of_large_messages_is_limited_in_bytes(
     side: Open, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(subscriber_link, "MAX_QUEUED_BYTES", 10 * PIXELS.nbytes)
+    monkeypatch.setattr(subscriber_socket, "MAX_QUEUED_BYTES", 10 * PIXELS.nbytes)
     slow = Slow()
     publish = side("p").publisher(FRAMES, side("s").subscribe({"taken": slow.taken}, FRAMES))
     publish("taken", 0, PIXELS)
@@ -172,7 +172,7 @@ def test_reliable_publisher_waits_for_a_slow_subscriber(side: Open) -> None:
 def test_reliable_subscriber_that_receives_nothing_holds_once(
     side: Open, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(subscriber_link, "HOLD_S", 0.05)
+    monkeypatch.setattr(subscriber_socket, "HOLD_S", 0.05)
     slow, qos, publisher = Slow(), Qos(reliable=True), side("p")
     record = side("s").subscribe({"taken": slow.taken}, FRAMES, qos)
     publish = publisher.publisher(FRAMES, record, qos=qos)

@@ -18,7 +18,7 @@ from robocomp_dsl.runtime.middleware.local.codec import Message, message_encoder
 from robocomp_dsl.runtime.middleware.local.flusher import Flusher
 from robocomp_dsl.runtime.middleware.local.memory_pool import MemoryPool
 from robocomp_dsl.runtime.middleware.local.ports import head_of
-from robocomp_dsl.runtime.middleware.local.subscriber_link import SubscriberLink
+from robocomp_dsl.runtime.middleware.local.subscriber_socket import SubscriberSocket
 from robocomp_dsl.runtime.middleware.transport import BoundOperation
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -33,8 +33,8 @@ class LocalPublisher:
         self._at = at
         self._flusher = flusher
         self._lock = threading.Lock()
-        self._links: dict[PortRecord, SubscriberLink] = {}
-        self._current: tuple[SubscriberLink, ...] = ()
+        self._links: dict[PortRecord, SubscriberSocket] = {}
+        self._current: tuple[SubscriberSocket, ...] = ()
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.Publisher`."""
@@ -62,7 +62,7 @@ class LocalPublisher:
         """See `transport.Publisher`."""
         with self._lock:
             if subscriber not in self._links:
-                link = SubscriberLink(self._at, subscriber, self._flusher)
+                link = SubscriberSocket(self._at, subscriber, self._flusher)
                 self._links[subscriber] = link
                 self._current = tuple(self._links.values())
 

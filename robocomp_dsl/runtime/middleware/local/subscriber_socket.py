@@ -45,7 +45,7 @@ log = logging.getLogger("robocomp")
 _Entry: TypeAlias = "tuple[bytes, SharedMessage | None, OperationCounts]"
 
 
-class SubscriberLink:
+class SubscriberSocket:
     """Never blocks, unless the publisher is reliable. `lost`: the subscriber has ended."""
 
     def __init__(self, at: Endpoint, subscriber: PortRecord, flusher: Flusher) -> None:
