@@ -16,7 +16,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.connection.losses import LossCounter, LossCounters
-from robocomp_dsl.runtime.connection.peer_selection import with_deadline_check
+from robocomp_dsl.runtime.connection.peer_selection import matches, with_deadline_check
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.server_selector import ServerSelector
 from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
@@ -118,7 +118,7 @@ class ComponentPorts:
                 )
                 for name, handler in handlers.items()
             }
-        for middleware in self._subscribed_middlewares(at):
+        for middleware in self._middlewares(at):
             numbered = registry.capabilities_of(middleware).sequence_numbers
             port = self._served_port(at, handlers, execution, count_losses=numbered)
             subscription = self.transport(middleware).subscribe(port)
@@ -160,7 +160,7 @@ class ComponentPorts:
         registry_ = self.presence.registry
 
         def is_usable(record: PortRecord) -> bool:
-            return self._is_usable(at, record)
+            return self.is_usable(at, record)
 
         selector = ServerSelector(at, registry_, self._context.callback_group, is_usable)
         channel = ServiceChannel(self._context, registry_, selector, self._connect)
@@ -170,7 +170,7 @@ class ComponentPorts:
     def _connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
         return self.transport(server.middleware).connect(at, server, timeout)
 
-    def _is_usable(self, at: Endpoint, record: PortRecord) -> bool:
+    def is_usable(self, at: Endpoint, record: PortRecord) -> bool:
         """Whether this port can be connected to a server or publisher."""
         if at.middlewares and record.middleware not in at.middlewares:
             return False
@@ -198,14 +198,19 @@ class ComponentPorts:
     def _middlewares(self, at: Endpoint) -> tuple[str, ...]:
         return at.middlewares or (self.presence.house,)
 
-    def _subscribed_middlewares(self, at: Endpoint) -> Iterable[str]:
-        """Of a port that names none: those of the publishers that are known, or the house's."""
-        if at.middlewares:
-            return at.middlewares
-        found = self.presence.registry.find("publisher", at.interface.name)
-        used = [r.middleware for r in found if r.name in at.peers or r.component in at.peers]
-        usable = [name for name in used if registry.known_capabilities(name)]
-        return dict.fromkeys(usable or (self.presence.house,))
+    def middlewares_of_subscribers(self, at: Endpoint) -> tuple[str, ...]:
+        """The house's and those of the subscribers to `at` that are known now."""
+        found = self.presence.registry.find("subscriber", at.interface.name)
+        peers = (
+            (record, Endpoint(at.interface, record.component, record.port, record.peers))
+            for record in found
+        )
+        used = [
+            record.middleware
+            for record, peer in peers
+            if matches(peer, at.component, at.port) and self.is_usable(at, record)
+        ]
+        return tuple(dict.fromkeys((self.presence.house, *used)))
 
     def _declare(
         self,
