@@ -232,6 +232,8 @@ class ComponentPorts:
             at.peers if role == "subscriber" else (),
         )
         self._opened.append((record, port))
+        if role == "subscriber" and at.external and not at.peers:
+            return  # connected to external programs only: no component publishes to it
         self.presence.declare(record)
 
     def find_servers(self, interface: Interface, timeout: float) -> list[str]:

@@ -74,9 +74,13 @@ class PortRegistry:
             self.version += 1
 
     def on_lost(self, record: PortRecord, callback: Callable[[], None]) -> None:
-        """Call `callback` once when the port is lost or `interrupt` is called; at once if it is."""
+        """Call `callback` once when the port is lost or `interrupt` is called; at once if it is.
+
+        A port of a program that is no component has no hash; no presence knows when it is lost.
+        """
         with self._changed:
-            present = not self.closed and record in self._records.values()
+            known = not record.hash or record in self._records.values()
+            present = known and not self.closed
             if present:
                 self._on_lost.setdefault(record, []).append(callback)
         if not present:
@@ -102,6 +106,15 @@ class PortRegistry:
         with self._changed:
             self._changed.wait_for(lambda: fitting() or self.closed, max(seconds, 0.0))
             return fitting()
+
+    def wait_lost(self, record: PortRecord, seconds: float) -> None:
+        """Wait until the port is lost, at most `seconds`: its connection may break before."""
+
+        def lost() -> bool:
+            return self.closed or record not in self._records.values()
+
+        with self._changed:
+            self._changed.wait_for(lost, seconds)
 
     def interrupt(self) -> None:
         """Wake all waiting threads, and report all ports as lost."""
