@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.middleware.registry import BUILT_IN, description_of
 
 PAGE = Path(__file__).parents[2] / "docs" / "reference" / "middlewares.md"
 Results: TypeAlias = dict[str, dict[str, dict[str, Any]]]
-YES, NO = "yes", "–"
+YES, NO = "yes", "-"
 CAPABILITIES = {
     "between_processes": "connects processes",
     "between_hosts": "connects machines",
@@ -30,8 +30,8 @@ CAPABILITIES = {
 _HEAD = """\
 # Middlewares
 
-What each middleware can do, and how many cases of the conformance suite it passes. This page is generated: `make
-conformance` runs the suite over all middlewares that are installed and writes it.
+What each middleware can do, and how many cases of the conformance suite it passes. This page is
+generated: `make conformance` runs the suite over all installed middlewares and writes it.
 [What the planes are, and how to write a middleware](../explanation/middlewares.md).
 
 """
@@ -93,7 +93,8 @@ def _reasons(results: Results) -> str:
     lines = []
     for name, features in sorted(results.items()):
         reasons = sorted({why for result in features.values() for why in result["skipped"]})
-        lines += [_wrap(f"- `{name}` skips cases: {'; '.join(reasons)}.", "  ")] if reasons else []
+        if reasons:
+            lines.append(_wrap(f"- `{name}` skips cases: {'; '.join(reasons)}.", "  "))
     return "".join(["\n", *lines]) if lines else ""
 
 

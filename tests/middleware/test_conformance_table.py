@@ -32,6 +32,6 @@ def test_middleware_page_shows_no_failed_case() -> None:
 def test_conformance_table_shows_failures_and_reasons() -> None:
     text = page(RUN)
     assert "| Shutdown | 2 | **3 of 4** |" in text
-    assert "| Processes | – | – |" in text
+    assert "| Processes | - | - |" in text
     assert "- `inproc` skips cases: it has no processes." in text
     assert "Not installed in this run: " in text
