@@ -34,6 +34,7 @@ from robocomp_dsl.runtime.data.schema import (
 from robocomp_dsl.runtime.data.struct import Struct, default
 from robocomp_dsl.runtime.errors import (
     AmbiguousServer,
+    CallRejected,
     DeclaredError,
     EncodeError,
     InterfaceMismatch,
@@ -85,6 +86,7 @@ __all__ = [
     "BoolArray",
     "BoolColumn",
     "Byte",
+    "CallRejected",
     "Column",
     "DeclaredError",
     "Dictionary",
