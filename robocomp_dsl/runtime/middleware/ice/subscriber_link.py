@@ -19,7 +19,7 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.throttle import Throttle
 from robocomp_dsl.runtime.middleware.ice.communicator import reason
 
-HOLD_S = 0.05
+HOLD_S = 0.03
 """How long a subscriber may hold a publication."""
 DEPTH = 256
 """Publications on their way to one subscriber, if the port states no depth."""
