@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from robocomp_dsl.runtime.codec.ice import codec
-from tests.middleware.ice.conftest import IceComponent
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.peers import Ice, PlainProgram, free_port
 from tests.support.waiting import wait_until
 

@@ -13,7 +13,7 @@ import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MiddlewareError
-from tests.middleware.ice.conftest import IceComponent
+from tests.middleware.ice.ice_component import IceComponent
 from tests.middleware.ice.icestorm import IceStormProcess, ice_storm
 from tests.middleware.ice.peers import PlainProgram, free_port
 from tests.support.waiting import wait_until
