@@ -97,6 +97,8 @@ class StormPublisher:
     def _connect(self, topic: Any) -> None:
         proxy = topic.getPublisher()
         if proxy != self._proxy or self._sender is None or self._sender.is_broken:
+            if self._sender:
+                self._sender.close()
             qos = self._at.qos
             self._proxy = proxy
             self._sender = SubscriberLink(proxy, self._name, qos.depth, reliable=bool(qos.reliable))
