@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from robocomp_dsl.runtime.connection import bounded_queue
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MiddlewareError
 from tests.middleware.ice.ice_component import IceComponent
@@ -89,8 +90,12 @@ def test_reliable_topic_loses_nothing_with_a_slow_subscriber(
 
 
 def test_reliable_publisher_is_held_for_a_limited_time(
-    component: Callable[..., IceComponent], generated: Any, caplog: pytest.LogCaptureFixture
+    component: Callable[..., IceComponent],
+    generated: Any,
+    caplog: pytest.LogCaptureFixture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr(bounded_queue, "HOLD_S", 0.03)
     subscriber, gate = component("listener"), threading.Event()
     handled: list[int] = []
 

@@ -63,7 +63,7 @@ class IcePublisher:
         proxy = parse_proxy(self._communicator, subscriber.address, subscriber.name)
         qos = self._at.qos
         self._links[subscriber] = SubscriberLink(
-            proxy, subscriber.name, qos.depth, reliable=bool(qos.reliable)
+            proxy, subscriber.name, qos.depth, reliable=qos.holds_publisher
         )
 
     def detach(self, subscriber: PortRecord) -> None:
@@ -101,7 +101,9 @@ class StormPublisher:
                 self._sender.close()
             qos = self._at.qos
             self._proxy = proxy
-            self._sender = SubscriberLink(proxy, self._name, qos.depth, reliable=bool(qos.reliable))
+            self._sender = SubscriberLink(
+                proxy, self._name, qos.depth, reliable=qos.holds_publisher
+            )
 
     def send(self, name: str, mode: Any, data: bytes, counts: OperationCounts) -> None:
         """Send one publication."""
@@ -126,7 +128,7 @@ class StormSubscription:
     def __init__(
         self, communicator: Any, at: Endpoint, manager: str, topic: str, proxy: Any
     ) -> None:
-        reliable = bool(at.qos.reliable)
+        reliable = at.qos.holds_publisher
         self._proxy = proxy.ice_twoway() if reliable else proxy.ice_oneway()
         self._qos = {"reliability": "ordered"} if reliable else {}
         self._topic: Any = None
