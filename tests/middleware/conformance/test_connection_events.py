@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -13,6 +13,7 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.ports import ComponentContext
+from tests.middleware.conformance.peer_launcher import Peer
 from tests.middleware.network import DEADLINE, Network
 from tests.middleware.probe_types import NEWS
 from tests.support.waiting import wait_until
@@ -139,3 +140,30 @@ def test_events_of_hooks_that_raise_are_logged(
         wait_until(lambda: "publisher_alive(News) failed" in caplog.text)
     finally:
         subscriber.ports.close()
+
+
+@pytest.mark.needs("between_processes")
+@pytest.mark.parametrize("subscriber", [Qos(liveliness=0.3)], indirect=True)
+def test_stopped_publisher_is_lost_and_alive_again_when_it_continues(
+    subscriber: HookedSubscriber, start_peer: Callable[..., Peer]
+) -> None:
+    publisher = start_peer("publish")
+    wait_until(lambda: subscriber.hooks("publisher_alive"))
+    publisher.stop()
+    wait_until(lambda: subscriber.hooks("publisher_lost"))
+    alive = len(subscriber.hooks("publisher_alive"))
+    publisher.resume()
+    wait_until(lambda: len(subscriber.hooks("publisher_alive")) > alive)
+
+
+@pytest.mark.needs("between_processes")
+@pytest.mark.parametrize("subscriber", [Qos(liveliness=60.0, deadline=0.2)], indirect=True)
+def test_killed_publisher_is_lost_at_once_and_misses_its_deadline(
+    subscriber: HookedSubscriber, start_peer: Callable[..., Peer]
+) -> None:
+    publisher = start_peer("publish")
+    wait_until(lambda: subscriber.received)
+    publisher.kill()
+    wait_until(lambda: subscriber.hooks("publisher_lost") == [("News", "publisher.News")])
+    # No message comes any more: only a timer can report the gap.
+    wait_until(lambda: subscriber.hooks("deadline_missed"))
