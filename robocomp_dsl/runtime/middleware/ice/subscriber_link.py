@@ -28,7 +28,7 @@ DEPTH = 256
 log = logging.getLogger("robocomp")
 
 
-class SubscriberLink:
+class IceSubscriberLink:
     """One subscriber. `is_broken` is set when a message could not be sent."""
 
     def __init__(self, proxy: Any, name: str, depth: int | None, *, reliable: bool) -> None:
