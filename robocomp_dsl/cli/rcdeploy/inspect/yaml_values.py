@@ -20,7 +20,6 @@ from robocomp_dsl.runtime.data.schema import (
     BOOL,
     DOUBLE,
     FLOAT,
-    STRING,
     Array,
     Dictionary,
     Enum,
@@ -89,6 +88,11 @@ class _Reader:
     def _items(self, type_: Type, node: yaml.Node) -> list[yaml.Node]:
         if isinstance(node, yaml.SequenceNode):
             items: list[yaml.Node] = node.value
+            try:
+                if isinstance(type_, Array | Sequence):
+                    check_count(type_, len(items))
+            except EncodeError as error:
+                raise self._problem(node, error.reason, type_) from None
             return items
         raise self._problem(node, f"{_shown(node)} is not a list", type_)
 
@@ -99,7 +103,9 @@ class _Reader:
 
     def _primitive(self, type_: Primitive, node: yaml.Node) -> Any:
         text = self._text(type_, node)
-        if type_ is STRING:
+        if type_.is_text:
+            if type_.bound and len(text.encode()) > type_.bound:
+                raise self._problem(node, f"the text is longer than {type_.bound} bytes", type_)
             return text
         if type_ is BOOL:
             if text.lower() in _BOOLS:
