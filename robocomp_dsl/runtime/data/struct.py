@@ -51,6 +51,7 @@ class StructMeta(type):
         bases: tuple[type, ...],
         namespace: dict[str, Any],
         *,
+        type_id: str = "",
         rename: Mapping[str, str] | None = None,
     ) -> StructMeta:
         """A new class. `rename` maps attributes to field names of the IDSL file if they differ."""
@@ -59,6 +60,7 @@ class StructMeta(type):
         annotations = _annotations(name, namespace)
         names, wire = tuple(annotations), rename or {}
         namespace |= {
+            "_type_id_": type_id,
             "_names_": names,
             "_fields_": tuple((wire.get(n, n), schema_of(t)) for n, t in annotations.items()),
             "_defaults_": {n: namespace.pop(n) for n in names if n in namespace},
@@ -100,10 +102,13 @@ class Struct(StructBase, metaclass=StructMeta):
 
     The constructor requires attributes without a default; the default of a list, dict, array or
     struct is `rt.default()`. `class Beam(rt.Struct, rename={"None_": "None"})` states the names of
-    fields that differ between the IDSL file and Python.
+    fields that differ between the IDSL file and Python. `type_id="RoboCompLaser::Beam"` is the name
+    of the type in its IDSL file, for middlewares that send names of types; the type hash excludes
+    it.
     """
 
     __slots__ = ()
+    _type_id_: ClassVar[str] = ""
     _fields_: ClassVar[Fields] = ()
     _names_: ClassVar[tuple[str, ...]] = ()
     _defaults_: ClassVar[dict[str, Any]] = {}

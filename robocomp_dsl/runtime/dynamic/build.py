@@ -108,7 +108,7 @@ class _TypeBuilder:
         for name, (_, type_), field in zip(names, pairs, info.fields, strict=True):
             members[name] = _default(type_, field, info.name)
         rename = {n: wire for n, (wire, _) in zip(names, pairs, strict=True) if n != wire}
-        cls: Any = StructMeta(_short(info.name), (base,), members, rename=rename)
+        cls: Any = StructMeta(_short(info.name), (base,), members, type_id=info.name, rename=rename)
         built: type[Struct] = cls
         return built
 
