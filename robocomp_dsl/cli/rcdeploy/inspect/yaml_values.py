@@ -16,6 +16,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.examples import example
 from robocomp_dsl.cli.rcdeploy.inspect.type_names import type_name
 from robocomp_dsl.diagnostics import did_you_mean
 from robocomp_dsl.runtime.data.arrays import StructArray
+from robocomp_dsl.runtime.data.convert import check_count
 from robocomp_dsl.runtime.data.schema import (
     BOOL,
     DOUBLE,
@@ -28,6 +29,7 @@ from robocomp_dsl.runtime.data.schema import (
     Type,
 )
 from robocomp_dsl.runtime.data.struct import Struct
+from robocomp_dsl.runtime.errors import EncodeError
 
 _BOOLS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
 _INFINITE = {".inf": "inf", "+.inf": "inf", "-.inf": "-inf", ".nan": "nan"}
