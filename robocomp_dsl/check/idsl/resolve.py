@@ -161,9 +161,7 @@ class _Resolver:
             return ()
         return tuple(item for item in items if item is not None)
 
-    def _literal(
-        self, tree: Literal | None, type_: types.Type, what: str
-    ) -> types.Literal | None:
+    def _literal(self, tree: Literal | None, type_: types.Type, what: str) -> types.Literal | None:
         if tree is None:
             return None
         try:
@@ -188,9 +186,7 @@ class _Resolver:
                 continue
             value = self._literal(tree.value, type_, f"the constant `{tree.name.text}`")
             if value is not None:
-                constant = types.Constant(
-                    tree.name.text, type_, value, tree.name.span, tree.doc
-                )
+                constant = types.Constant(tree.name.text, type_, value, tree.name.span, tree.doc)
                 constants.setdefault(constant.name, constant)
         return tuple(constants.values())
 

@@ -20,7 +20,9 @@ from robocomp_dsl.syntax.parse import ROS_SUFFIXES
 VARIABLES = ("AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
 """Environment variables of ROS 2 and ROS 1 with folders of packages."""
 
-_WRITTEN = re.compile(r"(?P<package>[A-Za-z]\w*)/(?:(?P<folder>msg|srv|action)/)?(?P<file>\w+\.\w+)")
+_WRITTEN = re.compile(
+    r"(?P<package>[A-Za-z]\w*)/(?:(?P<folder>msg|srv|action)/)?(?P<file>\w+\.\w+)"
+)
 
 
 def is_ros_import(written: str) -> bool:

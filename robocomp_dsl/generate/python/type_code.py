@@ -136,9 +136,7 @@ def _struct(
     )
 
 
-def _constants(
-    struct: Struct | ExceptionType, attributes: Iterable[str]
-) -> Iterator[ConstantCode]:
+def _constants(struct: Struct | ExceptionType, attributes: Iterable[str]) -> Iterator[ConstantCode]:
     """The constants of a ROS message; their names differ from those of the fields."""
     constants = struct.constants if isinstance(struct, Struct) else ()
     reserved = names.STRUCT_MEMBERS | set(attributes)

@@ -46,7 +46,9 @@ def parse_items(span: Span, type_: str) -> tuple[Literal, ...] | None:
         return ()
     if not (text.startswith("[") and text.endswith("]")):
         return None
-    values = [parse_value(item, type_) for item in _items(span.subspan(span.start + 1, span.end - 1))]
+    values = [
+        parse_value(item, type_) for item in _items(span.subspan(span.start + 1, span.end - 1))
+    ]
     return None if None in values else tuple(value for value in values if value is not None)
 
 
