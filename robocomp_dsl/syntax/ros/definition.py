@@ -16,7 +16,7 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
-from robocomp_dsl.syntax.ros.lines import Section, Statement, read_sections
+from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
 
 PARTS = {
@@ -25,9 +25,8 @@ PARTS = {
     ".action": ("_Goal", "_Result", "_Feedback"),
 }
 """What the structs of a definition have behind its name."""
-NUMBERS = frozenset(
-    """byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32 float64""".split()
-)
+_SIZED = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
+NUMBERS = frozenset(("byte", "char", "float32", "float64", *_SIZED))
 BUILT_IN = NUMBERS | {"bool", "string"}
 """The built-in types of ROS definitions."""
 MAX_LENGTH = 1_000_000
@@ -45,10 +44,14 @@ _ROS1 = {
 }
 """Types that ROS 1 definitions name without a package."""
 _UNSUPPORTED = ("wstring", "wchar", "float128")
-_UNITS = {
-    **{unit: unit for unit in ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T")},
-    **{unit: unit for unit in ("m/s", "m/s^2", "rad/s", "rad/s^2", "kg", "lx", "px")},
-    **{"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"},
+_SYMBOLS = ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T", "kg", "px")
+_RATES = ("m/s", "m/s^2", "rad/s", "rad/s^2")
+_WORDS = {"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"}
+_UNITS = {unit: unit for unit in (*_SYMBOLS, *_RATES)} | _WORDS
+    "meters": "m",
+    "seconds": "s",
+    "radians": "rad",
+    "degrees": "deg",
 }
 """Words in brackets that are units in comments of ROS definitions."""
 _BRACKETS = re.compile(r"\[([^\[\]]+)\]")
@@ -97,13 +100,12 @@ class _Builder:
 
     def _check_sections(self, sections: list[Section], expected: int) -> None:
         suffix = self._source.path.suffix.lower()
+        number = ("no line", "one line", "two lines")[expected - 1]
+        message = f"a `{suffix}` file has {number} `---` between its parts"
         if len(sections) > expected:
-            number = "no" if expected == 1 else f"only {expected - 1}"
-            self._add(sections[expected].span, f"a `{suffix}` file has {number} line `---`")
+            self._add(sections[expected].span, message)
         elif len(sections) < expected:
-            end = self._source.span(len(self._source.text), len(self._source.text))
-            number = "one line" if expected == 2 else "two lines"
-            self._add(end, f"a `{suffix}` file has {number} `---`, which separate its parts")
+            self._add(self._source.span(len(self._source.text), len(self._source.text)), message)
 
     def _struct(self, name: str, section: Section) -> ast.Struct:
         fields: list[ast.Field] = []
@@ -123,10 +125,10 @@ class _Builder:
             f"{self._package}/{self._folder}/{name}",
         )
 
-    def _statement(self, statement: Statement) -> ast.Field | ast.Constant | None:
+    def _statement(self, statement: DefinitionLine) -> ast.Field | ast.Constant | None:
         span = statement.span
         found = _STATEMENT.fullmatch(span.text)
-        if found is None:
+        if found is None or found["rest"] == ";":
             self._report_statement(span)
             return None
         type_ = self._type(self._part(span, found, "type"))
@@ -203,16 +205,16 @@ class _Builder:
         return ast.Array(brackets, size=length)
 
     def _report_statement(self, span: Span) -> None:
-        text = span.text
-        fix = None
-        if text.endswith(";") and _STATEMENT.fullmatch(text.rstrip("; ")):
-            extra = span.subspan(span.start + len(text.rstrip("; ")), span.end)
-            fix = Fix("remove the `;`", (Edit(extra, ""),))
+        plain = span.text.rstrip("; ")
+        if plain != span.text and _STATEMENT.fullmatch(plain):
+            end = span.subspan(span.start + len(plain), span.end)
+            fix = Fix("remove the `;`", (Edit(end, ""),))
+            self._add(end, "a line of a ROS definition does not end with `;`", fix=fix)
+            return
         self._add(
             span,
-            f"`{text}` is neither a field nor a constant",
+            f"`{span.text}` is neither a field nor a constant",
             help_="a field is `type name`, a constant is `type NAME=value`",
-            fix=fix,
         )
 
     def _add(self, span: Span, message: str, help_: str = "", fix: Fix | None = None) -> None:
