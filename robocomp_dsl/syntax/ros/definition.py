@@ -16,15 +16,10 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
+from robocomp_dsl.syntax.parse import ROS_PARTS
 from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
 
-PARTS = {
-    ".msg": ("",),
-    ".srv": ("_Request", "_Response"),
-    ".action": ("_Goal", "_Result", "_Feedback"),
-}
-"""What the structs of a definition have behind its name."""
 _SIZED = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
 NUMBERS = frozenset(("byte", "char", "float32", "float64", *_SIZED))
 BUILT_IN = NUMBERS | {"bool", "string"}
@@ -48,11 +43,6 @@ _SYMBOLS = ("m", "s", "rad", "deg", "Hz", "N", "Nm", "V", "A", "Ah", "Pa", "T", 
 _RATES = ("m/s", "m/s^2", "rad/s", "rad/s^2")
 _WORDS = {"meters": "m", "seconds": "s", "radians": "rad", "degrees": "deg"}
 _UNITS = {unit: unit for unit in (*_SYMBOLS, *_RATES)} | _WORDS
-    "meters": "m",
-    "seconds": "s",
-    "radians": "rad",
-    "degrees": "deg",
-}
 """Words in brackets that are units in comments of ROS definitions."""
 _BRACKETS = re.compile(r"\[([^\[\]]+)\]")
 
@@ -85,7 +75,7 @@ class _Builder:
 
     def file(self) -> ast.File:
         """The whole tree."""
-        parts = PARTS[self._source.path.suffix.lower()]
+        parts = ROS_PARTS[self._source.path.suffix.lower()]
         sections = read_sections(self._source)
         self._check_sections(sections, len(parts))
         structs = [
