@@ -20,7 +20,7 @@ from topic_buffer import TopicBuffer, skin_of
 from robocomp_dsl.runtime.client import DomainClient, load_generated_interfaces
 from robocomp_dsl.runtime.component.component_interface import LifeState
 from robocomp_dsl.runtime.errors import DeclaredError, MiddlewareError
-from robocomp_dsl.runtime.middleware.zenoh.liveliness_monitor import LivelinessMonitor
+from robocomp_dsl.runtime.presence.state_monitor import StateMonitor
 from robocomp_dsl.simulation.simulation_interface import SIMULATION, SimulationProxy
 
 COMPONENTS = Path(__file__).parents[1]
@@ -50,7 +50,7 @@ class RobotUnderTest:
         self, domain: str, part: str, alive: Callable[[], None], capacity: int | None
     ) -> None:
         self._alive, self._exited, self._timeout_s = alive, "", WAIT_TIMEOUT_S
-        self._links, self._watch = DomainClient(domain), LivelinessMonitor(domain)
+        self._links, self._watch = DomainClient(domain), StateMonitor(domain)
         try:
             self._find(part, capacity)
         except BaseException:

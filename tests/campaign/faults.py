@@ -15,7 +15,7 @@ from typing import Any
 
 import zenoh
 
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.presence.domain_session import open_session
 from tests.campaign.components import write_deployment, write_faulty_deployment
 from tests.campaign.running_deployment import PROGRAM, RunningDeployment
 from tests.support.waiting import wait_until

@@ -17,7 +17,7 @@ QUESTIONS = {
     "Where is an import path resolved to a file?": "check/workspace/import_resolver.py",
     "Where does the parser recover from a syntax error?": "syntax/recovery/recovery.py",
     "Where does the language server compute hover texts?": "language_server/features/hover.py",
-    "Where does a component find its peers' sockets?": "runtime/middleware/zenoh/discovery.py",
+    "Where does a component find its peers' sockets?": "runtime/presence/domain_session.py",
     "Where is the type hash of an interface computed?": "runtime/data/type_hash.py",
     "Where is the PID controller of a joint?": "hardware/control/regulators/pid.py",
     "Where is the camera simulated with MuJoCo?": "simulation/devices/camera.py",

@@ -13,13 +13,13 @@ from pathlib import Path
 import pytest
 
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
-from robocomp_dsl.runtime.middleware.zenoh.domain_folder import domain_path
-from robocomp_dsl.runtime.middleware.zenoh.domain_names import (
+from robocomp_dsl.runtime.presence.domain_folder import domain_path
+from robocomp_dsl.runtime.presence.domain_names import (
     NameTaken,
     reserve,
     running_components,
 )
+from robocomp_dsl.runtime.presence.domain_session import DomainSession, open_session
 from tests.middleware.domain_process import domain_process
 from tests.middleware.network import Network
 from tests.support.waiting import wait_until

@@ -11,10 +11,10 @@ from queue import SimpleQueue
 
 import pytest
 
+from robocomp_dsl.runtime.codec.failures import decode_failure, encode_failure
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
 from robocomp_dsl.runtime.errors import RemoteError
-from robocomp_dsl.runtime.middleware.zenoh.answers import decode_failure, encode_failure
 from tests.middleware.network import Network
 from tests.middleware.probe_types import PROBE
 from tests.support.waiting import wait_until

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import zenoh
 
-from robocomp_dsl.runtime.middleware.zenoh.discovery import DomainSession, open_session
+from robocomp_dsl.runtime.presence.domain_session import DomainSession, open_session
 from robocomp_dsl.runtime.private_folder import USER, read_token, token_file, user_folder
 from tests.middleware.network import Network
 

@@ -10,7 +10,7 @@ import pytest
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.receiver import QueueClosed
-from robocomp_dsl.runtime.middleware.base import Endpoint, Qos
+from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.middleware.zenoh import reliable_queue
 from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import ReliableQueue
 from tests.middleware.network import Network
@@ -73,7 +73,7 @@ def test_stuck_reliable_subscriber_still_answers_and_counts_its_losses(
         listener.execution = CallbackGroup()
         listener.serve({"add": lambda a, b: a + b})
         at = Endpoint(NEWS, "speaker", "News", (), Qos(reliable=True))
-        news = NewsProxy(speaker.middleware.advertise(at))
+        news = NewsProxy(speaker.ports.advertise(at))
         assert news.wait_for_server(30)
         wait_until(news.has_subscribers)
         sent = 200

@@ -20,9 +20,9 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT, Compon
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.data.struct import Struct
 from robocomp_dsl.runtime.errors import NoServer
-from robocomp_dsl.runtime.middleware.base import Endpoint
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_interface import CLOCK, ClockProxy, Tick
 from tests.support.waiting import wait_until

@@ -19,8 +19,9 @@ from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
-from robocomp_dsl.runtime.middleware.base import Endpoint, MiddlewareContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.connection.component_ports import open_ports
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
 from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 from tests.support.waiting import wait_until
@@ -92,8 +93,8 @@ def test_hanging_compute_ends_component_and_finalizes(caplog: pytest.LogCaptureF
 
 def test_hanging_handler_ends_component_and_finalizes() -> None:
     runner, worker = hanging("handler")
-    host = MiddlewareContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
-    middleware = open_middleware("inproc", host)
+    host = ComponentContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
+    middleware = open_ports("inproc", host)
     proxy = ComponentProxy(middleware.proxy(Endpoint(COMPONENT, "looker", "Component")))
     thread = threading.Thread(target=proxy.setParameters, args=({"rate": "2"},), daemon=True)
     wait_until(lambda: worker.computes)
@@ -144,7 +145,7 @@ def test_loop_that_waits_for_simulated_time_does_not_hang() -> None:
 PROGRAM = """
 import os, sys, threading
 from robocomp_dsl.runtime import Component, ComponentSpec
-from robocomp_dsl.runtime.main import main
+from robocomp_dsl.runtime.entry_point import main
 
 class Hanging(Component):
     SPEC = ComponentSpec(name="hanging", period=1, middleware="inproc")

@@ -14,7 +14,7 @@ import pytest
 from robocomp_dsl.deploy import instances
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.file_lock import try_lock, wait_for_lock
-from robocomp_dsl.runtime.middleware.zenoh.discovery import open_session
+from robocomp_dsl.runtime.presence.domain_session import open_session
 from robocomp_dsl.runtime.private_folder import (
     UnsafeFolder,
     private_folder,

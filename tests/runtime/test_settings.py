@@ -13,7 +13,7 @@ from robocomp_dsl.runtime.component.settings import (
     parse_qos,
     parse_remaps,
 )
-from robocomp_dsl.runtime.middleware.base import Qos
+from robocomp_dsl.runtime.connection.endpoint import Qos
 
 
 @pytest.mark.parametrize("text", ["laser", "=base", "laser=", "laser=a b", "laser=*"])

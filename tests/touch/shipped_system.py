@@ -14,7 +14,7 @@ import numpy as np
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.settings import RunSettings
-from robocomp_dsl.runtime.middleware.base import Endpoint
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.tactile.arrays import Floats
 from robocomp_dsl.tactile.description.read import load_robot
 from robocomp_dsl.tactile.description.yaml_reader import UNITS

@@ -57,14 +57,15 @@ class ServedCode(ValueRecord):
 class PortCode(ValueRecord):
     """One port in the specification. `target` is the interface, or the proxy class.
 
-    `methods` are operations and methods of a served port; `attribute` is the proxy's attribute.
+    `methods` are operations and methods of a served port; `attribute` is the proxy's attribute;
+    `middlewares` is a tuple as code, or empty.
     """
 
     name: str
     target: str
     methods: str
     attribute: str
-    middleware: str
+    middlewares: str
 
 
 class WorkerCode(ValueRecord):
@@ -135,15 +136,16 @@ def machine_of(component: Component) -> MachineCode | None:
 def _port(port: Port, py_names: PythonNames) -> PortCode:
     interface = py_names.interfaces[port.interface]
     name = literals.quoted(port.name)
-    middleware = literals.quoted(port.middleware) if port.middleware else ""
+    marks = [literals.quoted(mark) for mark in port.middlewares]
+    middlewares = f"({', '.join(marks)}{',' * (len(marks) == 1)})" if marks else ""
     if port in py_names.proxies:
         attribute = literals.quoted(py_names.proxies[port])
-        return PortCode(name, interface.proxy, "", attribute, middleware)
+        return PortCode(name, interface.proxy, "", attribute, middlewares)
     methods = ", ".join(
         f"{literals.quoted(o.name)}: {literals.quoted(py_names.handlers[port, o])}"
         for o in port.interface.operations
     )
-    return PortCode(name, interface.constant, f"{{{methods}}}", "", middleware)
+    return PortCode(name, interface.constant, f"{{{methods}}}", "", middlewares)
 
 
 def _served(port: Port, py_names: PythonNames) -> ServedCode:

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import ClassVar, TypeVar
 
 from robocomp_dsl.runtime.component.interface import Interface
+from robocomp_dsl.runtime.connection.ports import Channel
 from robocomp_dsl.runtime.deprecated import DeprecatedProxyNames
-from robocomp_dsl.runtime.middleware.base import Channel
 
 R = TypeVar("R")
 

@@ -20,8 +20,8 @@ from robocomp_dsl.runtime.errors import NoServer
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 if TYPE_CHECKING:
-    from robocomp_dsl.runtime.connection.served_port import ServedPort
-    from robocomp_dsl.runtime.middleware.base import Endpoint
+    from robocomp_dsl.runtime.connection.endpoint import Endpoint
+    from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
 Payload: TypeAlias = Any
 """What travels: bytes, an object of a foreign library, or the values themselves."""
@@ -55,16 +55,17 @@ class BoundOperation(NamedTuple):
     """An operation of one connection, ready to be called.
 
     `encode` converts the tuple of arguments, while the caller holds its callback group; it raises
-    `EncodeError`. `send` sends a payload without it. Of a query, `send(payload)` returns the result
-    of the operation; of a command it returns None; of a publication it is `send(payload, number)`,
-    where `number` are the 16 bytes of `SEQUENCE_FORMAT`, or empty without `sequence_numbers`.
+    `EncodeError`. None: the tuple itself is the payload. `send` sends a payload without the
+    callback group. Of a query, `send(payload)` returns the result of the operation; of a command it
+    returns None; of a publication it is `send(payload, number)`, where `number` are the 16 bytes of
+    `SEQUENCE_FORMAT`, or empty without `sequence_numbers`.
     """
 
-    encode: Callable[[tuple[Any, ...]], Payload]
+    encode: Callable[[tuple[Any, ...]], Payload] | None
     send: Callable[..., Any]
 
 
-class Server(Protocol):
+class PortServer(Protocol):
     """A served port. `address` goes into its record."""
 
     address: str
@@ -83,8 +84,11 @@ class ServiceClient(Protocol):
         `InterfaceMismatch`, `MalformedMessage`, and `ServerLost`.
         """
 
+    def set_timeout(self, seconds: float) -> None:
+        """Limit the calls of operations that are bound from now on."""
+
     def cancel(self) -> None:
-        """End all calls that wait, with `ServerLost`; called from any thread."""
+        """End all calls that wait and all later ones with `ServerLost`; called from any thread."""
 
     def close(self) -> None:
         """Release the connection."""
@@ -123,7 +127,7 @@ class Subscription(Protocol):
 class Transport(Protocol):
     """All connections of one component over one middleware."""
 
-    def serve(self, port: ServedPort) -> Server:
+    def serve(self, port: IncomingPort) -> PortServer:
         """Serve a port: pass requests and commands to its operations."""
 
     def connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
@@ -132,7 +136,7 @@ class Transport(Protocol):
     def advertise(self, at: Endpoint) -> Publisher:
         """Publish a topic."""
 
-    def subscribe(self, port: ServedPort) -> Subscription:
+    def subscribe(self, port: IncomingPort) -> Subscription:
         """Receive the publications for a port from `port.at.peers`, or from all if empty."""
 
     def close(self) -> None:

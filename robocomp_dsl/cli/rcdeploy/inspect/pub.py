@@ -23,7 +23,7 @@ from robocomp_dsl.cli.rcdeploy.inspect.target import (
 
 if TYPE_CHECKING:
     from robocomp_dsl.client import DomainClient
-    from robocomp_dsl.runtime.middleware.base import Channel
+    from robocomp_dsl.runtime.connection.ports import Channel
 
 MATCH_TIMEOUT_S = 2.0
 

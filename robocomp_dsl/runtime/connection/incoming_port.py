@@ -1,0 +1,187 @@
+"""A served or subscribed port, as the connection plane gives it to a transport.
+
+In: a port, its handlers, the callback group. Out: functions that a transport calls with decoded
+arguments; they run the handler under the callback group, count, time, and report failures. The
+threads and queues of a port are here, too.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Callable, Mapping
+from functools import partial
+from threading import get_ident
+from time import perf_counter_ns
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from robocomp_dsl.runtime.component.callback_group import CallbackGroup
+from robocomp_dsl.runtime.component.interface import Interface, Operation
+from robocomp_dsl.runtime.component.receiver import LeaderFollowerQueue, QueueClosed
+from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts, Statistics
+from robocomp_dsl.runtime.component.user_errors import log_failure
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import OperationCallable
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, RejectedByReceiver, Timeout
+
+if TYPE_CHECKING:
+    from robocomp_dsl.runtime.connection.losses import LossCounter
+
+Handle: TypeAlias = Callable[[tuple[Any, ...]], Any]
+"""Calls the handler with a tuple of arguments; returns its result, raises what it raises."""
+MAX_PENDING_NUMBERS = 32
+"""Numbers are evaluated in batches: this takes a fifth of the time of one by one."""
+log = logging.getLogger("robocomp")
+
+
+class IncomingOperation:
+    """One operation of a served or subscribed port.
+
+    `handle` passes arguments to the handler under the callback group; `numbers` takes the number of
+    each publication, for the losses.
+    """
+
+    __slots__ = (
+        "_handler",
+        "_port",
+        "_reported",
+        "counts",
+        "handle",
+        "losses",
+        "numbers",
+        "operation",
+    )
+
+    def __init__(
+        self,
+        operation: Operation,
+        handler: OperationCallable,
+        port: IncomingPort,
+        losses: LossCounter | None = None,
+    ) -> None:
+        self.operation = operation
+        self._port = port
+        self._reported = False
+        self.losses = losses
+        self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
+        self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
+        self._handler = handler
+        self.handle: Handle = self.handle_within(None)
+
+    def handle_within(self, timeout: float | None) -> Handle:
+        """A function that calls the handler, and counts and times the call.
+
+        It raises `Timeout` if the callback group has no slot within `timeout` s. Code that runs for
+        every message uses local names and is inlined: its thread has just been woken, and its
+        caches are cold.
+        """
+        counts, group, handler = self.counts, self._port.callback_group, self._handler
+        acquire = group.acquire if timeout is None else partial(group.acquire, True, timeout)
+        release, holders = group.release, group.holders
+        process = self.losses.process if self.losses else None
+        numbers = self.numbers
+
+        def handle(arguments: tuple[Any, ...]) -> Any:
+            counts.calls += 1
+            if counts.calls % TIMING_INTERVAL:
+                if not acquire():
+                    raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
+                holders[get_ident()] = perf_counter_ns()
+                try:
+                    return handler(*arguments)
+                finally:
+                    holders.pop(get_ident(), None)
+                    release()
+            start = perf_counter_ns()
+            if not acquire():
+                raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
+            holders[get_ident()] = perf_counter_ns()
+            try:
+                return handler(*arguments)
+            finally:
+                holders.pop(get_ident(), None)
+                release()
+                counts.durations.add(perf_counter_ns() - start)
+                if process is not None and len(numbers) > MAX_PENDING_NUMBERS:
+                    process()
+
+        return handle
+
+    def report(self, error: BaseException) -> None:
+        """Count and log a message that failed: malformed, or its handler or result failed.
+
+        A declared exception of a query, and a rejection by a monitor, is only counted.
+        """
+        counts = self.counts
+        counts.failures += 1
+        if isinstance(error, (*self.operation.throws, RejectedByReceiver)):
+            return
+        what = f"{counts.port}.{counts.operation}"
+        if isinstance(error, EncodeError):
+            log.error("cannot send the result of %s: %s", what, error)
+        elif not isinstance(error, MalformedMessage):
+            log_failure(what, error)
+        else:
+            counts.calls += 1  # `handle` was not called
+            counts.malformed += 1
+            # A peer that sends malformed messages at a high rate is reported once.
+            if not self._reported:
+                self._reported = True
+                log.warning("rejected a message for %s: %s", what, error)
+
+
+class IncomingPort:
+    """One served or subscribed port of a component on one middleware."""
+
+    def __init__(
+        self,
+        at: Endpoint,
+        handlers: Mapping[str, OperationCallable],
+        callback_group: CallbackGroup,
+        statistics: Statistics,
+        fail: Callable[[str], None],
+        losses: Callable[[OperationCounts], LossCounter] | None = None,
+    ) -> None:
+        self.at = at
+        self.callback_group = callback_group
+        self.statistics = statistics
+        self.fail = fail
+        self.operations: dict[str, IncomingOperation] = {}
+        for operation in at.interface.operations:
+            if operation.name in handlers:
+                counts = statistics.of(at.port, operation.name)
+                counter = losses(counts) if losses else None
+                self.operations[operation.name] = IncomingOperation(
+                    operation, handlers[operation.name], self, counter
+                )
+        self._receivers: list[LeaderFollowerQueue] = []
+
+    @property
+    def interface(self) -> Interface:
+        """The interface of the port."""
+        return self.at.interface
+
+    def receive(
+        self,
+        take: Callable[[], Any],
+        handle: Callable[[Any], None],
+        closed_error: type[Exception] = QueueClosed,
+    ) -> LeaderFollowerQueue:
+        """Start a thread that passes what `take` returns to `handle`, until it raises.
+
+        `take` blocks; `closed_error` is what it raises when the port was closed. Another thread
+        continues while a handler waits for a remote reply.
+        """
+        name = f"{self.at.component}.{self.at.port}"
+        receiver = LeaderFollowerQueue(
+            name, take, handle, self.callback_group, self.fail, closed_error
+        )
+        # Some transports have one for each connection: forget those that have ended.
+        running = [each for each in self._receivers if each.is_running]
+        self._receivers = [*running, receiver]
+        return receiver
+
+    def join(self, timeout: float) -> None:
+        """Wait until the threads have ended, at most `timeout` s for each."""
+        for receiver in self._receivers:
+            receiver.join(timeout)

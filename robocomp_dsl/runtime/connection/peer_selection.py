@@ -1,0 +1,96 @@
+"""Shared by all middlewares: select the peer of a call, and check deadlines.
+
+In: endpoints and candidates. Out: one peer, or the error that says why there is none.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeVar
+
+from robocomp_dsl.runtime.component.naming import (
+    ANY,
+    distance,
+    is_connection_port,
+    nearest,
+    on_same_branch,
+)
+from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import OperationCallable
+from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
+
+DISCOVERY_TIMEOUT_S = 1.0
+"""After the start of a component, its calls wait this long for a server to appear."""
+
+log = logging.getLogger("robocomp")
+_T = TypeVar("_T")
+
+
+def matches(at: Endpoint, component: str, port: str) -> bool:
+    """Whether `at` is connected to this port, or may discover it."""
+    wired = at.peers
+    if f"{component}.{port}" in wired:
+        return True
+    if is_connection_port(port):
+        return False
+    if component in wired:
+        return True
+    return (not wired or f"{ANY}.{port}" in wired) and on_same_branch(at.component, component)
+
+
+def eligible_servers(at: Endpoint, found: Sequence[_T], name: Callable[[_T], str]) -> list[_T]:
+    """The servers that may be called: all named by a connection, else the nearest."""
+    return list(found) if _names_components(at) else nearest(at.component, found, name)
+
+
+def discovery_complete(at: Endpoint, components: Iterable[str]) -> bool:
+    """Whether there is no need to wait for a nearer server.
+
+    Components of one namespace start together: a server of an outer namespace must not be chosen
+    because the nearer one starts a moment later.
+    """
+    if _names_components(at):
+        return any(True for _ in components)
+    return any(distance(at.component, component) == 0 for component in components)
+
+
+def _names_components(at: Endpoint) -> bool:
+    return any(not peer.startswith(f"{ANY}.") for peer in at.peers)
+
+
+def select_server(at: Endpoint, candidates: Sequence[str]) -> str:
+    """The only candidate (`component.port`). Raises `NoServer` or `AmbiguousServer`."""
+    if len(candidates) == 1:
+        return candidates[0]
+    interface = at.interface.name
+    if not candidates:
+        subject = f"{' or '.join(at.peers)} does not serve" if at.peers else "no component serves"
+        raise NoServer(f"{subject} {interface}, which {at.component} requires as {at.port}")
+    listed = ", ".join(sorted(candidates))
+    # In a namespace, the suggested name must be absolute.
+    first = f"{'/' if '/' in at.component else ''}{min(candidates).partition('.')[0]}"
+    raise AmbiguousServer(
+        f"{listed} all serve {interface}, which {at.component} requires as {at.port};"
+        f" select one: --connect {at.port}={first}",
+        tuple(sorted(candidates)),
+    )
+
+
+def with_deadline_check(
+    handler: OperationCallable, deadline: float, counts: OperationCounts
+) -> OperationCallable:
+    """`handler`, counting publications more than `deadline` s after the previous one."""
+    last = 0.0
+
+    def watch(*arguments: Any) -> Any:
+        nonlocal last
+        now = time.monotonic()
+        if last and now - last > deadline:
+            counts.missed += 1
+        last = now
+        return handler(*arguments)
+
+    return watch
