@@ -78,14 +78,16 @@ class _Builder:
         parts = ROS_PARTS[self._source.path.suffix.lower()]
         sections = read_sections(self._source)
         self._check_sections(sections, len(parts))
+        size = len(self._source.text)
+        ends = [*(section.span.start for section in sections[1:]), size]
         structs = [
-            self._struct(f"{self._name}{part}", section)
-            for part, section in zip(parts, sections, strict=False)
+            self._struct(f"{self._name}{part}", section, end)
+            for part, section, end in zip(parts, sections, ends, strict=False)
         ]
-        span = self._source.span(0, len(self._source.text))
-        module = ast.Module(
-            span, Name(self._source.file_span, self._package), tuple(structs), is_ros=True
-        )
+        span = self._source.span(0, size)
+        # Not where the first struct is: positions identify declarations.
+        name = Name(self._source.span(size, size), self._package)
+        module = ast.Module(span, name, tuple(structs), is_ros=True)
         return ast.File(span, tuple(self._imports.values()), (module,), not self._failed)
 
     def _check_sections(self, sections: list[Section], expected: int) -> None:
@@ -97,7 +99,7 @@ class _Builder:
         elif len(sections) < expected:
             self._add(self._source.span(len(self._source.text), len(self._source.text)), message)
 
-    def _struct(self, name: str, section: Section) -> ast.Struct:
+    def _struct(self, name: str, section: Section, end: int) -> ast.Struct:
         fields: list[ast.Field] = []
         constants: list[ast.Constant] = []
         for statement in section.statements:
@@ -107,7 +109,7 @@ class _Builder:
             elif node is not None:
                 constants.append(node)
         return ast.Struct(
-            section.span,
+            self._source.span(section.span.start, end),
             Name(section.span, name),
             tuple(fields),
             section.doc,
