@@ -93,10 +93,10 @@ async def test_completion_offers_ros_definitions_and_types(editor: Editor) -> No
         ('import "demo_msgs/msg/Reading.msg";\nmodule M { struct S { demo_msgs::| }; };\n',
          {"Reading"}, "Header"),
     ):  # fmt: skip
-        params = lsp.CompletionParams(**editor.place("other.idsl", text))
+        params = lsp.CompletionParams(**editor.at(f"other{len(text)}.idsl", text))
         found = await editor.client.text_document_completion_async(params)
-        assert isinstance(found, lsp.CompletionList)
-        labels = {item.label for item in found.items}
+        assert isinstance(found, list)
+        labels = {item.label for item in found}
         assert expected <= labels
         assert other not in labels
 
@@ -119,7 +119,7 @@ async def test_outline_of_ros_definition(editor: Editor) -> None:
     (module,) = found
     assert isinstance(module, lsp.DocumentSymbol)
     (message,) = module.children or ()
-    assert [child.name for child in message.children or ()] == ["header", "values", "OK"]
+    assert [child.name for child in message.children or ()] == ["OK", "header", "values"]
     for symbol in (module, message, *(message.children or ())):
         assert symbol.range.start <= symbol.selection_range.start
         assert symbol.selection_range.end <= symbol.range.end

@@ -142,14 +142,15 @@ class _Builder:
         items = parse_items(rest, type_.text) if array else ()
         if items is None:
             self._add(rest, "the default of an array is a list, such as `[1, 2]`")
+        unit, doc = _unit(name, statement.doc) if type_.text in NUMBERS else (None, statement.doc)
         default = parse_value(rest, type_.text) if found["rest"] and not array else None
         return ast.Field(
             span,
             type_,
             name,
             default,
-            _unit(name, statement.doc) if type_.text in NUMBERS else None,
-            statement.doc,
+            unit,
+            doc,
             array,
             int(found["text"] or 0),
             items or (),
@@ -214,9 +215,10 @@ class _Builder:
         self._report.add(codes.ROS_STATEMENT, span, message, help=help_, fix=fix)
 
 
-def _unit(name: Name, doc: str) -> Unit | None:
-    """The unit that a comment has in brackets, as `[rad]`."""
+def _unit(name: Name, doc: str) -> tuple[Unit | None, str]:
+    """The unit that a comment has in brackets, as `[rad]`, and the comment without it."""
     for found in _BRACKETS.finditer(doc):
         if unit := _UNITS.get(found[1].strip()):
-            return Unit(name.span, unit)
-    return None
+            rest = doc[: found.start()].rstrip() if found.end() == len(doc) else doc
+            return Unit(name.span, unit), rest
+    return None, doc
