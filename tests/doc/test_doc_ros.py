@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from robocomp_dsl.generate.doc.nodes import PlainText
 from tests.doc.doc_site import check_links, pages, read
 from tests.generate.golden_cases import GOLDEN
 
@@ -10,8 +9,7 @@ from tests.generate.golden_cases import GOLDEN
 def test_documentation_shows_ros_messages() -> None:
     found = pages(GOLDEN / "ros" / "demo.cdsl")
     assert check_links(found) > 20
-    (page,) = [text for path, text in found.items() if path.endswith("Cloud.html")]
-    text = read(page).text
+    text = read(found["interfaces/Demo.Clouds.html"]).text
     for expected in (
         "struct Cloud",
         "Points with covariance.",
