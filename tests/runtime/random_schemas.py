@@ -36,15 +36,6 @@ def enumeration(values: list[int]) -> type[rt.Enum]:
     return rt.Enum(f"Enum{next(_serial)}", {f"E{i}": value for i, value in enumerate(values)})  # type: ignore[return-value]
 
 
-enums = st.lists(st.integers(-(2**31), 2**31 - 1), min_size=1, max_size=4, unique=True).map(
-    enumeration
-)
-fixed_leaves = st.sampled_from(FIXED) | enums
-fixed_structs = st.recursive(
-    st.lists(fixed_leaves, min_size=1, max_size=5).map(struct_of),
-    lambda inner: st.lists(fixed_leaves | inner, min_size=1, max_size=4).map(struct_of),
-    max_leaves=4,
-)
 limits = (
     st.just({})
     | st.integers(1, 5).map(lambda size: {"size": size})
@@ -52,12 +43,11 @@ limits = (
 )
 few = st.sampled_from([{}, {"size": 1}, {"size": 2}, {"bound": 2}])
 bounded_strings = st.integers(1, 9).map(lambda bound: replace(rt.STRING, bound=bound))
-_flat = (
-    st.sampled_from(PRIMITIVES)
-    | bounded_strings
-    | enums
-    | st.builds(lambda element, limit: rt.Array(element, **limit), st.sampled_from(FIXED), limits)
-)
+
+
+def _enums(minimum: int, maximum: int) -> st.SearchStrategy[Any]:
+    numbers = st.integers(minimum, maximum)
+    return st.lists(numbers, min_size=1, max_size=4, unique=True).map(enumeration)
 
 
 def _sequence(element: Any, limit: dict[str, int]) -> Any:
@@ -65,18 +55,45 @@ def _sequence(element: Any, limit: dict[str, int]) -> Any:
     return (rt.Array if is_number else rt.Sequence)(element, **limit)
 
 
-def _composed(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
+def _types(
+    enums: st.SearchStrategy[Any], *, struct_keys: bool, ros: bool
+) -> st.SearchStrategy[Any]:
+    """Types with these enums; dictionaries may have structs of numbers as keys.
+
+    `ros`: also the numbers, arrays and strings that only ROS definitions have.
+    """
+    fixed = [type_ for type_ in FIXED if ros or type_ not in ROS_NUMBERS]
+    any_length, short = (limits, few) if ros else (st.just({}), st.just({}))
+    texts = bounded_strings | st.just(rt.STRING) if ros else st.just(rt.STRING)
+    leaves = st.sampled_from(fixed) | enums
+    fixed_structs = st.recursive(
+        st.lists(leaves, min_size=1, max_size=5).map(struct_of),
+        lambda inner: st.lists(leaves | inner, min_size=1, max_size=4).map(struct_of),
+        max_leaves=4,
+    )
     keys = st.sampled_from((rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.STRING, rt.BOOL)) | enums
-    return (
-        st.lists(inner, max_size=5).map(struct_of)
-        | st.builds(_sequence, inner, few)
-        | fixed_structs.map(array_of)
-        | st.builds(rt.Dictionary, keys | fixed_structs, inner)
+    if struct_keys:
+        keys |= fixed_structs
+    flat = st.sampled_from(fixed) | texts | enums
+    flat |= st.builds(_sequence, st.sampled_from(fixed), any_length)
+    return st.recursive(
+        flat,
+        lambda inner: (
+            st.lists(inner, max_size=5).map(struct_of)
+            | st.builds(_sequence, inner, short)
+            | fixed_structs.map(array_of)
+            | st.builds(rt.Dictionary, keys, inner)
+        ),
+        max_leaves=6,
     )
 
 
-types = st.recursive(_flat, _composed, max_leaves=6)
+types = _types(_enums(-(2**31), 2**31 - 1), struct_keys=True, ros=True)
+slice_types = _types(_enums(0, 300) | _enums(0, 2**31 - 1), struct_keys=False, ros=False)
+"""Types that Slice has, too."""
+
 structs = st.lists(types, max_size=5).map(struct_of)
+slice_structs = st.lists(slice_types, max_size=5).map(struct_of)
 
 _BOUNDS = {
     rt.BYTE: (0, 2**8 - 1),
