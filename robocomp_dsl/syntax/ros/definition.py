@@ -16,7 +16,7 @@ from robocomp_dsl.source import Source, Span
 from robocomp_dsl.syntax.ast import idsl as ast
 from robocomp_dsl.syntax.ast.base import Import, Name, QualifiedName, Text, Unit
 from robocomp_dsl.syntax.codes import ros as codes
-from robocomp_dsl.syntax.parse import ROS_PARTS
+from robocomp_dsl.syntax.ros.kinds import ROS_PARTS
 from robocomp_dsl.syntax.ros.lines import DefinitionLine, Section, read_sections
 from robocomp_dsl.syntax.ros.values import parse_items, parse_value
 
