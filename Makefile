@@ -58,6 +58,7 @@ test-editors: test-tools
 test-peers: $(READY)
 	tests/middleware/install-peers.sh $(CURDIR)/$(BIN)/python
 	$(BIN)/python -m pytest -q -n $(WORKERS) -m peers tests/middleware
+	$(BIN)/python -m pytest -q -n $(WORKERS) tests/middleware/conformance --middleware ice
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

@@ -119,13 +119,18 @@ class ComponentPorts:
         self.servers.append(served)
 
     def subscribe(
-        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+        self,
+        at: Endpoint,
+        handlers: Mapping[str, OperationCallable],
+        execution: CallbackGroup,
+        *,
+        is_start: bool = True,
     ) -> None:
-        """See `Ports`."""
-        check_qos(at, "subscriber", self.subscribed_middlewares(at))
+        """See `Ports`; for `is_start` see `LossCounters.add`."""
+        check_qos(at, "subscriber", self.middlewares(at))
         subscribed = SubscribedPort(self, at, handlers, execution)
         self.subscribed.append(subscribed)
-        subscribed.update(at, is_start=True)
+        subscribed.update(at, is_start=is_start)
         self.presence.registry.warn_on_mismatch(
             "publisher", at.interface.name, at.interface.hash.hex(), at.component
         )
@@ -211,15 +216,6 @@ class ComponentPorts:
     def middlewares(self, at: Endpoint) -> tuple[str, ...]:
         """The middlewares of a served or published port."""
         return at.middlewares or (self.presence.house,)
-
-    def subscribed_middlewares(self, at: Endpoint) -> Iterable[str]:
-        """Of a port that names none: those of the publishers that are known, or the house's."""
-        if at.middlewares:
-            return at.middlewares
-        found = self.presence.registry.find("publisher", at.interface.name)
-        used = [r.middleware for r in found if r.name in at.peers or r.component in at.peers]
-        usable = [name for name in used if registry.known_capabilities(name)]
-        return dict.fromkeys(usable or (self.presence.house,))
 
     def declare(self, role: str, at: Endpoint, middleware: str, address: str) -> PortRecord:
         """Make a port known; after it was opened, so that it can be used when it is seen."""

@@ -61,7 +61,7 @@ class PublisherFollower:
         self._subscribed.add(middleware)
         at = replace(self._at, middlewares=(middleware,))
         try:
-            self._ports.subscribe(at, self._handlers, self._execution)
+            self._ports.subscribe(at, self._handlers, self._execution, is_start=False)
         except MiddlewareError as error:
             log.warning("%s cannot be subscribed to over %s: %s", at.port, middleware, error)
 
