@@ -24,6 +24,7 @@ from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import Channel, ComponentContext
 from robocomp_dsl.runtime.connection.publisher_follower import PublisherFollower
+from robocomp_dsl.runtime.connection.usable_records import middlewares_of_subscribers
 from robocomp_dsl.runtime.errors import NoServer, SchemaError
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class DomainClient:
         It reaches subscribers on the middlewares of those that exist now.
         """
         at = Endpoint(interface, component, port)
-        middlewares = self._middleware.middlewares_of_subscribers(at)
+        middlewares = middlewares_of_subscribers(at, self._middleware.presence)
         return self._middleware.advertise(replace(at, middlewares=middlewares))
 
     def close(self) -> None:

@@ -6,7 +6,6 @@ first use.
 
 from __future__ import annotations
 
-import os
 import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -20,7 +19,6 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.connection.latched_messages import LatchedMessages
 from robocomp_dsl.runtime.connection.losses import LossCounter, LossCounters
-from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
 from robocomp_dsl.runtime.connection.qos_support import check_qos
@@ -29,8 +27,8 @@ from robocomp_dsl.runtime.connection.service_channel import ServiceChannel
 from robocomp_dsl.runtime.connection.serving_port import ServingPort
 from robocomp_dsl.runtime.connection.subscribed_port import SubscribedPort
 from robocomp_dsl.runtime.connection.topic_channel import PublishedPort, TopicChannel
+from robocomp_dsl.runtime.connection.usable_records import is_usable
 from robocomp_dsl.runtime.middleware import registry
-from robocomp_dsl.runtime.middleware.capabilities import Capabilities
 from robocomp_dsl.runtime.middleware.transport import (
     Publisher,
     ServiceClient,
@@ -121,13 +119,18 @@ class ComponentPorts:
         self.servers.append(served)
 
     def subscribe(
-        self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
+        self,
+        at: Endpoint,
+        handlers: Mapping[str, OperationCallable],
+        execution: CallbackGroup,
+        *,
+        is_start: bool = True,
     ) -> None:
-        """See `Ports`."""
+        """See `Ports`; for `is_start` see `LossCounters.add`."""
         check_qos(at, "subscriber", self.middlewares(at))
         subscribed = SubscribedPort(self, at, handlers, execution)
         self.subscribed.append(subscribed)
-        subscribed.update(at, is_start=True)
+        subscribed.update(at, is_start=is_start)
         self.presence.registry.warn_on_mismatch(
             "publisher", at.interface.name, at.interface.hash.hex(), at.component
         )
@@ -173,7 +176,7 @@ class ComponentPorts:
         """See `Ports`."""
         check_qos(at, "client", at.middlewares)
         registry_ = self.presence.registry
-        selector = ServerSelector(at, registry_, self._context.callback_group, self.is_usable)
+        selector = ServerSelector(at, registry_, self._context.callback_group, is_usable)
         channel = ServiceChannel(self._context, registry_, selector, self._connect)
         self.channels.append(channel)
         return channel
@@ -181,14 +184,6 @@ class ComponentPorts:
     def _connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
         at = replace(at, qos=connection_qos(at, server.name), peer_qos=())
         return self.transport(server.middleware).connect(at, server, timeout)
-
-    @staticmethod
-    def is_usable(at: Endpoint, record: PortRecord) -> bool:
-        """Whether this port can be connected to a server or publisher."""
-        if at.middlewares and record.middleware not in at.middlewares:
-            return False
-        capabilities = registry.known_capabilities(record.middleware)
-        return capabilities is not None and _is_reachable(record, capabilities)
 
     def advertise(self, at: Endpoint) -> TopicChannel:
         """See `Ports`."""
@@ -221,20 +216,6 @@ class ComponentPorts:
     def middlewares(self, at: Endpoint) -> tuple[str, ...]:
         """The middlewares of a served or published port."""
         return at.middlewares or (self.presence.house,)
-
-    def middlewares_of_subscribers(self, at: Endpoint) -> tuple[str, ...]:
-        """The house's and those of the subscribers to `at` that are known now."""
-        found = self.presence.registry.find("subscriber", at.interface.name)
-        peers = (
-            (record, Endpoint(at.interface, record.component, record.port, record.peers))
-            for record in found
-        )
-        used = [
-            record.middleware
-            for record, peer in peers
-            if matches(peer, at.component, at.port) and self.is_usable(at, record)
-        ]
-        return tuple(dict.fromkeys((self.presence.house, *used)))
 
     def declare(self, role: str, at: Endpoint, middleware: str, address: str) -> PortRecord:
         """Make a port known; after it was opened, so that it can be used when it is seen."""
@@ -292,11 +273,3 @@ class ComponentPorts:
         for transport in transports.values():
             transport.close()
         self.presence.close()
-
-
-def _is_reachable(record: PortRecord, capabilities: Capabilities) -> bool:
-    """Whether the port is in this process, or its middleware connects processes.
-
-    The address of a port that only its process can reach starts with the process id.
-    """
-    return capabilities.between_processes or record.address.startswith(f"{os.getpid()}-")

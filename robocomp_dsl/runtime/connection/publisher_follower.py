@@ -16,6 +16,7 @@ from robocomp_dsl.runtime.connection.component_ports import ComponentPorts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.peer_selection import matches
 from robocomp_dsl.runtime.connection.ports import OperationCallable
+from robocomp_dsl.runtime.connection.usable_records import is_usable
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.presence.port_record import PortRecord
 
@@ -51,7 +52,7 @@ class PublisherFollower:
             return False
         if not matches(self._at, record.component, record.port):
             return False
-        if not self._ports.is_usable(self._at, record):
+        if not is_usable(self._at, record):
             return False
         found = self._registry.find("publisher", record.interface)
         return not any(r.name == record.name and r.middleware in self._subscribed for r in found)
@@ -60,7 +61,7 @@ class PublisherFollower:
         self._subscribed.add(middleware)
         at = replace(self._at, middlewares=(middleware,))
         try:
-            self._ports.subscribe(at, self._handlers, self._execution)
+            self._ports.subscribe(at, self._handlers, self._execution, is_start=False)
         except MiddlewareError as error:
             log.warning("%s cannot be subscribed to over %s: %s", at.port, middleware, error)
 
