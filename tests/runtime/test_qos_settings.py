@@ -14,7 +14,8 @@ from robocomp_dsl.runtime.component.qos_settings import (
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
-from tests.middleware.probe_types import NEWS
+from robocomp_dsl.runtime.connection.qos_support import UnsupportedQos, check_qos
+from tests.middleware.probe_types import NEWS, PROBE
 
 ALL = Qos(True, 3, "high", 0.04, True, True, 0.5, 80)
 
@@ -74,3 +75,17 @@ def test_connection_qos_overrides_that_of_the_port() -> None:
     assert connection_qos(at, "b.News") == Qos(True, 9)
     assert connection_qos(at, "other.News") == Qos(True, 1)
     assert sender_qos(at) == Qos(True, 9, "high")
+
+
+def endpoint_of(qos: Qos, **peer_qos: Qos) -> Endpoint:
+    return Endpoint(PROBE, "base", "Probe", qos=qos, peer_qos=tuple(peer_qos.items()))
+
+
+def test_check_qos_needs_one_middleware_for_a_connection_and_all_for_a_port() -> None:
+    high = Qos(priority="high")
+    check_qos(endpoint_of(Qos(), eye=high), "server", iter(("local", "zenoh")))
+    check_qos(endpoint_of(high), "server", ("zenoh",))
+    with pytest.raises(UnsupportedQos, match="the middleware `local` cannot do"):
+        check_qos(endpoint_of(high), "server", ("zenoh", "local"))
+    with pytest.raises(UnsupportedQos, match="the middleware `local` cannot do"):
+        check_qos(endpoint_of(Qos(), eye=high), "server", ("local",))

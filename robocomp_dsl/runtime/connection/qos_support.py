@@ -24,11 +24,16 @@ class UnsupportedQos(MiddlewareError):
 def check_qos(at: Endpoint, role: str, middlewares: Iterable[str]) -> None:
     """Check a port with a role: `server`, `client`, `publisher` or `subscriber`.
 
-    Raises `UnsupportedQos`.
+    Every middleware of the port must be able to do what the port asks for; for what one connection
+    asks for, that of the connection is enough. Raises `UnsupportedQos`.
     """
-    for qos in (at.qos, *(items for _, items in at.peer_qos)):
-        for problem in _problems(at, role, qos, tuple(middlewares)):
-            raise UnsupportedQos(problem)
+    names = tuple(middlewares)
+    for problem in _problems(at, role, at.qos, names):
+        raise UnsupportedQos(problem)
+    for _, items in at.peer_qos:
+        problems = [list(_problems(at, role, items, (name,))) for name in names]
+        if problems and all(problems):
+            raise UnsupportedQos(problems[0][0])
 
 
 def _problems(at: Endpoint, role: str, qos: Qos, middlewares: tuple[str, ...]) -> Iterator[str]:
