@@ -32,6 +32,8 @@ class ConnectionInfo(rt.Struct, type_id="RoboCompComponentConnections::Connectio
     calls: rt.Long = 0
     failures: rt.Long = 0
     drops: rt.Long = 0  # Messages that were lost before they were handled.
+    # Messages that waited for room in the receive queue, and so held their publisher.
+    held: rt.Long = 0
     missed: rt.Long = 0  # Gaps between messages that exceeded the deadline.
     monitors: Names = rt.default()  # The monitors of the connection; empty without any.
     monitorState: rt.String = ""  # active, bypassed or closed.
