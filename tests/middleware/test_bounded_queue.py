@@ -34,9 +34,11 @@ def test_bounded_queue_keeps_order_and_holds_until_there_is_room() -> None:
 
 
 def test_bounded_queue_drops_for_stuck_subscriber_until_it_takes_again() -> None:
-    samples = BoundedQueue[Any](2, 0.01)
+    held: list[None] = []
+    samples = BoundedQueue[Any](2, 0.01, lambda: held.append(None))
     for number in range(100):
         samples.put(sample(number))
+    assert len(held) == 98
     assert [samples.take().number for _ in range(2)] == [0, 1]
     samples.put(sample(100))
     assert samples.take().number == 100

@@ -46,6 +46,8 @@ def test_parse_qos_reads_settings() -> None:
     ports, peers = parse_qos(texts)
     assert ports == {"laser": Qos(False, 1, "high", 0.04)}
     assert peers == {"laser": {"/a/b.X": Qos(latched=True)}}
+    _, external = parse_qos(["Laser/front@ice:laser:tcp -h 10.0.0.2 -p 10001=depth=2"])
+    assert external == {"Laser": {"/front": Qos(depth=2)}}
 
 
 def test_format_qos_is_the_inverse_of_parse_items() -> None:

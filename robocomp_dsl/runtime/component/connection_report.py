@@ -125,6 +125,7 @@ class ConnectionReport:
                 info.failures += counts.failures
                 info.drops += counts.drops
                 info.missed += counts.missed
+                info.held += counts.held
 
 
 def _as_endpoint(at: Endpoint, record: PortRecord) -> Endpoint:

@@ -79,6 +79,8 @@ def parse_qos(texts: Iterable[str]) -> tuple[dict[str, Qos], dict[str, dict[str,
                 f"`{text:.80}` is not a quality of service; write PORT=reliable,depth=10, or"
                 " PORT/COMPONENT=… for one connection"
             )
+        if "@" in peer:  # a program at an address, as for `--connect`: its name
+            peer = f"/{peer.partition('@')[0]}"
         target = peers.setdefault(port, {}) if peer else ports
         target[peer or port] = parse_items(items, target.get(peer or port, Qos()))
     return ports, peers

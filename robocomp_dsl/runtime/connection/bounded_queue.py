@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Callable
 from typing import Generic, TypeVar
 
 from robocomp_dsl.runtime.component.receiver import QueueClosed
@@ -25,12 +26,18 @@ _T = TypeVar("_T")
 class BoundedQueue(Generic[_T]):
     """Queue of at most `depth` messages and `MAX_BYTES`.
 
-    `held` counts the messages that waited for room.
+    `on_held` is called for each message that finds no room.
     """
 
-    def __init__(self, depth: int, hold_s: float, max_bytes: int = MAX_BYTES) -> None:
+    def __init__(
+        self,
+        depth: int,
+        hold_s: float,
+        on_held: Callable[[], None] = lambda: None,
+        max_bytes: int = MAX_BYTES,
+    ) -> None:
         self.hold_s = hold_s
-        self.held = 0
+        self._on_held = on_held
         self._depth = depth
         self._max_bytes = max_bytes
         self._bytes = 0
@@ -44,7 +51,7 @@ class BoundedQueue(Generic[_T]):
         """Wait for room and add a message of `size` bytes; False if it was dropped."""
         with self._lock:
             if not self._has_room(size) and not self._is_closed:
-                self.held += 1
+                self._on_held()
                 if self._is_stalled or not self._wait_for_room(size):
                     self._is_stalled = True
                     return False

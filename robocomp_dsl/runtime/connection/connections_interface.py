@@ -16,7 +16,7 @@ class ConnectionState(rt.Enum):
     Unreachable = 2
 
 
-class ConnectionInfo(rt.Struct):
+class ConnectionInfo(rt.Struct, type_id="RoboCompComponentConnections::ConnectionInfo"):
     """One connection of a port, with a peer that exists or is waited for."""
 
     port: rt.String = ""  # The own port.
@@ -32,6 +32,8 @@ class ConnectionInfo(rt.Struct):
     calls: rt.Long = 0
     failures: rt.Long = 0
     drops: rt.Long = 0  # Messages that were lost before they were handled.
+    # Messages that waited for room in the receive queue, and so held their publisher.
+    held: rt.Long = 0
     missed: rt.Long = 0  # Gaps between messages that exceeded the deadline.
     monitors: Names = rt.default()  # The monitors of the connection; empty without any.
     monitorState: rt.String = ""  # active, bypassed or closed.
@@ -45,7 +47,7 @@ class ConnectionInfo(rt.Struct):
 Connections = list[ConnectionInfo]
 
 
-class Refusal(rt.DeclaredError):
+class Refusal(rt.DeclaredError, type_id="RoboCompComponentConnections::Refusal"):
     """The request is rejected; nothing has changed."""
 
     reason: rt.String = ""

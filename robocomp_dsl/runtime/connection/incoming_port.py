@@ -196,6 +196,12 @@ class IncomingPort:
         self._receivers = [*running, receiver]
         return receiver
 
+    def count_held(self) -> None:
+        """Count a message that found its queue full."""
+        for operation in self.operations.values():
+            operation.counts.held += 1
+            return
+
     def set_thread_priority(self, priority: int | None) -> bool:
         """Change the priority of the receiving threads; returns whether it is in force."""
         threads = [thread for receiver in self._receivers for thread in receiver.threads]

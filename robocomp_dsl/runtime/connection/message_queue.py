@@ -35,7 +35,7 @@ class MessageQueue:
         self._bounded: BoundedQueue[Message] | None = None
         if qos.holds_publisher:
             depth = qos.depth or (KEEP_ALL_DEPTH if qos.keep_all else DEPTH)
-            self._bounded = BoundedQueue(depth, bounded_queue.HOLD_S)
+            self._bounded = BoundedQueue(depth, bounded_queue.HOLD_S, port.count_held)
         take = self._take if self._bounded is None else self._bounded.take
         port.receive(take, self._handle)
 

@@ -56,5 +56,8 @@ def connection_qos(at: Endpoint, peer: str) -> Qos:
 
 
 def sender_qos(at: Endpoint) -> Qos:
-    """The quality of service of a publisher: a message is sent once for all connections."""
+    """The quality of service of all connections of a port together, as of a publisher.
+
+    A message is sent once for all of them.
+    """
     return strictest((at.qos, *(items for _, items in at.peer_qos)))

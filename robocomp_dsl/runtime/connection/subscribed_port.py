@@ -15,7 +15,7 @@ from robocomp_dsl.runtime.connection.endpoint import NOBODY, Endpoint, Qos
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.connection.port_opener import PortOpener
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.connection.qos_merge import connection_qos
+from robocomp_dsl.runtime.connection.qos_merge import connection_qos, sender_qos
 from robocomp_dsl.runtime.middleware import registry
 from robocomp_dsl.runtime.middleware.transport import Subscription
 from robocomp_dsl.runtime.presence.port_record import PortRecord
@@ -116,7 +116,7 @@ class SubscribedPort:
 def split(at: Endpoint) -> Iterable[Endpoint]:
     """The port as one endpoint for each peer, with the quality of service of that connection."""
     if not at.peers or at.external:
-        return (replace(at, peer_qos=()),)
+        return (replace(at, qos=sender_qos(at), peer_qos=()),)
     peers = [peer for peer in dict.fromkeys(at.peers) if peer != NOBODY]
     return [replace(at, peers=(peer,), qos=connection_qos(at, peer), peer_qos=()) for peer in peers]
 

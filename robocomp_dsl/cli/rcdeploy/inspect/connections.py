@@ -8,8 +8,8 @@ from robocomp_dsl.cli.program import EXIT_FINDINGS, CliError
 from robocomp_dsl.cli.rcdeploy.inspect.completion import complete_components
 from robocomp_dsl.cli.rcdeploy.inspect.target import InspectCommand, open_client, resolve_domain
 
-_HEAD = ("PORT", "ROLE", "PEER", "OVER", "STATE", "QOS", "CALLS", "LOST", "LATE")
-_RIGHT = (6, 7, 8)
+_HEAD = ("PORT", "ROLE", "PEER", "OVER", "STATE", "QOS", "CALLS", "LOST", "HELD", "LATE")
+_RIGHT = (6, 7, 8, 9)
 
 
 @click.command(cls=InspectCommand)
@@ -20,7 +20,8 @@ def command(
 ) -> None:
     """List connections: with whom, over what, in which state, what was lost.
 
-    CALLS, LOST and LATE are calls or messages, lost messages and missed deadlines of the port.
+    CALLS, LOST, HELD and LATE are calls or messages, lost messages, messages that waited for room
+    in a full queue, and missed deadlines of the port.
     """
     from robocomp_dsl.cli.rcdeploy.inspect import connection_calls, text  # noqa: PLC0415
     from robocomp_dsl.cli.rcdeploy.inspect.component_calls import component_names  # noqa: PLC0415
@@ -36,7 +37,7 @@ def command(
             state += f", {'+'.join(info.monitors)} {info.monitorState}"
         if info.condition:
             state += f", when {info.condition}{' (delivers)' if info.winner else ''}"
-        counts = (info.calls, info.drops, info.missed)
+        counts = (info.calls, info.drops, info.held, info.missed)
         return (
             f"{component}.{info.port}",
             info.role,

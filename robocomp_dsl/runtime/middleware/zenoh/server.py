@@ -65,7 +65,9 @@ class ServedZenohPort:
             qos = self.at.qos
             depth = qos.depth or (KEEP_ALL_DEPTH if qos.keep_all else DEPTH)
             if qos.holds_publisher:
-                samples = BoundedQueue[zenoh.Sample](depth, bounded_queue.HOLD_S)
+                samples = BoundedQueue[zenoh.Sample](
+                    depth, bounded_queue.HOLD_S, self._port.count_held
+                )
                 self._drain_bounded(session, key, samples, handle_sample)
             else:
                 # A full queue drops the oldest message.
