@@ -94,3 +94,17 @@ def plain() -> Iterator[Callable[..., PlainProgram]]:
     yield open_program
     for each in opened:
         each.close()
+
+
+@pytest.fixture
+def connect(
+    component: Callable[..., IceComponent], generated: Any
+) -> Callable[[str], SimpleNamespace]:
+    """A component whose port Store is connected to an address."""
+
+    def connected(address: str) -> SimpleNamespace:
+        own = component()
+        channel = own.ports.proxy(own.endpoint(generated.STORE, address))
+        return SimpleNamespace(proxy=generated.StoreProxy(channel), component=own)
+
+    return connected
