@@ -16,7 +16,7 @@ class ConnectionState(rt.Enum):
     Unreachable = 2
 
 
-class ConnectionInfo(rt.Struct):
+class ConnectionInfo(rt.Struct, type_id="RoboCompComponentConnections::ConnectionInfo"):
     """One connection of a port, with a peer that exists or is waited for."""
 
     port: rt.String = ""  # The own port.
@@ -45,7 +45,7 @@ class ConnectionInfo(rt.Struct):
 Connections = list[ConnectionInfo]
 
 
-class Refusal(rt.DeclaredError):
+class Refusal(rt.DeclaredError, type_id="RoboCompComponentConnections::Refusal"):
     """The request is rejected; nothing has changed."""
 
     reason: rt.String = ""
