@@ -19,6 +19,8 @@ class Qos:
     depth: int | None = None
     priority: str | None = None
     deadline: float | None = None
+    keep_all: bool | None = None
+    latched: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,44 @@
+"""Which topics a subscribed port receives.
+
+A subscriber receives from external publishers on their topics, from a publisher of a component that
+a connection names on the topic that has its default name, and from all others on a topic of its
+own: they publish there, too, when they are attached.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from robocomp_dsl.runtime.component.naming import ANY
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name, port_name
+
+_SEPARATOR = ","
+
+
+def subscribed_topics(
+    at: Endpoint, addresses: Mapping[str, str], middleware: str
+) -> tuple[str, ...]:
+    """The topics of a subscribed port, its own first. Raises `MiddlewareError`."""
+    names = [port_name(at, addresses)]
+    names += [
+        absolute_name(record.address, at.port)
+        for record in at.external
+        if record.middleware == middleware
+    ]
+    for peer in at.peers:
+        component, _, port = peer.partition(".")
+        if component != ANY:
+            names.append(absolute_name(f"{component}/{port or at.port}", at.port))
+    return tuple(dict.fromkeys(names))
+
+
+def topics_address(topics: tuple[str, ...]) -> str:
+    """The address of a subscribed port, for its record."""
+    return _SEPARATOR.join(topics)
+
+
+def topic_to_attach(address: str, own: str) -> str:
+    """The topic on which a publisher reaches a subscriber, besides its `own`; "" if on that."""
+    topics = address.split(_SEPARATOR)
+    return "" if own in topics else topics[0]
