@@ -21,9 +21,9 @@ from benchmarks.middleware_peer import drain
 from benchmarks.pose_interface import MOVER, TRACK, MoverProxy, Pose, TrackProxy
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.presence.domain_session import open_session
 
 ROUNDS = 60
@@ -84,7 +84,7 @@ def over_zenoh() -> list[dict[str, Any]]:
         peer.stdout.readline()
         raw = open_session(domain)
         host = ComponentContext("client", domain, CallbackGroup(), Statistics())
-        middleware = open_middleware("zenoh", host)
+        middleware = open_ports("zenoh", host)
         try:
             took = in_turns(_calls(raw.session, middleware, host))
         finally:
@@ -163,7 +163,7 @@ def in_process() -> list[dict[str, Any]]:
         ComponentContext(name, domain, CallbackGroup(), Statistics())
         for name in ("server", "client")
     ]
-    server, client = (open_middleware("inproc", host) for host in hosts)
+    server, client = (open_ports("inproc", host) for host in hosts)
     pose = Pose()
 
     class Servant:

@@ -11,9 +11,9 @@ import zenoh
 from benchmarks.pose_interface import MOVER, TRACK, Pose, TrackProxy
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.presence.domain_session import open_session
 
 
@@ -56,7 +56,7 @@ def main(domain: str) -> None:
     raw = open_session(domain)
     raw_server = serve_raw(raw.session, MOVER.operations[0].encode_reply(Pose()))
     execution = CallbackGroup()
-    middleware = open_middleware("zenoh", ComponentContext("peer", domain, execution, Statistics()))
+    middleware = open_ports("zenoh", ComponentContext("peer", domain, execution, Statistics()))
     middleware.serve(Endpoint(MOVER, "peer", "Mover"), {"move": lambda pose: pose}, execution)
     back = TrackProxy(middleware.advertise(Endpoint(TRACK, "peer", "Back")))
     at = Endpoint(TRACK, "peer", "There", ("client",))

@@ -21,9 +21,9 @@ from typing import Any
 from benchmarks.humanoid import humanoid
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
-from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.connection.ports import ComponentContext, Ports
 
 STEP_MS = 1.0
 PATIENCE = 60.0
@@ -48,7 +48,7 @@ class Run:
     """A running simulator: its lines, what was heard of its topics, and how to call it."""
 
     process: subprocess.Popen[str]
-    middleware: Middleware
+    middleware: Ports
     types: Any
     lines: list[Line] = field(default_factory=list)
     effects: list[tuple[float, float]] = field(default_factory=list)
@@ -60,7 +60,7 @@ class Run:
         """The operations of the port that is called as its interface."""
         interface = getattr(self.types, port.upper())
         at = Endpoint(interface, "client", port, (f"{NAME}.{port}",))
-        link = self.middleware.proxy(at)
+        link = self.ports.proxy(at)
         if not link.wait(PATIENCE):
             raise TimeoutError(f"nobody serves {port}")
         return SimpleNamespace(
@@ -78,7 +78,7 @@ class Run:
 
         interface = getattr(self.types, kind).INTERFACE
         at = Endpoint(interface, "client", port)
-        self.middleware.subscribe(at, {operation: take}, CallbackGroup())
+        self.ports.subscribe(at, {operation: take}, CallbackGroup())
 
 
 @contextmanager
@@ -97,9 +97,7 @@ def simulator(
         env=os.environ | ({TAP: "1"} if tap else {}),
     )
     execution = CallbackGroup()
-    middleware = open_middleware(
-        "zenoh", ComponentContext("client", domain, execution, Statistics())
-    )
+    middleware = open_ports("zenoh", ComponentContext("client", domain, execution, Statistics()))
     run = Run(process, middleware, _interfaces(home))
     reader = threading.Thread(target=_read, args=(run,))
     reader.start()

@@ -24,9 +24,9 @@ import numpy as np
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 PATIENCE = 60.0
 PERIOD = 0.0873
@@ -86,7 +86,7 @@ def running(folder: Path, *settings: str, taps: Path | None = None) -> Iterator[
         stderr=subprocess.DEVNULL,
     )
     heard = Heard(process)
-    middleware = open_middleware(
+    middleware = open_ports(
         "zenoh", ComponentContext("client", domain, CallbackGroup(), Statistics())
     )
     try:

@@ -19,10 +19,10 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, ComponentProxy
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import Channel, ComponentContext
 from robocomp_dsl.runtime.errors import NoServer, SchemaError
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.dynamic.description import ComponentDescription
@@ -38,7 +38,7 @@ class DomainClient:
         self._name, self._execution = name, CallbackGroup()
         self.statistics = Statistics()
         host = ComponentContext(name, domain, self._execution, self.statistics)
-        self._middleware = open_middleware(middleware, host)
+        self._middleware = open_ports(middleware, host)
 
     def components(self, timeout: float = 1.0) -> list[str]:
         """The names of the components in the domain; waits up to `timeout` s for the first one."""

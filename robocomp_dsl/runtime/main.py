@@ -24,11 +24,15 @@ from robocomp_dsl.runtime.component.component import Component
 from robocomp_dsl.runtime.component.settings import (
     InvalidSetting,
     RunSettings,
+    parse_addresses,
     parse_connections,
+    parse_external,
+    parse_middlewares,
     parse_name,
     parse_prefix,
     parse_qos,
     parse_remaps,
+    parse_transport_settings,
 )
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.component.user_errors import TRACEBACK_VARIABLE
@@ -166,14 +170,38 @@ def _parser(spec: ComponentSpec) -> argparse.ArgumentParser:
     add("--name", default="", help=f"name of this instance ({spec.name})")
     add("--prefix", default="", help="namespace of this instance and its peers, such as left")
     add(
-        "--middleware", metavar="M", default="", help=f"middleware of all ports ({spec.middleware})"
+        "--middleware",
+        metavar="[PORT=]M",
+        action="append",
+        default=[],
+        help=f"middleware of all ports, or of one ({spec.middleware})",
     )
     add(
         "--domain",
         default=os.environ.get("ROBOCOMP_DOMAIN") or "default",
         help="components connect only within one domain (ROBOCOMP_DOMAIN or default)",
     )
-    add("--connect", metavar="PORT=COMPONENT", action="append", default=[], help="connect a port")
+    add(
+        "--connect",
+        metavar="PORT=PEER",
+        action="append",
+        default=[],
+        help="connect a port to COMPONENT, COMPONENT.PORT, or a program at MIDDLEWARE:ADDRESS",
+    )
+    add(
+        "--address",
+        metavar="PORT=M:ADDRESS",
+        action="append",
+        default=[],
+        help="address of an own port for programs that are no components",
+    )
+    add(
+        "--transport",
+        metavar="M.KEY=VALUE",
+        action="append",
+        default=[],
+        help="setting of a middleware",
+    )
     add("--remap", metavar="PORT=NAME", action="append", default=[], help="rename a port")
     add(
         "--qos",
@@ -232,10 +260,13 @@ def _default_log_level() -> str:
 
 def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
     """The settings of the command line. Raises `InvalidSetting`."""
-    connections, qos = parse_connections(options.connect), parse_qos(options.qos)
-    remaps = parse_remaps(options.remap)
+    internal, external = parse_external(options.connect)
+    connections, qos = parse_connections(internal), parse_qos(options.qos)
+    remaps, addresses = parse_remaps(options.remap), parse_addresses(options.address)
+    middleware, port_middlewares = parse_middlewares(options.middleware)
     ports = list(_ports(spec))
-    for name in (*connections, *qos, *remaps):
+    own = (port for _, port in addresses)
+    for name in (*connections, *external, *qos, *remaps, *port_middlewares, *own):
         if name not in ports:
             known = f"its ports: {', '.join(ports)}" if ports else "it has no ports"
             raise InvalidSetting(f"{spec.name} has no port `{name}`; {known}")
@@ -252,7 +283,11 @@ def _settings(options: argparse.Namespace, spec: ComponentSpec) -> RunSettings:
         name=parse_name(options.name, "name") if options.name else "",
         prefix=parse_prefix(options.prefix),
         domain=options.domain,
-        middleware=options.middleware,
+        middleware=middleware,
+        port_middlewares=port_middlewares,
+        external=external,
+        addresses=addresses,
+        transport_settings=parse_transport_settings(options.transport),
         config=options.config or (CONFIG if CONFIG.is_file() else None),
         overrides=tuple(options.set),
         connections=connections,

@@ -46,7 +46,7 @@ CLIENT = (
 wait_until = partial(wait_until, ignoring=Exception)
 from robocomp_dsl.runtime.component.component_interface import COMPONENT, LifeState
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.component.statistics import Statistics
@@ -55,7 +55,7 @@ from pathlib import Path
 
 name, domain, cable = sys.argv[1:]
 context = ComponentContext("client", domain, CallbackGroup(), Statistics())
-middleware = open_middleware("zenoh", context)
+middleware = open_ports("zenoh", context)
 
 def bound(interface, port, operation):
     link = middleware.proxy(Endpoint(interface, "client", "x", (f"{name}.{port}",)))

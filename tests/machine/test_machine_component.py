@@ -15,10 +15,10 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT, Compon
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.machine import MachineSpec, StateSpec, TransitionSpec
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.machine.test_machine import GAME
 from tests.support.waiting import wait_until
@@ -82,7 +82,7 @@ def test_machine_runs_with_its_component(runner: Runner) -> None:
     wait_until(lambda: runner.worker.machine.is_in("playing"))
     assert player.happened[:3] == ["initialize", "enter waiting", "compute"]
     host = ComponentContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
-    middleware = open_middleware("inproc", host)
+    middleware = open_ports("inproc", host)
     about = ComponentProxy(
         middleware.proxy(Endpoint(COMPONENT, "looker", "Component", ("player",)))
     )

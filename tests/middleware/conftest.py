@@ -15,10 +15,8 @@ MIDDLEWARES = ("inproc", "zenoh")
 
 def set_discovery_timeout(seconds: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Set how long calls wait for a server that has not been discovered yet."""
-    for module in ("inproc", "zenoh.client"):
-        monkeypatch.setattr(
-            f"robocomp_dsl.runtime.middleware.{module}.DISCOVERY_TIMEOUT_S", seconds
-        )
+    module = "robocomp_dsl.runtime.connection.peer_selection"
+    monkeypatch.setattr(f"{module}.DISCOVERY_TIMEOUT_S", seconds)
 
 
 @pytest.fixture(autouse=True)

@@ -39,12 +39,14 @@ def main(domain: str, name: str = "", mode: str = "") -> None:
     from robocomp_dsl.runtime.connection.endpoint import Endpoint  # noqa: PLC0415
     from robocomp_dsl.runtime.presence.domain_folder import folder_lock  # noqa: PLC0415
     from robocomp_dsl.runtime.presence.domain_session import open_session  # noqa: PLC0415
-    from robocomp_dsl.runtime.presence.keys import PortToken  # noqa: PLC0415
+    from robocomp_dsl.runtime.presence.keys import record_key  # noqa: PLC0415
+    from robocomp_dsl.runtime.presence.port_record import PortRecord  # noqa: PLC0415
     from tests.middleware.probe_types import PROBE  # noqa: PLC0415
 
     opened = open_session(domain, name=name)
     at = Endpoint(PROBE, name or "anonymous", "Probe")
-    key = PortToken("server", PROBE.name, at.component, at.port, PROBE.hash.hex()).key(domain)
+    record = PortRecord("server", PROBE.name, at.component, at.port, PROBE.hash.hex(), "zenoh")
+    key = record_key(domain, record)
     token = opened.session.liveliness().declare_token(key)
     if mode == "fork" and os.fork() == 0:
         os.read(0, 1)

@@ -9,9 +9,9 @@ from typing import Any
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import ComponentPorts, open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
-from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.connection.ports import ComponentContext
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
 
 DEADLINE = 60.0
@@ -25,7 +25,7 @@ class Node:
         self.execution = CallbackGroup(threads)
         self.statistics = Statistics()
         host = ComponentContext(name, network.domain, self.execution, self.statistics)
-        self.middleware: Middleware = open_middleware(network.kind, host)
+        self.ports: ComponentPorts = open_ports(network.kind, host)
 
     def serve(
         self,
@@ -34,19 +34,19 @@ class Node:
         port: str = "Probe",
     ) -> None:
         every = {o.name: handlers.get(o.name, lambda *_: None) for o in interface.operations}
-        self.middleware.serve(Endpoint(interface, self.name, port), every, self.execution)
+        self.ports.serve(Endpoint(interface, self.name, port), every, self.execution)
 
     def probe(self, *peers: str) -> ProbeProxy:
-        return ProbeProxy(self.middleware.proxy(Endpoint(PROBE, self.name, "Probe", peers)))
+        return ProbeProxy(self.ports.proxy(Endpoint(PROBE, self.name, "Probe", peers)))
 
     def news(self) -> NewsProxy:
-        return NewsProxy(self.middleware.advertise(Endpoint(NEWS, self.name, "News")))
+        return NewsProxy(self.ports.advertise(Endpoint(NEWS, self.name, "News")))
 
     def subscribe(
         self, handler: Callable[[str, int], None], *peers: str, qos: Qos | None = None
     ) -> None:
         at = Endpoint(NEWS, self.name, "News", peers, qos or Qos())
-        self.middleware.subscribe(at, {"announced": handler}, self.execution)
+        self.ports.subscribe(at, {"announced": handler}, self.execution)
 
     def count(self, operation: str, port: str = "Probe") -> Any:
         return self.statistics.of(port, operation)
@@ -67,4 +67,4 @@ class Network:
 
     def close(self) -> None:
         for node in self.nodes:
-            node.middleware.close()
+            node.ports.close()

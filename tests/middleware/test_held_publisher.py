@@ -14,7 +14,7 @@ from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.spec import CalledPort
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.middleware.zenoh import held_publisher, middleware, reliable_queue
+from robocomp_dsl.runtime.middleware.zenoh import held_publisher, reliable_queue, transport
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.middleware.network import Network, Node
 from tests.middleware.probe_types import NEWS, NewsProxy
@@ -47,7 +47,7 @@ class HeldSubscriber:
 @pytest.fixture
 def network(monkeypatch: pytest.MonkeyPatch) -> Iterator[Network]:
     monkeypatch.setattr(held_publisher, "_HELD_NS", HOLD_S * 0.9e9)
-    monkeypatch.setattr(middleware, "HOLD_S", HOLD_S)
+    monkeypatch.setattr(transport, "HOLD_S", HOLD_S)
     # As if the subscriber's process were stopped: it never drops a message itself.
     monkeypatch.setattr(reliable_queue, "HOLD_S", 60.0)
     opened = Network("zenoh")
@@ -67,7 +67,7 @@ def test_held_publisher_drops_and_counts(
 ) -> None:
     speaker = network.node("speaker")
     at = Endpoint(NEWS, "speaker", "News", (), Qos(reliable=True))
-    news = NewsProxy(speaker.middleware.advertise(at))
+    news = NewsProxy(speaker.ports.advertise(at))
     assert news.wait_for_server(30)
     wait_until(news.has_subscribers)
     sent = 0

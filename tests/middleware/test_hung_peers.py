@@ -97,7 +97,7 @@ def test_open_session_beside_stopped_processes_finds_the_others(network: Network
         with finishes():
             opened = open_session(network.domain)
         peers = opened.session.info.peers_zid
-        wait_until(lambda: server.middleware._opened.session.info.zid() in list(peers()))
+        wait_until(lambda: server.ports.presence.opened.session.info.zid() in list(peers()))
         with finishes():
             opened.close()
         with finishes():
@@ -119,7 +119,7 @@ def test_starts_at_the_same_time_beside_stopped_processes_find_each_other(networ
             thread.start()
         for thread in threads:
             thread.join()
-        sessions = [node.middleware._opened.session for node in network.nodes]  # type: ignore[attr-defined]
+        sessions = [node.ports.presence.opened.session for node in network.nodes]  # type: ignore[attr-defined]
         wait_until(lambda: all(len(list(s.info.peers_zid())) == 5 for s in sessions))
 
 
@@ -200,5 +200,5 @@ def test_starts_without_the_folder_lock_find_each_other(
             thread.start()
         for thread in threads:
             thread.join()
-        sessions = [node.middleware._opened.session for node in network.nodes]  # type: ignore[attr-defined]
+        sessions = [node.ports.presence.opened.session for node in network.nodes]  # type: ignore[attr-defined]
         wait_until(lambda: all(len(list(s.info.peers_zid())) == 5 for s in sessions))

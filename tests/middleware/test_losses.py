@@ -11,15 +11,15 @@ import zenoh
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.connection.losses import PublisherCounter
 from robocomp_dsl.runtime.connection.sequence import (
     CONFIRMATIONS,
     MAX_LISTED_GAP,
     MAX_RATE,
-    SEQUENCE_FORMAT,
     SequenceTracker,
 )
 from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.publications import PublicationCounter
+from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_types import NEWS
 from tests.support.waiting import wait_until
@@ -46,7 +46,7 @@ class Gate:
         node.subscribe(self._handle, qos=Qos(reliable=False, depth=depth))
         # Shows what has arrived while the gate is closed.
         at = Endpoint(NEWS, node.name, "Second", (), Qos(depth=100_000))
-        node.middleware.subscribe(at, {"announced": self.arrived.__setitem__}, CallbackGroup())
+        node.ports.subscribe(at, {"announced": self.arrived.__setitem__}, CallbackGroup())
 
     def _handle(self, who: str, number: int) -> None:
         self.open.wait(DEADLINE)
@@ -63,7 +63,7 @@ class Gate:
 
 
 def raw_session(node: Any) -> zenoh.Session:
-    session: zenoh.Session = node.middleware._session
+    session: zenoh.Session = node.ports.presence.opened.session
     return session
 
 
@@ -102,7 +102,7 @@ def test_losses_before_first_and_after_last_message_count(network: Network) -> N
     gate = Gate(network.node("s"), depth=100)
     node = network.node("p")
     at = Endpoint(NEWS, "p", KEY)
-    counter = PublisherCounter(raw_session(node), network.domain, at)
+    counter = PublicationCounter(raw_session(node), network.domain, at)
     numbers = counter.counter("announced")
     key = f"{keys.port_key(network.domain, 't', at)}/announced"
     publisher = raw_session(node).declare_publisher(key)

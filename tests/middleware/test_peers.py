@@ -21,7 +21,7 @@ def test_proxy_follows_restarted_server(network: Network) -> None:
     server.serve({"add": lambda *_: 1})
     probe = network.node("client").probe()
     assert probe.add(0, 0) == 1
-    server.middleware.close()
+    server.ports.close()
 
     def gone() -> bool:
         try:
@@ -42,7 +42,7 @@ def test_proxy_reports_departed_server_at_once(network: Network, how: str) -> No
     server.serve(HANDLERS)
     probe = network.node("client").probe()
     assert probe.add(0, 0) == 0 if how == "called" else probe.wait_for_server(DEADLINE)
-    server.middleware.close()
+    server.ports.close()
     wait_until(lambda: not probe.wait_for_server(0.0))
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(probe.add, 0, 0)
@@ -71,7 +71,7 @@ def test_interrupt_ends_waiting_call(network: Network) -> None:
     with ThreadPoolExecutor(1) as pool:
         asked = pool.submit(client.probe().block)
         wait_until(lambda: server.execution.busy)
-        client.middleware.interrupt()
+        client.ports.interrupt()
         with pytest.raises(NoServer, match="stopping"):
             asked.result(DEADLINE)
         free.set()
@@ -85,7 +85,7 @@ def test_calls_after_component_end_report_it(network: Network) -> None:
     called, fresh = client.probe(), client.probe()
     assert called.add(1, 2) == 3
     called.note("before")
-    client.middleware.close()
+    client.ports.close()
     for probe in (called, fresh):
         with pytest.raises(NoServer, match="stopping"):
             probe.add(1, 2)

@@ -13,9 +13,9 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT, Compon
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from tests.middleware.network import DEADLINE
 from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
@@ -131,7 +131,7 @@ def test_prefixed_ports_may_have_other_names(start: Start) -> None:
 def test_introspection_reports_prefixed_names(start: Start, middleware: str, domain: str) -> None:
     start(Base, prefix="left", remaps={"Probe": "front"})
     start(Arm, prefix="left", connections={"Probe": ("base",)}, remaps={"Probe": "front"})
-    looker = open_middleware(
+    looker = open_ports(
         middleware, ComponentContext("looker", domain, CallbackGroup(), Statistics())
     )
     try:

@@ -9,8 +9,10 @@ import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import AmbiguousServer, NoServer
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 from tests.middleware.network import DEADLINE, Network, Node
-from tests.middleware.probe_types import NEWS, PROBE, NewsProxy, ProbeProxy
+from tests.middleware.probe_types import NEWS, PROBE, NewsProxy
 from tests.support.waiting import wait_until
 
 
@@ -26,7 +28,7 @@ def asked(network: Network, client: str, *peers: str) -> int:
 
 def asked_when_all_are_known(network: Network, client: str, count: int) -> int:
     probe = network.node(client).probe()
-    wait_until(lambda: network.kind == "inproc" or len(_known(probe, network)) == count)
+    wait_until(lambda: network.kind == "inproc" or len(_known(network)) == count)
     return probe.add(0, 0)
 
 
@@ -91,19 +93,14 @@ def test_prefix_waits_for_server_beside_that_starts_later(network: Network) -> N
 def test_prefix_with_two_servers_beside_is_ambiguous_until_connected(network: Network) -> None:
     serve(network, "left/a", "left/b", "c")
     probe = network.node("left/arm").probe()
-    wait_until(lambda: len(_known(probe, network)) == 3)
+    wait_until(lambda: len(_known(network)) == 3)
     with pytest.raises(AmbiguousServer, match=r"left/a\.Probe, left/b\.Probe all .*=/left/a$"):
         probe.add(0, 0)
 
 
-def _known(probe: ProbeProxy, network: Network) -> list[object]:
-    link = probe._channel  # type: ignore[attr-defined]
-    found: list[object] = (
-        link._candidates()
-        if network.kind == "inproc"
-        else link._registry.find("server", PROBE.name)
-    )
-    return found
+def _known(network: Network) -> list[PortRecord]:
+    registry: PortRegistry = network.nodes[-1].ports.presence.registry
+    return registry.find("server", PROBE.name)
 
 
 def test_prefix_keeps_topics_on_their_branch(network: Network) -> None:
@@ -162,4 +159,4 @@ def test_prefix_routes_publications_of_named_port(network: Network) -> None:
 
 
 def _news(node: Node, port: str) -> NewsProxy:
-    return NewsProxy(node.middleware.advertise(Endpoint(NEWS, node.name, port)))
+    return NewsProxy(node.ports.advertise(Endpoint(NEWS, node.name, port)))

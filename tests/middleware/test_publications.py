@@ -6,7 +6,8 @@ import threading
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from tests.middleware.network import DEADLINE, Network
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from tests.middleware.network import DEADLINE, Network, Node
 from tests.middleware.probe_handlers import HANDLERS
 from tests.middleware.probe_types import NEWS
 from tests.support.waiting import wait_until
@@ -20,8 +21,7 @@ def test_publications_reach_all_in_order_of_each_publisher(network: Network) -> 
     proxies = [p.news() for p in publishers]
     for proxy in proxies:
         assert proxy.wait_for_server(DEADLINE)
-    if network.kind == "zenoh":
-        wait_until(lambda: all(len(_subscribers(p)) == 2 for p in publishers))
+    wait_until(lambda: all(len(_subscribers(p)) == 2 for p in publishers))
     for n in range(100):
         for p, proxy in enumerate(proxies):
             proxy.announced(f"p{p}", n)
@@ -31,8 +31,8 @@ def test_publications_reach_all_in_order_of_each_publisher(network: Network) -> 
             assert [n for who, n in into if who == name] == list(range(100))
 
 
-def _subscribers(node: object) -> list[object]:
-    return node.middleware._registry.find("subscriber", NEWS.name)  # type: ignore[attr-defined]
+def _subscribers(node: Node) -> list[PortRecord]:
+    return node.ports.presence.registry.find("subscriber", NEWS.name)
 
 
 def test_publication_without_subscriber_does_not_fail(network: Network) -> None:
@@ -75,7 +75,7 @@ def test_topic_knows_whether_it_has_subscribers(network: Network) -> None:
     subscriber = network.node("s")
     subscriber.subscribe(lambda *_: None)
     wait_until(news.has_subscribers)
-    subscriber.middleware.close()
+    subscriber.ports.close()
     wait_until(lambda: not news.has_subscribers())
 
 
@@ -99,7 +99,7 @@ def test_slow_subscriber_keeps_latest_samples_of_its_depth(network: Network) -> 
         # A second subscriber on the same session tells that all have arrived; what was
         # still on its way when it subscribed may reach it before the last.
         probe: list[int] = []
-        node.middleware.subscribe(
+        node.ports.subscribe(
             Endpoint(NEWS, "s", "Second"),
             {"announced": lambda _w, n: probe.append(n)},
             CallbackGroup(),

@@ -73,7 +73,7 @@ def test_stuck_reliable_subscriber_still_answers_and_counts_its_losses(
         listener.execution = CallbackGroup()
         listener.serve({"add": lambda a, b: a + b})
         at = Endpoint(NEWS, "speaker", "News", (), Qos(reliable=True))
-        news = NewsProxy(speaker.middleware.advertise(at))
+        news = NewsProxy(speaker.ports.advertise(at))
         assert news.wait_for_server(30)
         wait_until(news.has_subscribers)
         sent = 200

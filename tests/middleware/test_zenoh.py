@@ -19,6 +19,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MalformedMessage, MiddlewareError, NoServer
 from robocomp_dsl.runtime.presence import keys
 from robocomp_dsl.runtime.presence.domain_session import open_session
+from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.presence.port_registry import PortRegistry
 from robocomp_dsl.runtime.presence.state_monitor import StateMonitor
 from tests.middleware.network import DEADLINE, Network
@@ -32,7 +33,7 @@ sys.path.insert(0, sys.argv[2])
 from tests.middleware.network import Network
 n = Network("zenoh"); n.domain = sys.argv[1]
 node = n.node("server")
-node.middleware.publish_state("compute")
+node.ports.publish_state("compute")
 node.serve({"add": lambda a, b: a + b, "block": threading.Event().wait})
 print("ready", flush=True)
 sys.stdin.read()
@@ -110,8 +111,8 @@ def test_zenoh_reports_malformed_reply_to_caller(network: Network) -> None:
         at = Endpoint(PROBE, "liar", "Probe")
         key = f"{keys.port_key(network.domain, 'q', at)}/add"
         queryable = raw.session.declare_queryable(key, lambda q: q.reply(key, b"\0\1\0\0\1"))
-        port = keys.PortToken("server", PROBE.name, "liar", "Probe", PROBE.hash.hex())
-        token = raw.session.liveliness().declare_token(port.key(network.domain))
+        port = PortRecord("server", PROBE.name, "liar", "Probe", PROBE.hash.hex(), "zenoh")
+        token = raw.session.liveliness().declare_token(keys.record_key(network.domain, port))
         with pytest.raises(MalformedMessage):
             network.node("client").probe().add(1, 2)
         del token, queryable
@@ -150,11 +151,14 @@ def test_zenoh_reports_killed_server_at_once(
 def test_zenoh_ends_call_at_once_when_chosen_server_exits(network: Network) -> None:
     network.node("server").serve({"block": threading.Event().wait})
     client = network.node("client")
-    directory: PortRegistry = client.middleware._registry  # type: ignore[attr-defined]
+    registry: PortRegistry = client.ports.presence.registry
     assert client.probe().wait_for_server(DEADLINE)
-    (there,) = directory.find("server", PROBE.name)
-    assert not directory.cancellation_token(there).is_cancelled
-    assert directory.cancellation_token(replace(there, component="gone")).is_cancelled
+    (there,) = registry.find("server", PROBE.name)
+    lost: list[str] = []
+    registry.on_lost(there, lambda: lost.append("there"))
+    assert not lost
+    registry.on_lost(replace(there, component="gone"), lambda: lost.append("gone"))
+    assert lost == ["gone"]
 
 
 def test_zenoh_watch_reports_states_and_exit(
@@ -175,10 +179,10 @@ def test_zenoh_watch_reports_states_and_exit(
 
 def test_zenoh_watch_ignores_states_after_its_end(network: Network) -> None:
     node = network.node("late")
-    node.middleware.publish_state("compute")
-    node.middleware.close()
-    node.middleware.publish_state("finalize")
-    node.middleware.publish_state("")
+    node.ports.publish_state("compute")
+    node.ports.close()
+    node.ports.publish_state("finalize")
+    node.ports.publish_state("")
 
 
 def test_zenoh_removes_sockets_of_killed_processes(
@@ -227,7 +231,7 @@ def test_zenoh_reports_interface_mismatch_on_both_sides_of_topic(
 ) -> None:
     subscriber, publisher = network.node("listener"), network.node("speaker")
     subscriber.subscribe(lambda *_: None)
-    publisher.middleware.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
+    publisher.ports.advertise(Endpoint(OTHER_NEWS, "speaker", "News"))
     wait_until(lambda: "listener and speaker cannot communicate" in caplog.text)
     wait_until(lambda: "speaker and listener cannot communicate" in caplog.text)
     assert "different versions of Test::News" in caplog.text
@@ -244,7 +248,7 @@ def test_zenoh_reports_occupied_port() -> None:
 
 def test_zenoh_listens_on_loopback_only(network: Network) -> None:
     node = network.node("server")
-    opened = node.middleware._opened  # type: ignore[attr-defined]
+    opened = node.ports.presence.opened  # type: ignore[attr-defined]
     assert opened.socket.is_socket()
     for link in opened.session.info.links():
         assert "unixsock" in str(link)

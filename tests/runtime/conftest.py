@@ -12,9 +12,9 @@ from robocomp_dsl.runtime.component.component_interface import COMPONENT, Compon
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.runtime.arm_component import Arm, ArmParams
 
 
@@ -31,6 +31,6 @@ def arm_runner() -> Iterator[Runner]:
 @pytest.fixture
 def arm_proxy(arm_runner: Runner) -> Iterator[ComponentProxy]:
     host = ComponentContext("tester", arm_runner.settings.domain, CallbackGroup(), Statistics())
-    middleware = open_middleware("inproc", host)
+    middleware = open_ports("inproc", host)
     yield ComponentProxy(middleware.proxy(Endpoint(COMPONENT, "tester", "Component", ("arm",))))
     middleware.close()

@@ -172,4 +172,4 @@ def stop(runner: Runner) -> None:
 
 def disconnect(runner: Runner) -> None:
     """Disconnect without notice, as a killed process does."""
-    runner.middleware.close()
+    runner.ports.close()

@@ -19,9 +19,9 @@ from robocomp_dsl.runtime.component.hang_report import HangReport
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameter, Parameters
 from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 from tests.support.waiting import wait_until
@@ -94,7 +94,7 @@ def test_hanging_compute_ends_component_and_finalizes(caplog: pytest.LogCaptureF
 def test_hanging_handler_ends_component_and_finalizes() -> None:
     runner, worker = hanging("handler")
     host = ComponentContext("looker", runner.settings.domain, CallbackGroup(), Statistics())
-    middleware = open_middleware("inproc", host)
+    middleware = open_ports("inproc", host)
     proxy = ComponentProxy(middleware.proxy(Endpoint(COMPONENT, "looker", "Component")))
     thread = threading.Thread(target=proxy.setParameters, args=({"rate": "2"},), daemon=True)
     wait_until(lambda: worker.computes)

@@ -41,10 +41,8 @@ def test_lockstep_reports_and_skips_lost_component(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     # A lost component is dropped at once; the discovery timeout applies only at the start.
-    for module in ("inproc", "zenoh.client"):
-        monkeypatch.setattr(
-            f"robocomp_dsl.runtime.middleware.{module}.DISCOVERY_TIMEOUT_S", 3 * DEADLINE
-        )
+    module = "robocomp_dsl.runtime.connection.peer_selection"
+    monkeypatch.setattr(f"{module}.DISCOVERY_TIMEOUT_S", 3 * DEADLINE)
     with (
         caplog.at_level(logging.INFO),
         running([Base, Driver, Recorder], middleware) as runners,

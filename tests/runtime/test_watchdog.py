@@ -93,9 +93,10 @@ def test_watchdog_ignores_waiting_for_reply_but_adds_up_own_time() -> None:
     with group:
         watchdog.check(0.0)
         assert watchdog.check(LIMIT_S - 0.1) is None
-        assert group.pause()
+        began = group.pause()
+        assert began
         assert watchdog.check(100 * LIMIT_S) is None
-        group.resume()
+        group.resume(began)
         assert watchdog.check(0.2)
 
 

@@ -99,14 +99,14 @@ sys.path.append("SUPPORT")
 from waiting import wait_until
 from types import SimpleNamespace
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
-from robocomp_dsl.runtime.middleware.registry import open_middleware
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.component.statistics import Statistics
 from PACKAGE import interfaces as i
 
 host = ComponentContext("client", sys.argv[2], CallbackGroup(), Statistics())
-middleware = open_middleware(sys.argv[1], host)
+middleware = open_ports(sys.argv[1], host)
 
 def proxy(interface, port):
     link = middleware.proxy(Endpoint(interface, "client", "x", (sys.argv[3] + "." + port,)))

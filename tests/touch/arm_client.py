@@ -16,9 +16,9 @@ from robocomp_dsl.runtime.component.lifecycle import LifecycleState
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.support.waiting import wait_until
 from tests.touch import shipped_component
 from tests.touch.served_robot import ServedRobot
@@ -52,7 +52,7 @@ class RunningArm:
         wired = {port: (peer,) for port, peer in wires.items()}
         run_settings = RunSettings(domain=domain, middleware="inproc", connections=wired)
         self.runner = Runner(ARM.worker, params, run_settings, clock)
-        self._client = open_middleware(
+        self._client = open_ports(
             "inproc", ComponentContext("client", domain, CallbackGroup(), Statistics())
         )
         self.states: list[Any] = []

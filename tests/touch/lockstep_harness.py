@@ -16,9 +16,9 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.runner import Runner
 from robocomp_dsl.runtime.component.settings import RunSettings
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 from robocomp_dsl.runtime.time.clock_source import ClockSource
 
@@ -76,7 +76,7 @@ class LockstepHarness:
         self.runners = [self._runner(member) for member in others]
         self.source = self._runner(source)
         host = ComponentContext("test_client", self.domain, CallbackGroup(), Statistics())
-        self._middleware = open_middleware("inproc", host)
+        self._middleware = open_ports("inproc", host)
         for runner in (*self.runners, self.source):
             runner.start()
         self._idle()

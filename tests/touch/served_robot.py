@@ -16,9 +16,9 @@ from robocomp_dsl.hardware.servants.joints.control_board import ControlBoardServ
 from robocomp_dsl.hardware.servants.serving import DevicePort
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.simulation.devices.control_board import SimulatedBoard
 from robocomp_dsl.simulation.robots.boards import board_names, robot_board, whole_robot
 from robocomp_dsl.simulation.robots.build import add_robot, new_world, set_pose
@@ -61,7 +61,7 @@ class ServedRobot:
     def connect(self) -> None:
         """Serve the boards."""
         self._execution = CallbackGroup()
-        self._middleware = open_middleware(
+        self._middleware = open_ports(
             "inproc", ComponentContext("robot", self._domain, self._execution, Statistics())
         )
         interface = self._interfaces.CONTROLBOARD

@@ -21,10 +21,10 @@ import pytest
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from tests.support.waiting import wait_until
 from tests.touch.arm_client import ARM, DESCRIPTIONS, refusal_of
 from tests.touch.shipped_component import COMPONENTS
@@ -104,7 +104,7 @@ def deployed(tmp_path: Path) -> Iterator[Any]:
             deployment.start(deployment.simulator)
             deployment.start_arm()
             host = ComponentContext("client", deployment.domain, CallbackGroup(), Statistics())
-            middleware = open_middleware("zenoh", host)
+            middleware = open_ports("zenoh", host)
             stack.callback(middleware.close)
             interface = ARM.interfaces.GENERICARM
             link = middleware.proxy(Endpoint(interface, "client", "arm", ("generic_arm",)))

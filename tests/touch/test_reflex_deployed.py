@@ -23,10 +23,10 @@ import pytest
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.component_interface import ComponentProxy, LifeState
 from robocomp_dsl.runtime.component.statistics import Statistics
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import ComponentContext
 from robocomp_dsl.runtime.errors import MiddlewareError
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.tactile.description.read import load_robot
 from tests.support.waiting import wait_until
 from tests.touch import finger_geometry
@@ -97,7 +97,7 @@ class ReflexDeployment:
         mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
         mujoco.mj_forward(self.model, self.data)
         host = ComponentContext("test_client", self.name, CallbackGroup(), Statistics())
-        self._middleware = open_middleware("zenoh", host)
+        self._middleware = open_ports("zenoh", host)
         self.reflex = self._proxy(proxy_of(interfaces.REFLEX), "reflex", "Reflex")
         self.finger = self._proxy(proxy_of(ARM.interfaces.CONTROLBOARD), "robot", "finger")
         self.arm = self._proxy(proxy_of(interfaces.GENERICARM), "arm", "GenericArm")

@@ -64,7 +64,7 @@ class PortCode(ValueRecord):
     target: str
     methods: str
     attribute: str
-    middleware: str
+    middlewares: str
 
 
 class WorkerCode(ValueRecord):
@@ -135,15 +135,15 @@ def machine_of(component: Component) -> MachineCode | None:
 def _port(port: Port, py_names: PythonNames) -> PortCode:
     interface = py_names.interfaces[port.interface]
     name = literals.quoted(port.name)
-    middleware = literals.quoted(port.middleware) if port.middleware else ""
+    middlewares = f"({literals.quoted(port.middleware)},)" if port.middleware else ""
     if port in py_names.proxies:
         attribute = literals.quoted(py_names.proxies[port])
-        return PortCode(name, interface.proxy, "", attribute, middleware)
+        return PortCode(name, interface.proxy, "", attribute, middlewares)
     methods = ", ".join(
         f"{literals.quoted(o.name)}: {literals.quoted(py_names.handlers[port, o])}"
         for o in port.interface.operations
     )
-    return PortCode(name, interface.constant, f"{{{methods}}}", "", middleware)
+    return PortCode(name, interface.constant, f"{{{methods}}}", "", middlewares)
 
 
 def _served(port: Port, py_names: PythonNames) -> ServedCode:

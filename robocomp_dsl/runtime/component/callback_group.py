@@ -45,14 +45,13 @@ class CallbackGroup:
     watchdog reads it. A thread that waits for a slot or for a remote reply is not among them.
     """
 
-    __slots__ = ("_paused", "acquire", "handoffs", "holders", "release")
+    __slots__ = ("acquire", "handoffs", "holders", "release")
 
     def __init__(self, threads: int = 1) -> None:
         lock = threading.Lock() if threads == 1 else _Semaphore(threads)
         self.acquire: Callable[..., bool] = lock.acquire
         self.release: Callable[[], None] = lock.release
         self.holders: dict[int, int] = {}
-        self._paused: dict[int, int] = {}
         self.handoffs: dict[int, Callable[[], None]] = {}
 
     def enter(self, timeout: float | None = None) -> bool:
@@ -81,24 +80,25 @@ class CallbackGroup:
         """Whether a callback runs."""
         return bool(self.holders)
 
-    def pause(self) -> bool:
-        """Release the slot before waiting for a remote reply; returns whether to `resume`."""
+    def pause(self) -> int:
+        """Release the slot before waiting for a remote reply; returns what `resume` needs.
+
+        That is the time at which the callback began; 0: this thread holds no slot.
+        """
         me = get_ident()
-        began = self.holders.pop(me, None)
-        if began is None:
-            return False
-        self._paused[me] = began
+        began = self.holders.pop(me, 0)
+        if not began:
+            return 0
         self.release()
         handoff = self.handoffs.get(me)
         if handoff:
             handoff()
-        return True
+        return began
 
-    def resume(self) -> None:
-        """Take the slot again after a `pause` that returned True."""
+    def resume(self, began: int) -> None:
+        """Take the slot again after a `pause` that did not return 0."""
         self.acquire()
-        me = get_ident()
-        self.holders[me] = self._paused.pop(me)
+        self.holders[get_ident()] = began
 
     def on_release(self, handoff: Callable[[], None] | None) -> None:
         """Set the function to call when this thread pauses; None: no function."""

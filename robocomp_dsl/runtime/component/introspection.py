@@ -29,7 +29,7 @@ from robocomp_dsl.runtime.component.component_interface import (
 from robocomp_dsl.runtime.component.interface import Interface
 from robocomp_dsl.runtime.component.lifecycle import Lifecycle
 from robocomp_dsl.runtime.component.settings import RunSettings
-from robocomp_dsl.runtime.component.spec import ComponentSpec
+from robocomp_dsl.runtime.component.spec import CalledPort, ComponentSpec, ServedPort
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.component.statistics import Statistics as RunStatistics
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA, Schema
@@ -50,7 +50,6 @@ class InspectedRunner(Protocol):
     name: str
     spec: ComponentSpec
     settings: RunSettings
-    middleware_name: str
     params: Parameters
     lifecycle: Lifecycle
     statistics: RunStatistics
@@ -60,6 +59,9 @@ class InspectedRunner(Protocol):
     @property
     def worker(self) -> object:
         """The object of the user's class."""
+
+    def middlewares_of(self, port: ServedPort | CalledPort) -> tuple[str, ...]:
+        """The middlewares of a port, in order of preference."""
 
     def stop(self) -> None:
         """Request a stop; returns immediately."""
@@ -144,7 +146,9 @@ class Introspection:
                 looks = role in ("requires", "subscribesTo")
                 peers = list(runner.settings.peers_of(port.name)) if looks else []
                 name = port.name if looks else runner.settings.remaps.get(port.name, port.name)
-                ports.append(PortInfo(role, name, interface.name, runner.middleware_name, peers))
+                peers += [peer.name for peer in runner.settings.external.get(port.name, ())]
+                middlewares = ", ".join(runner.middlewares_of(port))
+                ports.append(PortInfo(role, name, interface.name, middlewares, peers))
         return ports
 
     def get_parameters(self) -> list[ParameterInfo]:

@@ -29,18 +29,19 @@ from robocomp_dsl.runtime.component.lifecycle import (
 )
 from robocomp_dsl.runtime.component.sd_notify import SystemdNotifier
 from robocomp_dsl.runtime.component.settings import RunSettings
-from robocomp_dsl.runtime.component.spec import ServedPort
+from robocomp_dsl.runtime.component.spec import CalledPort, ServedPort
 from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.component.supervisor_pipe import SupervisorPipe
 from robocomp_dsl.runtime.component.user_errors import add_user_folder, describe_error, log_error
 from robocomp_dsl.runtime.component.watchdog import CallbackWatchdog
+from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
 from robocomp_dsl.runtime.dynamic.schema_interface import COMPONENTSCHEMA
 from robocomp_dsl.runtime.machine import Machine
-from robocomp_dsl.runtime.middleware.registry import open_middleware
 from robocomp_dsl.runtime.parameters import Parameters
 from robocomp_dsl.runtime.time.clock_factory import ComponentHandle, create_clock
+from robocomp_dsl.runtime.time.clock_interface import CLOCK
 
 INTERRUPT_TIMEOUT_S = 1.0
 """Time after a stop request before waiting calls are interrupted."""
@@ -87,12 +88,17 @@ class Runner:
             settings.listen_port,
             fail=self.fail,
             unique_name=True,
+            addresses=settings.addresses,
+            transport_settings=settings.transport_settings,
         )
-        self.middleware_name = settings.middleware or self.spec.middleware
-        self.middleware = open_middleware(self.middleware_name, host)
+        self.ports = open_ports(
+            settings.middleware or self.spec.middleware,
+            host,
+            used={name for port in self.spec.ports for name in self.middlewares_of(port)},
+        )
         owner = ComponentHandle(self.name, self.spec, self.fail, self._is_event_driven)
         self._clock_binding = create_clock(
-            settings.clock.with_prefix(settings.prefix), owner, self.middleware
+            settings.clock.with_prefix(settings.prefix), owner, self.ports
         )
         self.notifier = SystemdNotifier()
         self.worker = self._create_worker(component, clock or self._clock_binding.clock)
@@ -139,7 +145,7 @@ class Runner:
             self.notifier.ping()
 
     def _publish_state(self, state: LifecycleState) -> None:
-        self.middleware.publish_state(state.value)
+        self.ports.publish_state(state.value)
         self.notifier.state_changed(state.value, self.lifecycle.reason)
 
     def _create_worker(self, component: type[Component], clock: Clock) -> Component:
@@ -154,21 +160,38 @@ class Runner:
         worker._request_stop = self.stop
         for port in (*self.spec.requires, *self.spec.publishes):
             publishes = port in self.spec.publishes
-            at = self._endpoint(port.name, port.proxy.INTERFACE, outgoing=not publishes)
+            at = self._endpoint(port, port.proxy.INTERFACE, outgoing=not publishes)
             ports = self._clock_binding.ports
             link = ports.advertise(at) if publishes else ports.proxy(at)
             setattr(worker, port.attribute, port.proxy(link))
         self.params.bind(worker)
         return worker
 
-    def _endpoint(self, port: str, interface: Interface, *, outgoing: bool = False) -> Endpoint:
+    def _endpoint(
+        self, port: ServedPort | CalledPort, interface: Interface, *, outgoing: bool = False
+    ) -> Endpoint:
         """The endpoint of a port; an outgoing port keeps its name, and a remap names its peers."""
         settings = self.settings
-        qos = settings.qos.get(port, Qos())
-        name = port if outgoing else settings.remaps.get(port, port)
         return Endpoint(
-            interface, self.name, name, settings.peers_of(port) if outgoing else (), qos
+            interface,
+            self.name,
+            port.name if outgoing else settings.remaps.get(port.name, port.name),
+            settings.peers_of(port.name) if outgoing else (),
+            settings.qos.get(port.name, Qos()),
+            # All components share the clock, whatever their middlewares are.
+            () if interface.name == CLOCK.name else self.middlewares_of(port),
+            settings.external_records(port.name, self.spec.role_of_peers(port), interface.name),
         )
+
+    def middlewares_of(self, port: ServedPort | CalledPort) -> tuple[str, ...]:
+        """The middlewares of a port, in order of preference."""
+        settings = self.settings
+        external = tuple(peer.middleware for peer in settings.external.get(port.name, ()))
+        if external and port.name not in settings.connections:
+            return tuple(dict.fromkeys(external))
+        chosen = settings.port_middlewares.get(port.name, ())
+        default = (settings.middleware,) if settings.middleware else port.middlewares
+        return tuple(dict.fromkeys((*(chosen or default or (self.spec.middleware,)), *external)))
 
     def _open(self) -> None:
         """Serve and subscribe all ports."""
@@ -185,7 +208,7 @@ class Runner:
             operation: getattr(self.worker, method) for operation, method in port.methods.items()
         }
         serve(
-            self._endpoint(port.name, port.interface, outgoing=outgoing),
+            self._endpoint(port, port.interface, outgoing=outgoing),
             handlers,
             self.callback_group,
         )
@@ -193,11 +216,11 @@ class Runner:
     def start(self) -> None:
         """Serve the interface `Component` and start the lifecycle thread."""
         introspection = Introspection(self)
-        at = self._endpoint("Component", COMPONENT)
-        self.middleware.serve(at, introspection.handlers(), introspection.callback_group)
+        at = Endpoint(COMPONENT, self.name, "Component")
+        self.ports.serve(at, introspection.handlers(), introspection.callback_group)
         # An interface of its own: a new operation in `Component` would change its type hash.
-        at = self._endpoint("Component", COMPONENTSCHEMA)
-        self.middleware.serve(at, introspection.schema_handlers(), introspection.callback_group)
+        at = Endpoint(COMPONENTSCHEMA, self.name, "Component")
+        self.ports.serve(at, introspection.schema_handlers(), introspection.callback_group)
         self._thread.start()
         if self.watchdog:
             self.watchdog.start()
@@ -236,8 +259,9 @@ class Runner:
 
     def _log_started(self) -> None:
         period = f"every {self.spec.period} ms" if self.spec.period else "on events"
-        transport = f"{self.middleware_name}, domain {self.settings.domain}"
-        log.info("running %s (%s)", period, transport)
+        used = dict.fromkeys(name for port in self.spec.ports for name in self.middlewares_of(port))
+        middlewares = ", ".join(used) or self.ports.presence.house
+        log.info("running %s (%s, domain %s)", period, middlewares, self.settings.domain)
 
     def stop(self) -> None:
         """Request a stop; returns immediately, from any thread or signal handler."""
@@ -264,14 +288,14 @@ class Runner:
         self._stop_requests.get()
         self.lifecycle.stop()
         if self.hang or not self._ended.wait(INTERRUPT_TIMEOUT_S):
-            self.middleware.interrupt()
+            self.ports.interrupt()
         timeout = HANG_TIMEOUT_S if self.hang else SHUTDOWN_TIMEOUT_S
         if not self._ended.wait(timeout):
             self._abandon_hook(timeout)
         if self.watchdog:
             self.watchdog.stop()
-        self.middleware.publish_state("")
-        self.middleware.close()
+        self.ports.publish_state("")
+        self.ports.close()
         return not self.abandoned and self._succeeded and not self._failed
 
     def _abandon_hook(self, timeout: float) -> None:

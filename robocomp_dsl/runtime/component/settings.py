@@ -12,10 +12,15 @@ from pathlib import Path
 
 from robocomp_dsl.runtime.component.naming import ANY, resolve_name
 from robocomp_dsl.runtime.connection.endpoint import Qos
+from robocomp_dsl.runtime.presence.port_record import PortRecord
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 
 NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]{0,99}")
 PORT = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,99}")
+MIDDLEWARE = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,49}")
+EXTERNAL = re.compile(
+    r"([^=]+)=(?:([A-Za-z_][A-Za-z0-9_.-]{0,99})@)?([A-Za-z][A-Za-z0-9_]{0,49}):(.*)", re.DOTALL
+)
 MAX_PREFIX_DEPTH = 8
 """Maximum depth of nested namespaces."""
 PRIORITIES = ("background", "low", "normal", "high", "realtime")
@@ -26,23 +31,38 @@ class InvalidSetting(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
+class ExternalPeer:
+    """A program that is no component, at an address that its middleware interprets."""
+
+    name: str
+    middleware: str
+    address: str
+
+
+@dataclass(frozen=True, slots=True)
 class RunSettings:
     """How to run a component. Empty values: the defaults of the component.
 
     `prefix` is the namespace of the component and its peers (see `naming.resolve_name`); `remaps`
     renames ports: a served port is visible under the new name, any other port looks for it.
-    `watchdog` in s: see `ComponentSpec`; None: as there.
+    `port_middlewares` are the choices for single ports; `external` are their peers that are no
+    components. `addresses` of own ports are by middleware and port, `transport_settings` by
+    middleware and key. `watchdog` in s: see `ComponentSpec`; None: as there.
     """
 
     name: str = ""
     prefix: str = ""
     domain: str = "default"
     middleware: str = ""
+    port_middlewares: dict[str, tuple[str, ...]] = field(default_factory=dict)
     config: Path | None = None
     overrides: tuple[str, ...] = ()
     connections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     qos: dict[str, Qos] = field(default_factory=dict)
     remaps: dict[str, str] = field(default_factory=dict)
+    external: dict[str, tuple[ExternalPeer, ...]] = field(default_factory=dict)
+    addresses: dict[tuple[str, str], str] = field(default_factory=dict)
+    transport_settings: dict[tuple[str, str], str] = field(default_factory=dict)
     listen_port: int = 0
     watchdog: float | None = None
     clock: ClockSettings = field(default_factory=ClockSettings)
@@ -50,6 +70,13 @@ class RunSettings:
     def full_name(self, component: str) -> str:
         """The full name of the instance; `component` is the default name."""
         return resolve_name(self.prefix, self.name or component)
+
+    def external_records(self, port: str, role: str, interface: str) -> tuple[PortRecord, ...]:
+        """The external peers of a port as records; `role` is theirs."""
+        return tuple(
+            PortRecord(role, interface, peer.name, port, "", peer.middleware, peer.address)
+            for peer in self.external.get(port, ())
+        )
 
     def peers_of(self, port: str) -> tuple[str, ...]:
         """The peers that an outgoing port is connected to, by full names."""
@@ -99,6 +126,74 @@ def parse_peer(text: str) -> str:
     for name in text.removeprefix("/").split("/"):
         parse_name(name, "component")
     return text
+
+
+def parse_middlewares(texts: Iterable[str]) -> tuple[str, dict[str, tuple[str, ...]]]:
+    """`M` for all ports, `PORT=M,M` for one, in order of preference. Raises `InvalidSetting`."""
+    default = ""
+    ports: dict[str, tuple[str, ...]] = {}
+    for text in texts:
+        port, separator, names = text.rpartition("=")
+        middlewares = tuple(names.split(","))
+        if not all(MIDDLEWARE.fullmatch(name) for name in middlewares) or (
+            not separator and len(middlewares) > 1
+        ):
+            raise InvalidSetting(
+                f"`{text:.80}` is not a middleware; write the name of one, or PORT=NAME,NAME"
+            )
+        if separator:
+            ports[port] = middlewares
+        else:
+            default = names
+    return default, ports
+
+
+def parse_external(texts: Iterable[str]) -> tuple[list[str], dict[str, tuple[ExternalPeer, ...]]]:
+    """Connections to components, unchanged, and those to external peers, by port.
+
+    An external peer is `PORT=M:ADDRESS` or `PORT=NAME@M:ADDRESS`. Raises `InvalidSetting`.
+    """
+    internal: list[str] = []
+    external: dict[str, tuple[ExternalPeer, ...]] = {}
+    for text in texts:
+        found = EXTERNAL.fullmatch(text)
+        if not found:
+            internal.append(text)
+            continue
+        port, name, middleware, address = found.groups()
+        peer = ExternalPeer(name or f"{middleware}:{address}", middleware, address.strip())
+        if not peer.address:
+            raise InvalidSetting(f"`{text:.80}` has no address; write PORT={middleware}:ADDRESS")
+        external[port] = (*external.get(port, ()), peer)
+    return internal, external
+
+
+def parse_addresses(texts: Iterable[str]) -> dict[tuple[str, str], str]:
+    """`PORT=M:ADDRESS`: addresses of own ports by middleware and port. Raises `InvalidSetting`."""
+    parsed: dict[tuple[str, str], str] = {}
+    for text in texts:
+        found = EXTERNAL.fullmatch(text)
+        if not found or found[2] or not found[4].strip():
+            raise InvalidSetting(
+                f"`{text:.80}` is not an address; write PORT=MIDDLEWARE:ADDRESS,"
+                ' such as "Laser=ice:tcp -p 10001"'
+            )
+        parsed[found[3], found[1]] = found[4].strip()
+    return parsed
+
+
+def parse_transport_settings(texts: Iterable[str]) -> dict[tuple[str, str], str]:
+    """`M.KEY=VALUE`: settings of middlewares. Raises `InvalidSetting`."""
+    parsed: dict[tuple[str, str], str] = {}
+    for text in texts:
+        key, separator, value = text.partition("=")
+        middleware, dot, name = key.partition(".")
+        if not (separator and dot and name and MIDDLEWARE.fullmatch(middleware)):
+            raise InvalidSetting(
+                f"`{text:.80}` is not a setting of a middleware; write MIDDLEWARE.KEY=VALUE"
+            )
+        parsed[middleware, name] = value
+    return parsed
 
 
 def parse_connections(texts: Iterable[str]) -> dict[str, tuple[str, ...]]:

@@ -13,12 +13,15 @@ from robocomp_dsl.runtime.parameters import Parameters
 
 @dataclass(frozen=True, slots=True)
 class ServedPort:
-    """An interface that other components use; `methods` maps its operations to methods."""
+    """An interface that other components use; `methods` maps its operations to methods.
+
+    `middlewares` are the marks of the CDSL file, in order of preference; empty: the component's.
+    """
 
     name: str
     interface: Interface
     methods: Mapping[str, str] = field(default_factory=dict)
-    middleware: str = ""
+    middlewares: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +31,7 @@ class CalledPort:
     name: str
     proxy: type[Proxy]
     attribute: str
-    middleware: str = ""
+    middlewares: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,3 +53,14 @@ class ComponentSpec:
     version: str = ""
     machine: MachineSpec | None = None
     watchdog: float = 0.0
+
+    @property
+    def ports(self) -> tuple[ServedPort | CalledPort, ...]:
+        """All ports."""
+        return (*self.implements, *self.requires, *self.publishes, *self.subscribes)
+
+    def role_of_peers(self, port: ServedPort | CalledPort) -> str:
+        """The role of what the port is connected to: `server`, `subscriber` or `publisher`."""
+        if port in self.requires:
+            return "server"
+        return "subscriber" if port in self.publishes else "publisher"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from robocomp_dsl.runtime.component.interface import Interface
+from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +29,9 @@ class Endpoint:
     """One port of one running component. `peers`: its connections, empty for any peer.
 
     A peer is `component`, `component.port`, or `*.port` for that port of any component. "Any" means
-    components on the same branch (`naming.on_same_branch`); of servers, the nearest.
+    components on the same branch (`naming.on_same_branch`); of servers, the nearest. `middlewares`
+    in order of preference; empty: the house transport, for a proxy any. `external` are peers that
+    are no components.
     """
 
     interface: Interface
@@ -36,3 +39,10 @@ class Endpoint:
     port: str
     peers: tuple[str, ...] = ()
     qos: Qos = Qos()
+    middlewares: tuple[str, ...] = ()
+    external: tuple[PortRecord, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """`component.port`."""
+        return f"{self.component}.{self.port}"

@@ -1,8 +1,7 @@
 """Counts lost publications: exactly, for any number of publishers.
 
-In: attachments of messages, and what publishers announce of themselves: a liveliness token with id
-and time of creation, and a queryable for the number of messages so far. Out: the `drops` of an
-operation.
+In: the sequence numbers of messages, and what publishers announce of themselves
+(`presence.publications`). Out: the `drops` of an operation.
 
 A publisher that is younger than the subscription counts from its first message. An older one
 counts from the number that it has when it is discovered.
@@ -10,121 +9,43 @@ counts from the number that it has when it is discovered.
 
 from __future__ import annotations
 
-import contextlib
-import secrets
 import threading
 import time
 from collections import deque
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
-from itertools import count
-from typing import Any
-from urllib.parse import unquote
-
-import zenoh
+from collections.abc import Iterable
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.peer_selection import matches
-from robocomp_dsl.runtime.connection.sequence import (
-    MAX_RATE,
-    SEQUENCE_FORMAT,
-    SequenceTracker,
-)
+from robocomp_dsl.runtime.connection.sequence import MAX_RATE, SequenceTracker
 from robocomp_dsl.runtime.presence import keys
+from robocomp_dsl.runtime.presence.publications import PublishedCount, PublisherRegistry
+from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
 
-COUNT_TIMEOUT_S = 0.2
-"""A publisher replies within a millisecond; one that hangs is not waited for."""
-_ALL_REPLIES: dict[str, Any] = {
-    "timeout": COUNT_TIMEOUT_S,
-    "target": zenoh.QueryTarget.ALL,
-    "consolidation": zenoh.ConsolidationMode.NONE,
-}
 SETTLE_S = 0.02
 """A message that has arrived is passed to its handler within this time, unless one is busy."""
-MAX_PENDING = 32
-"""Attachments are evaluated in batches: this takes a fifth of the time of one by one."""
 MAX_UNKNOWN = 64
 """Publishers that have not announced themselves, and are remembered for the case that they do."""
 
 
-class PublisherCounter:
-    """The publishing side of one port: its id, and a counter for each operation."""
+class LossCounters:
+    """All loss counters of a component."""
 
-    def __init__(self, session: zenoh.Session, domain: str, at: Endpoint) -> None:
-        self.id = secrets.randbits(64)
-        self._prefix = keys.port_key(domain, "n", at)
-        self._counters: dict[str, count[int]] = {}
-        token = keys.PublisherToken(at.component, at.port, self.id, time.monotonic_ns())
-        reply = zenoh.handlers.Callback(self._reply, indirect=False)
-        self._queryable = session.declare_queryable(f"{self._prefix}/*", reply)
-        self._token = session.liveliness().declare_token(token.key(domain))
-
-    def counter(self, operation: str) -> count[int]:
-        """The counter of an operation; `next` of it is safe in any thread."""
-        return self._counters.setdefault(keys.escape_chunk(operation), count())
-
-    def close(self) -> None:
-        """Take back the announcement."""
-        self._token.undeclare()
-        self._queryable.undeclare()
-
-    def _reply(self, query: zenoh.Query) -> None:
-        with contextlib.suppress(zenoh.ZError):  # the session is closing
-            for operation, counter in list(self._counters.items()):
-                number = int(repr(counter)[len("count(") : -1])
-                query.reply(f"{self._prefix}/{operation}", SEQUENCE_FORMAT.pack(self.id, number))
-            query.drop()
-
-
-class PublisherRegistry:
-    """The publishers of a domain that have announced themselves.
-
-    `created`: their ids, with the time of creation (monotonic clock of the machine, ns).
-    """
-
-    def __init__(self, session: zenoh.Session, domain: str) -> None:
-        self._session = session
-        self._domain = domain
-        self.created: dict[int, int] = {}
-        self.counts_at_discovery: dict[tuple[int, str], int] = {}
-        self._loss_counters: list[LossCounter] = []
+    def __init__(self, publishers: PublisherRegistry) -> None:
+        self._publishers = publishers
+        self._counters: list[LossCounter] = []
         self._closed = threading.Event()
-        self._subscriber = session.liveliness().declare_subscriber(
-            f"{keys.domain_prefix(domain)}/a/**", self._on_token, history=True
-        )
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        token = keys.parse_publisher_token(str(sample.key_expr))
-        if token is None or sample.kind == zenoh.SampleKind.DELETE:
-            return  # messages of a publisher that exited may still be in a queue
-        self.created[token.id] = token.created
-        key = keys.counts_key(self._domain, token.component, token.port)
-        with contextlib.suppress(zenoh.ZError):  # the session is closing
-            self._session.get(key, self._on_count, **_ALL_REPLIES)
-
-    def _on_count(self, reply: zenoh.Reply) -> None:
-        for published in _published_counts((reply,)):
-            key = (published.publisher, published.operation)
-            self.counts_at_discovery.setdefault(key, published.number)
-
-    def loss_counter(
-        self, at: Endpoint, counts: OperationCounts, execution: CallbackGroup
-    ) -> LossCounter:
+    def add(self, at: Endpoint, counts: OperationCounts, group: CallbackGroup) -> LossCounter:
         """A new counter for an operation of `at`, which is subscribed to from now on."""
-        self._loss_counters.append(LossCounter(at, counts, self, execution))
-        return self._loss_counters[-1]
+        self._counters.append(LossCounter(at, counts, self._publishers, group))
+        return self._counters[-1]
 
     def settle(self) -> None:
         """Ask all publishers for their numbers, and count what did not arrive in the end."""
-        try:
-            key = f"{keys.domain_prefix(self._domain)}/n/**"
-            replies = list(self._session.get(key, **_ALL_REPLIES))
-        except zenoh.ZError:  # the session is closing
-            return
-        current = list(_published_counts(replies))
-        counters = list(self._loss_counters)
+        current = self._publishers.current_counts()
+        counters = list(self._counters)
         calls = [counter.calls for counter in counters]
         # What arrived before the replies is passed to its handler in the meantime.
         self._closed.wait(SETTLE_S)
@@ -136,37 +57,12 @@ class PublisherRegistry:
         self._closed.set()
 
 
-@dataclass(frozen=True, slots=True)
-class PublishedCount:
-    """How many messages a publisher has published in one operation."""
-
-    publisher: int
-    interface: str
-    hash: str
-    component: str
-    port: str
-    operation: str
-    number: int
-
-
-def _published_counts(replies: Iterable[zenoh.Reply]) -> Iterator[PublishedCount]:
-    """The number in each valid reply."""
-    for reply in replies:
-        sample = reply.ok
-        if sample is None:
-            continue
-        data, chunks = sample.payload.to_bytes(), str(sample.key_expr).split("/")
-        if len(data) == SEQUENCE_FORMAT.size and len(chunks) == 8:
-            publisher, number = SEQUENCE_FORMAT.unpack(data)
-            interface, hash_, component, port = map(unquote, chunks[3:7])
-            yield PublishedCount(publisher, interface, hash_, component, port, chunks[7], number)
-
-
 class LossCounter:
     """Counts the losses of one operation of a subscribing port.
 
     `pending` receives the attachment of each message, which is all that a message costs; `process`
-    evaluates them, and is called when there are more than `MAX_PENDING`.
+    evaluates them, and is called when there are more than
+    `MAX_PENDING_NUMBERS`.
     """
 
     def __init__(

@@ -1,7 +1,6 @@
-"""Protocols of a middleware: channels, and the ports of one component.
+"""Protocols of the ports of one component, and of the channels that its proxies use.
 
-A middleware is a package here, or an entry point of the group `robocomp_dsl.middleware` in another
-distribution: a function from a `ComponentContext` to a `Middleware`. The conformance suite in
+`component_ports.ComponentPorts` implements them for every middleware. The conformance suite in
 `tests/middleware/` defines the behaviour; failures are those of `robocomp_dsl.runtime.errors`.
 """
 
@@ -9,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
 
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
@@ -23,10 +22,11 @@ log = logging.getLogger("robocomp")
 
 @dataclass(frozen=True, slots=True)
 class ComponentContext:
-    """The component that a middleware serves. Components of other domains are invisible.
+    """The component that has the ports. Components of other domains are invisible.
 
-    `listen_port` 0: chosen by the middleware. `fail` ends the component as failed, with a reason; a
-    middleware calls it when one of its threads dies. `unique_name`: opening fails with
+    `listen_port` 0: none. `fail` ends the component as failed, with a reason; a middleware calls it
+    when one of its threads dies. `addresses` are chosen by the user: of middleware and port;
+    `transport_settings` by middleware and key. `unique_name`: opening fails with
     `MiddlewareError` if another process runs a component of this name in the domain; clients share
     names.
     """
@@ -38,6 +38,8 @@ class ComponentContext:
     listen_port: int = 0
     fail: Callable[[str], None] = log.error
     unique_name: bool = False
+    addresses: Mapping[tuple[str, str], str] = field(default_factory=dict)
+    transport_settings: Mapping[tuple[str, str], str] = field(default_factory=dict)
 
 
 class Channel(Protocol):
@@ -55,8 +57,8 @@ class Channel(Protocol):
         """Whether a publication would have a receiver now; cheap, does not wait."""
 
 
-class Middleware(Protocol):
-    """All connections of one component."""
+class Ports(Protocol):
+    """All ports of one component."""
 
     def serve(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup

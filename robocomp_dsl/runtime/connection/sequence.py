@@ -10,9 +10,7 @@ its id, if it lies within what can have been published, and if the following mes
 from __future__ import annotations
 
 import time
-from struct import Struct
 
-SEQUENCE_FORMAT = Struct("<QQ")
 MAX_RATE = 1_000_000
 """Messages per second; a gap is not longer than what can have been published since."""
 MAX_LISTED_GAP = 1024

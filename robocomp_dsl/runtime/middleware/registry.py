@@ -1,51 +1,100 @@
-"""Opens middlewares by name, loaded on demand."""
+"""The known middlewares: built in, or entry points of other distributions; loaded on demand."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from functools import cache
 from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoints
 
-    from robocomp_dsl.runtime.connection.ports import ComponentContext, Middleware
+    from robocomp_dsl.runtime.middleware.transport import Transport, TransportContext
 
 ENTRY_POINT_GROUP = "robocomp_dsl.middleware"
-BUILT_IN = {
-    "inproc": "robocomp_dsl.runtime.middleware.inproc",
-    "zenoh": "robocomp_dsl.runtime.middleware.zenoh.middleware",
-}
+BUILT_IN = ("inproc", "zenoh")
+DEFAULT = "zenoh"
+"""The middleware of a component that names none."""
 
 
 class UnknownMiddleware(Exception):
-    """No middleware has this name; the message lists the known ones."""
+    """No middleware has this name, or it is not installed; the message tells what to do."""
 
 
 def middleware_names() -> list[str]:
-    """Names of all middlewares that can be opened."""
+    """Names of all middlewares."""
     return sorted({*BUILT_IN, *(point.name for point in _entry_points())})
 
 
-def open_middleware(name: str, host: ComponentContext) -> Middleware:
-    """The middleware called `name`, connected for one component.
+@cache
+def description_of(name: str) -> MiddlewareDescription | None:
+    """The description of a middleware; None if there is none of this name."""
+    if name in BUILT_IN:
+        module = import_module(f"robocomp_dsl.runtime.middleware.{name}.description")
+        built_in: MiddlewareDescription = module.MIDDLEWARE
+        return built_in
+    for point in _entry_points():
+        if point.name == name:
+            description: MiddlewareDescription = point.load()
+            return description
+    return None
+
+
+def capabilities_of(name: str) -> Capabilities:
+    """The capabilities of a middleware. Raises `UnknownMiddleware`."""
+    return _require(name).capabilities
+
+
+def known_capabilities(name: str) -> Capabilities | None:
+    """The capabilities of a middleware; None if it is unknown, or not installed."""
+    description = description_of(name)
+    if description is None or missing_modules(description):
+        return None
+    return description.capabilities
+
+
+def missing_modules(description: MiddlewareDescription) -> list[str]:
+    """The modules that a middleware requires and that are not installed."""
+    return [name for name in description.requires if find_spec(name.partition(".")[0]) is None]
+
+
+def open_transport(name: str, context: TransportContext) -> Transport:
+    """The middleware called `name`, opened for one component.
 
     Raises `UnknownMiddleware`, or `MiddlewareError` when it cannot be opened.
     """
-    if name in BUILT_IN:
-        return _open(import_module(BUILT_IN[name]).open_for, host)
-    for point in _entry_points():
-        if point.name == name:
-            return _open(point.load(), host)
-    raise UnknownMiddleware(f"unknown middleware `{name}`; known: {', '.join(middleware_names())}")
+    description = _require(name)
+    if missing := missing_modules(description):
+        raise UnknownMiddleware(
+            f"the middleware `{name}` needs {', '.join(missing)}; {description.install}"
+        )
+    module, _, function = description.opener.partition(":")
+    transport: Transport = getattr(import_module(module), function)(context)
+    return transport
 
 
+def transport_folder(domain: str, name: str) -> Path:
+    """The private folder of a middleware in a domain; it may not exist yet."""
+    from robocomp_dsl.runtime.presence.domain_folder import domain_path  # noqa: PLC0415
+
+    return domain_path(domain) / name
+
+
+def _require(name: str) -> MiddlewareDescription:
+    description = description_of(name)
+    if description is None:
+        known = ", ".join(middleware_names())
+        raise UnknownMiddleware(f"unknown middleware `{name}`; known: {known}")
+    return description
+
+
+@cache
 def _entry_points() -> EntryPoints:
     """Middlewares of other distributions."""
     from importlib.metadata import entry_points  # noqa: PLC0415 - it takes long to load
 
     return entry_points(group=ENTRY_POINT_GROUP)
-
-
-def _open(opener: Callable[[ComponentContext], Middleware], host: ComponentContext) -> Middleware:
-    return opener(host)

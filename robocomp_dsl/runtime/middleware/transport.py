@@ -21,7 +21,7 @@ from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.endpoint import Endpoint
-    from robocomp_dsl.runtime.connection.served_port import ServedPort
+    from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 
 Payload: TypeAlias = Any
 """What travels: bytes, an object of a foreign library, or the values themselves."""
@@ -64,7 +64,7 @@ class BoundOperation(NamedTuple):
     send: Callable[..., Any]
 
 
-class Server(Protocol):
+class PortServer(Protocol):
     """A served port. `address` goes into its record."""
 
     address: str
@@ -83,8 +83,11 @@ class ServiceClient(Protocol):
         `InterfaceMismatch`, `MalformedMessage`, and `ServerLost`.
         """
 
+    def set_timeout(self, seconds: float) -> None:
+        """Limit the calls of operations that are bound from now on."""
+
     def cancel(self) -> None:
-        """End all calls that wait, with `ServerLost`; called from any thread."""
+        """End all calls that wait and all later ones with `ServerLost`; called from any thread."""
 
     def close(self) -> None:
         """Release the connection."""
@@ -123,7 +126,7 @@ class Subscription(Protocol):
 class Transport(Protocol):
     """All connections of one component over one middleware."""
 
-    def serve(self, port: ServedPort) -> Server:
+    def serve(self, port: IncomingPort) -> PortServer:
         """Serve a port: pass requests and commands to its operations."""
 
     def connect(self, at: Endpoint, server: PortRecord, timeout: float) -> ServiceClient:
@@ -132,7 +135,7 @@ class Transport(Protocol):
     def advertise(self, at: Endpoint) -> Publisher:
         """Publish a topic."""
 
-    def subscribe(self, port: ServedPort) -> Subscription:
+    def subscribe(self, port: IncomingPort) -> Subscription:
         """Receive the publications for a port from `port.at.peers`, or from all if empty."""
 
     def close(self) -> None:

@@ -3,7 +3,8 @@
     rc/<domain>/q/<interface>/<hash>/<component>/<port>/<operation>  queries
     rc/<domain>/c/<interface>/<hash>/<component>/<port>/<operation>  commands
     rc/<domain>/t/<interface>/<hash>/<component>/<port>/<operation>  publications
-    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>       token: this port exists
+    rc/<domain>/p/<role>/<interface>/<component>/<port>/<hash>/<middleware>/<address>/<peers>
+                                                                     token: this port exists
     rc/<domain>/s/<component>/<pid>/<state>                          token: this component is alive
     rc/<domain>/a/<component>/<port>/<id>/<created>                  token: a publisher, its id
     rc/<domain>/n/<interface>/<hash>/<component>/<port>/<operation>  number of publications so far
@@ -20,6 +21,7 @@ from typing import Literal
 from urllib.parse import quote, unquote
 
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.presence.port_record import PortRecord
 
 Kind = Literal["q", "c", "t", "n"]
 
@@ -50,26 +52,30 @@ def publisher_of(key: str) -> str:
     return unquote(key.split("/")[5])
 
 
-@dataclass(frozen=True, slots=True)
-class PortToken:
-    """The token of a port; `role` is `server`, `publisher` or `subscriber`."""
+def record_key(domain: str, record: PortRecord) -> str:
+    """The key of the token of a port."""
+    chunks = (
+        record.role,
+        record.interface,
+        record.component,
+        record.port,
+        record.hash,
+        record.middleware,
+        record.address,
+        ",".join(record.peers),
+    )
+    return f"{domain_prefix(domain)}/p/{'/'.join(escape_chunk(chunk) for chunk in chunks)}"
 
-    role: str
-    interface: str
-    component: str
-    port: str
-    hash: str
 
-    def key(self, domain: str) -> str:
-        """The key of the token."""
-        chunks = (self.role, self.interface, self.component, self.port, self.hash)
-        return f"{domain_prefix(domain)}/p/{'/'.join(escape_chunk(chunk) for chunk in chunks)}"
-
-
-def parse_port_token(key: str) -> PortToken | None:
-    """The inverse of `PortToken.key`; None for any other key."""
+def parse_record(key: str) -> PortRecord | None:
+    """The inverse of `record_key`; None for any other key."""
     chunks = [unquote(chunk) for chunk in key.split("/")]
-    return PortToken(*chunks[3:]) if len(chunks) == 8 and chunks[2] == "p" else None
+    if len(chunks) != 11 or chunks[2] != "p":
+        return None
+    hash_, middleware, address, peers = ("" if chunk == "_" else chunk for chunk in chunks[7:])
+    names = tuple(peers.split(",")) if peers else ()
+    role, interface, component, port = chunks[3:7]
+    return PortRecord(role, interface, component, port, hash_, middleware, address, names)
 
 
 def state_key(domain: str, component: str, pid: int, state: str) -> str:

@@ -1,70 +1,71 @@
-"""Registry of the ports of a domain, kept up to date by liveliness tokens.
+"""Registry of the ports of a domain; a presence keeps it up to date.
 
-In: a session. Out: the ports that exist now, and a wait until a port exists.
+In: records that appear and disappear. Out: the ports that exist now, a wait until a port exists,
+and a callback when one is lost.
 """
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Callable
 
-import zenoh
+from robocomp_dsl.runtime.presence.port_record import PortRecord
 
-from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.peer_selection import log
-from robocomp_dsl.runtime.presence.keys import PortToken, domain_prefix, parse_port_token
+log = logging.getLogger("robocomp")
 
 
 class PortRegistry:
     """The ports of a domain; `version` changes with every change."""
 
-    def __init__(self, session: zenoh.Session, domain: str) -> None:
-        self._ports: dict[str, PortToken] = {}
-        self._cancellation_tokens: dict[PortToken, zenoh.CancellationToken] = {}
-        self._expected_peers: dict[tuple[str, str], Endpoint] = {}
+    def __init__(self) -> None:
+        self._records: dict[str, PortRecord] = {}
+        self._on_lost: dict[PortRecord, list[Callable[[], None]]] = {}
+        self._expected_peers: dict[tuple[str, str], tuple[str, str]] = {}
         self._changed = threading.Condition()
         self.version = 0
         self.closed = False
-        self._subscriber = session.liveliness().declare_subscriber(
-            f"{domain_prefix(domain)}/p/**", self._on_token, history=True
-        )
 
-    def _on_token(self, sample: zenoh.Sample) -> None:
-        key = str(sample.key_expr)
-        ended = None
+    def add(self, key: str, record: PortRecord) -> None:
+        """A port exists; `key` identifies it for `remove`."""
         with self._changed:
-            if sample.kind == zenoh.SampleKind.DELETE:
-                gone = self._ports.pop(key, None)
-                ended = self._cancellation_tokens.pop(gone, None) if gone else None
-            else:
-                found = parse_port_token(key)
-                if found:
-                    self._ports[key] = found
-                    self._check_version(found)
-            self.version += 1
-            self._changed.notify_all()
-        if ended:
-            ended.cancel()
+            self._records[key] = record
+            self._check_version(record)
+            self._notify()
 
-    def warn_on_mismatch(self, role: str, at: Endpoint) -> None:
+    def remove(self, key: str) -> None:
+        """A port exists no longer."""
+        with self._changed:
+            lost = self._records.pop(key, None)
+            ended = lost is not None and lost not in self._records.values()
+            callbacks = self._on_lost.pop(lost, []) if lost and ended else []
+            self._notify()
+        for callback in callbacks:
+            callback()
+
+    def _notify(self) -> None:
+        self.version += 1
+        self._changed.notify_all()
+
+    def warn_on_mismatch(self, role: str, interface: str, hash_: str, component: str) -> None:
         """Log a warning when a port of the other side of a topic has another interface version.
 
         Its messages would not arrive, without any error.
         """
         with self._changed:
-            self._expected_peers[role, at.interface.name] = at
-            for token in self._matching(role, at.interface.name):
-                self._check_version(token)
+            self._expected_peers[role, interface] = (hash_, component)
+            for record in self._matching(role, interface):
+                self._check_version(record)
 
-    def _check_version(self, token: PortToken) -> None:
-        at = self._expected_peers.get((token.role, token.interface))
-        if at and token.hash != at.interface.hash.hex():
+    def _check_version(self, record: PortRecord) -> None:
+        expected = self._expected_peers.get((record.role, record.interface))
+        if expected and record.hash and record.hash != expected[0]:
             log.warning(
                 "%s and %s cannot communicate: they were generated from different versions of"
                 " %s (InterfaceMismatch); generate both from the same IDSL file",
-                at.component,
-                token.component,
-                token.interface,
+                expected[1],
+                record.component,
+                record.interface,
             )
 
     def invalidate(self) -> None:
@@ -72,44 +73,42 @@ class PortRegistry:
         with self._changed:
             self.version += 1
 
-    def cancellation_token(self, token: PortToken) -> zenoh.CancellationToken:
-        """The token that cancels calls of a port when it exits; zenoh would wait for a time-out.
-
-        The token of a port that has already exited is cancelled.
-        """
+    def on_lost(self, record: PortRecord, callback: Callable[[], None]) -> None:
+        """Call `callback` once when the port is lost or `interrupt` is called; at once if it is."""
         with self._changed:
-            if token in self._ports.values():
-                return self._cancellation_tokens.setdefault(token, zenoh.CancellationToken())
-        ended = zenoh.CancellationToken()
-        ended.cancel()
-        return ended
+            present = not self.closed and record in self._records.values()
+            if present:
+                self._on_lost.setdefault(record, []).append(callback)
+        if not present:
+            callback()
 
-    def find(self, role: str, interface: str) -> list[PortToken]:
-        """The ports with a role and an interface."""
+    def find(self, role: str, interface: str) -> list[PortRecord]:
+        """The ports with a role and an interface, in the order in which they appeared."""
         with self._changed:
             return self._matching(role, interface)
 
-    def _matching(self, role: str, interface: str) -> list[PortToken]:
-        every = self._ports.values()
-        return [token for token in every if token.role == role and token.interface == interface]
+    def _matching(self, role: str, interface: str) -> list[PortRecord]:
+        every = self._records.values()
+        return [record for record in every if record.role == role and record.interface == interface]
 
     def wait(
-        self, role: str, interface: str, fits: Callable[[PortToken], bool], seconds: float
-    ) -> list[PortToken]:
+        self, role: str, interface: str, fits: Callable[[PortRecord], bool], seconds: float
+    ) -> list[PortRecord]:
         """The matching ports, waiting at most `seconds` for the first one."""
 
-        def fitting() -> list[PortToken]:
-            return [token for token in self._matching(role, interface) if fits(token)]
+        def fitting() -> list[PortRecord]:
+            return [record for record in self._matching(role, interface) if fits(record)]
 
         with self._changed:
             self._changed.wait_for(lambda: fitting() or self.closed, max(seconds, 0.0))
             return fitting()
 
     def interrupt(self) -> None:
-        """Wake all waiting threads and cancel all calls."""
+        """Wake all waiting threads, and report all ports as lost."""
         with self._changed:
             self.closed = True
-            ends = list(self._cancellation_tokens.values())
-            self._changed.notify_all()
-        for end in ends:
-            end.cancel()
+            callbacks = [callback for each in self._on_lost.values() for callback in each]
+            self._on_lost.clear()
+            self._notify()
+        for callback in callbacks:
+            callback()

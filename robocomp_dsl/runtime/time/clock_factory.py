@@ -14,7 +14,7 @@ from robocomp_dsl.runtime.clock import Clock, WallClock
 from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.spec import ComponentSpec
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
-from robocomp_dsl.runtime.connection.ports import Middleware
+from robocomp_dsl.runtime.connection.ports import Ports
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.time.clock_interface import (
     CLOCK,
@@ -28,7 +28,7 @@ from robocomp_dsl.runtime.time.clock_settings import LOCKSTEP, WALL, ClockSettin
 from robocomp_dsl.runtime.time.clock_source import ClockSource
 from robocomp_dsl.runtime.time.lockstep.coordinator import FOLLOWER_PORT, LockstepCoordinator
 from robocomp_dsl.runtime.time.lockstep.follower import LockstepClock
-from robocomp_dsl.runtime.time.lockstep.ports import LockstepMiddleware
+from robocomp_dsl.runtime.time.lockstep.ports import LockstepPorts
 from robocomp_dsl.runtime.time.simulated_clock import SimulatedClock
 
 LEADER_PORT = "Leader"
@@ -48,7 +48,7 @@ class ClockBinding:
     """
 
     clock: Clock
-    ports: Middleware
+    ports: Ports
     open: Callable[[], None] = _nothing
     close: Callable[[], None] = _nothing
 
@@ -64,7 +64,7 @@ class ComponentHandle:
 
 
 def create_clock(
-    settings: ClockSettings, owner: ComponentHandle, middleware: Middleware
+    settings: ClockSettings, owner: ComponentHandle, middleware: Ports
 ) -> ClockBinding:
     """The clock that `settings` select for the component `owner`."""
     if settings.kind == WALL:
@@ -78,7 +78,7 @@ def create_clock(
 
 
 def _bind_source(
-    settings: ClockSettings, owner: ComponentHandle, middleware: Middleware, port: str
+    settings: ClockSettings, owner: ComponentHandle, middleware: Ports, port: str
 ) -> ClockBinding:
     proxy = ClockProxy(middleware.advertise(Endpoint(CLOCK, owner.name, port)))
 
@@ -92,7 +92,7 @@ def _bind_source(
     def now() -> int:
         return source.nanoseconds
 
-    ports = LockstepMiddleware(middleware, settings.limit, now, lambda _ns: None)
+    ports = LockstepPorts(middleware, settings.limit, now, lambda _ns: None)
     coordinator = LockstepCoordinator(middleware, owner.name, settings, ports, owner.fail)
     source = ClockSource(publish, coordinator)
 
@@ -104,14 +104,14 @@ def _bind_source(
 
 
 def _bind_lockstep(
-    settings: ClockSettings, owner: ComponentHandle, middleware: Middleware
+    settings: ClockSettings, owner: ComponentHandle, middleware: Ports
 ) -> ClockBinding:
     follower = LockstepClock(settings.limit, owner.is_event_driven)
 
     def now() -> int:
         return follower.nanoseconds
 
-    ports = LockstepMiddleware(middleware, settings.limit, now, follower.set_time)
+    ports = LockstepPorts(middleware, settings.limit, now, follower.set_time)
 
     def serve() -> None:
         at = Endpoint(FOLLOWER, owner.name, FOLLOWER_PORT)
@@ -130,7 +130,7 @@ def _bind_lockstep(
 
 
 def _bind_simulated(
-    settings: ClockSettings, owner: ComponentHandle, middleware: Middleware
+    settings: ClockSettings, owner: ComponentHandle, middleware: Ports
 ) -> ClockBinding:
     clock = SimulatedClock()
     peers = (settings.source,) if settings.source else ()

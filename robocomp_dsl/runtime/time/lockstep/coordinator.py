@@ -14,12 +14,12 @@ from dataclasses import dataclass
 
 from robocomp_dsl.runtime.clock import NANO
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.ports import Middleware
+from robocomp_dsl.runtime.connection.ports import Ports
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer
 from robocomp_dsl.runtime.time.clock_interface import FOLLOWER, FollowerProxy, Hearer, Tick
 from robocomp_dsl.runtime.time.clock_settings import ClockSettings
 from robocomp_dsl.runtime.time.lockstep.follower import NEVER
-from robocomp_dsl.runtime.time.lockstep.ports import LockstepMiddleware
+from robocomp_dsl.runtime.time.lockstep.ports import LockstepPorts
 
 FOLLOWER_PORT = "Follower"
 START_TIMEOUT_S = 60.0
@@ -50,10 +50,10 @@ class LockstepCoordinator:
 
     def __init__(
         self,
-        middleware: Middleware,
+        middleware: Ports,
         name: str,
         settings: ClockSettings,
-        ports: LockstepMiddleware,
+        ports: LockstepPorts,
         fail: Callable[[str], None],
     ) -> None:
         self._settings = settings

@@ -13,7 +13,7 @@ from typing import Any
 from robocomp_dsl.runtime.clock import NANO, WakeEvent
 from robocomp_dsl.runtime.deprecated import DeprecatedClockNames
 from robocomp_dsl.runtime.time.clock_interface import Due, Hearer, Tick
-from robocomp_dsl.runtime.time.lockstep.ports import LockstepMiddleware
+from robocomp_dsl.runtime.time.lockstep.ports import LockstepPorts
 
 NEVER = -1
 
@@ -73,7 +73,7 @@ class LockstepClock(DeprecatedClockNames):
         with self._changed:
             self._changed.notify_all()
 
-    def handlers(self, ports: LockstepMiddleware) -> Mapping[str, Any]:
+    def handlers(self, ports: LockstepPorts) -> Mapping[str, Any]:
         """Handlers by operation name."""
 
         def introduce() -> list[Hearer]:

@@ -1,6 +1,6 @@
 """Ports of a component in lock-step: every message is a call that returns when it was handled.
 
-In: a middleware. Out: a `Middleware` that wraps it. Each interface has a timed interface, whose
+In: a middleware. Out: a `Ports` that wraps it. Each interface has a timed interface, whose
 operations are all queries and carry the simulated time, to which the receiver's clock is set.
 Components in lock-step use the timed interfaces; other programs still see the plain ones.
 """
@@ -17,7 +17,7 @@ from robocomp_dsl.runtime.component.callback_group import CallbackGroup
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.peer_selection import matches
-from robocomp_dsl.runtime.connection.ports import Channel, Middleware, OperationCallable
+from robocomp_dsl.runtime.connection.ports import Channel, OperationCallable, Ports
 from robocomp_dsl.runtime.data.schema import LONG
 from robocomp_dsl.runtime.errors import MiddlewareError, NoServer, RemoteError
 from robocomp_dsl.runtime.time.clock_interface import CLOCK, Hearer
@@ -46,15 +46,20 @@ def timed_interface(interface: Interface) -> Interface:
     )
 
 
-class LockstepMiddleware:
-    """Middleware of a lock-step component.
+def _timed_endpoint(at: Endpoint) -> Endpoint:
+    """The timed port of `at`, on the house transport."""
+    return replace(at, interface=timed_interface(at.interface), middlewares=(), external=())
+
+
+class LockstepPorts:
+    """Ports of a lock-step component.
 
     `now` returns the time in ns to send; `set_time` receives the time of incoming messages.
     """
 
     def __init__(
         self,
-        inner: Middleware,
+        inner: Ports,
         limit: float,
         now: Callable[[], int],
         set_time: Callable[[int], None],
@@ -69,17 +74,17 @@ class LockstepMiddleware:
     def serve(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
     ) -> None:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         self._inner.serve(at, handlers, execution)
         self._serve_timed(at, handlers, execution)
 
     def proxy(self, at: Endpoint) -> Channel:
-        """See `base.Middleware`."""
-        link = self._inner.proxy(replace(at, interface=timed_interface(at.interface)))
+        """See `Ports`."""
+        link = self._inner.proxy(_timed_endpoint(at))
         return LockstepChannel(link, timed_interface(at.interface), self._now)
 
     def advertise(self, at: Endpoint) -> Channel:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         link = self._inner.advertise(at)
         if at.interface.name == CLOCK.name:
             return link
@@ -90,7 +95,7 @@ class LockstepMiddleware:
     def subscribe(
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
     ) -> None:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         if at.interface.name == CLOCK.name:
             self._inner.subscribe(at, handlers, execution)
             return
@@ -102,7 +107,7 @@ class LockstepMiddleware:
         self, at: Endpoint, handlers: Mapping[str, OperationCallable], execution: CallbackGroup
     ) -> None:
         timed = {name: self._timed(handler) for name, handler in handlers.items()}
-        self._inner.serve(replace(at, interface=timed_interface(at.interface)), timed, execution)
+        self._inner.serve(_timed_endpoint(at), timed, execution)
 
     def _timed(self, handler: OperationCallable) -> OperationCallable:
         set_time = self._set_time
@@ -120,19 +125,19 @@ class LockstepMiddleware:
             topic.connect(everyone)
 
     def find_servers(self, interface: Interface, timeout: float) -> list[str]:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         return self._inner.find_servers(interface, timeout)
 
     def publish_state(self, state: str) -> None:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         self._inner.publish_state(state)
 
     def interrupt(self) -> None:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         self._inner.interrupt()
 
     def close(self) -> None:
-        """See `base.Middleware`."""
+        """See `Ports`."""
         self._inner.close()
 
 
@@ -146,7 +151,7 @@ class LockstepChannel:
 
     @property
     def timeout(self) -> float:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.timeout
 
     @timeout.setter
@@ -154,16 +159,16 @@ class LockstepChannel:
         self._channel.timeout = seconds
 
     def bind(self, operation: Operation) -> OperationCallable:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         call, now = self._channel.bind(self._interface.operation(operation.name)), self._now
         return lambda *arguments: call(now(), *arguments)
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.wait(timeout)
 
     def has_subscribers(self) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return self._channel.has_subscribers()
 
 
@@ -171,7 +176,7 @@ class LockstepTopicChannel:
     """Publishes to its subscribers one after the other, in the order of their names."""
 
     def __init__(
-        self, link: Channel, at: Endpoint, inner: Middleware, now: Callable[[], int], limit: float
+        self, link: Channel, at: Endpoint, inner: Ports, now: Callable[[], int], limit: float
     ) -> None:
         self._channel = link
         self._at = at
@@ -210,7 +215,7 @@ class LockstepTopicChannel:
         return channel
 
     def bind(self, operation: Operation) -> OperationCallable:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         plain, name = self._channel.bind(operation), operation.name
 
         def publish(*arguments: Any) -> None:
@@ -232,9 +237,9 @@ class LockstepTopicChannel:
             log.log(level, "%s no longer receives %s: %s", hearer, self._at.port, error)
 
     def wait(self, timeout: float) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return bool(self._calls) or self._channel.wait(timeout)
 
     def has_subscribers(self) -> bool:
-        """See `base.Channel`."""
+        """See `ports.Channel`."""
         return bool(self._calls) or self._channel.has_subscribers()

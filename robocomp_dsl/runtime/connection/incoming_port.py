@@ -33,20 +33,29 @@ MAX_PENDING_NUMBERS = 32
 log = logging.getLogger("robocomp")
 
 
-class ServedOperation:
+class IncomingOperation:
     """One operation of a served or subscribed port.
 
     `handle` passes arguments to the handler under the callback group; `numbers` takes the number of
     each publication, for the losses.
     """
 
-    __slots__ = ("_port", "_reported", "counts", "handle", "losses", "numbers", "operation")
+    __slots__ = (
+        "_handler",
+        "_port",
+        "_reported",
+        "counts",
+        "handle",
+        "losses",
+        "numbers",
+        "operation",
+    )
 
     def __init__(
         self,
         operation: Operation,
         handler: OperationCallable,
-        port: ServedPort,
+        port: IncomingPort,
         losses: LossCounter | None = None,
     ) -> None:
         self.operation = operation
@@ -55,16 +64,17 @@ class ServedOperation:
         self.losses = losses
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
-        self.handle: Handle = self.handle_by(handler)
+        self._handler = handler
+        self.handle: Handle = self.handle_within(port.callback_group.acquire)
 
-    def handle_by(self, handler: OperationCallable) -> Handle:
-        """A function that calls `handler`, and counts and times the call.
+    def handle_within(self, acquire: Callable[[], object]) -> Handle:
+        """A function that calls the handler, and counts and times the call.
 
-        Code that runs for every message uses local names and is inlined: its thread has just been
-        woken, and its caches are cold.
+        `acquire` takes a slot of the callback group. Code that runs for every message uses local
+        names and is inlined: its thread has just been woken, and its caches are cold.
         """
-        counts, group = self.counts, self._port.callback_group
-        acquire, release, holders = group.acquire, group.release, group.holders
+        counts, group, handler = self.counts, self._port.callback_group, self._handler
+        release, holders = group.release, group.holders
         process = self.losses.process if self.losses else None
         numbers = self.numbers
 
@@ -115,7 +125,7 @@ class ServedOperation:
                 log.warning("rejected a message for %s: %s", what, error)
 
 
-class ServedPort:
+class IncomingPort:
     """One served or subscribed port of a component on one middleware."""
 
     def __init__(
@@ -131,12 +141,12 @@ class ServedPort:
         self.callback_group = callback_group
         self.statistics = statistics
         self.fail = fail
-        self.operations: dict[str, ServedOperation] = {}
+        self.operations: dict[str, IncomingOperation] = {}
         for operation in at.interface.operations:
             if operation.name in handlers:
                 counts = statistics.of(at.port, operation.name)
                 counter = losses(counts) if losses else None
-                self.operations[operation.name] = ServedOperation(
+                self.operations[operation.name] = IncomingOperation(
                     operation, handlers[operation.name], self, counter
                 )
         self._receivers: list[LeaderFollowerQueue] = []

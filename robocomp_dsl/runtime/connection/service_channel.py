@@ -1,0 +1,197 @@
+"""The calling side of a service, over any transport.
+
+In: a port, its selector, and a function that connects a server. Out: functions that call the
+operations. A call releases the callback group while it waits; a lost server is searched again.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from threading import get_ident
+from time import perf_counter_ns
+from typing import Any, TypeAlias
+
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
+from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, OperationCounts
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.connection.server_selector import ServerSelector
+from robocomp_dsl.runtime.errors import NoServer
+from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost, ServiceClient
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+
+Connect: TypeAlias = Callable[[Endpoint, PortRecord, float], ServiceClient]
+DEFAULT_TIMEOUT_S = 10.0
+
+
+class ServiceChannel:
+    """Calls the component that serves the interface, also after a restart of that component."""
+
+    def __init__(
+        self,
+        context: ComponentContext,
+        registry: PortRegistry,
+        selector: ServerSelector,
+        connect: Connect,
+    ) -> None:
+        self._at = selector.at
+        self._context = context
+        self._registry = registry
+        self._selector = selector
+        self._connect = connect
+        self._timeout = DEFAULT_TIMEOUT_S
+        self._lock = threading.Lock()
+        self._server: PortRecord | None = None
+        self._client: ServiceClient | None = None
+        self._bound: dict[str, BoundOperation] = {}
+
+    @property
+    def timeout(self) -> float:
+        """Seconds that a call may take."""
+        return self._timeout
+
+    @timeout.setter
+    def timeout(self, seconds: float) -> None:
+        with self._lock:
+            self._timeout = seconds
+            self._bound.clear()
+            if self._client:
+                self._client.set_timeout(seconds)
+        # Bound calls bind again when the version of the registry changes.
+        self._registry.invalidate()
+
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `ports.Channel`."""
+        counts = self._context.statistics.of(self._at.port, operation.name)
+        if operation.pattern is Pattern.COMMAND:
+            return self._command(operation, counts)
+        return self._query(operation, counts)
+
+    def _query(self, operation: Operation, counts: OperationCounts) -> OperationCallable:
+        group, registry = self._context.callback_group, self._registry
+        pause, resume, holders = group.pause, group.resume, group.holders
+        version = -1
+        encode: Any = None
+        send: Any = None
+
+        def query(*arguments: Any) -> Any:
+            nonlocal version, encode, send
+            counts.calls += 1
+            start = 0 if counts.calls % TIMING_INTERVAL else perf_counter_ns()
+            paused = 0
+            try:
+                if version != registry.version:
+                    seen = registry.version
+                    encode, send = self._bind(operation, counts)
+                    version = seen  # set last: without a server, the next call searches again
+                data = encode(arguments)
+                paused = pause() if get_ident() in holders else 0
+                try:
+                    result = send(data)
+                except ServerLost:
+                    result = self._retry(operation, counts, arguments)
+            except BaseException:
+                counts.failures += 1
+                raise
+            finally:
+                if paused:
+                    resume(paused)
+            if start:
+                counts.durations.add(perf_counter_ns() - start)
+            return result
+
+        return query
+
+    def _command(self, operation: Operation, counts: OperationCounts) -> OperationCallable:
+        registry = self._registry
+        version = -1
+        encode: Any = None
+        send: Any = None
+
+        def command(*arguments: Any) -> None:
+            nonlocal version, encode, send
+            counts.calls += 1
+            try:
+                if version != registry.version:
+                    seen = registry.version
+                    encode, send = self._bind(operation, counts)
+                    version = seen
+                send(encode(arguments))
+            except ServerLost:
+                counts.failures += 1
+                raise self._server_lost(operation) from None
+            except BaseException:
+                counts.failures += 1
+                raise
+
+        return command
+
+    def _bind(
+        self, operation: Operation, counts: OperationCounts, seconds: float | None = None
+    ) -> BoundOperation:
+        """The operation of the current server. Raises what `ServerSelector.find` raises."""
+        server = self._selector.find(seconds)
+        with self._lock:
+            if server != self._server or self._client is None:
+                self._replace_client(server)
+            client = self._client
+            assert client is not None  # noqa: S101 - it has just been connected
+            bound = self._bound.get(operation.name)
+            if bound is None:
+                bound = self._bound[operation.name] = client.bind(operation, counts)
+            return bound
+
+    def _replace_client(self, server: PortRecord) -> None:
+        former, self._client, self._server = self._client, None, None
+        self._bound.clear()
+        if former:
+            former.close()
+        client = self._connect(self._at, server, self._timeout)
+        self._client, self._server = client, server
+        if server not in self._at.external:
+            self._registry.on_lost(server, client.cancel)
+
+    def _retry(
+        self, operation: Operation, counts: OperationCounts, arguments: tuple[Any, ...]
+    ) -> Any:
+        """No reply arrived: call the next server if the operation is idempotent."""
+        self._forget_external()
+        if operation.idempotent and not self._registry.closed:
+            bound = self._bind(operation, counts, self._timeout)
+            try:
+                return bound.send(bound.encode(arguments))
+            except ServerLost:
+                self._forget_external()
+        raise self._server_lost(operation)
+
+    def _forget_external(self) -> None:
+        """Connect an external server again for the next call: no presence reports its restart."""
+        with self._lock:
+            if self._server in self._at.external:
+                self._server = None
+                self._bound.clear()
+        self._registry.invalidate()
+
+    def _server_lost(self, operation: Operation) -> Exception:
+        """The exception without any reply: the server exited, or this component is stopping."""
+        if self._registry.closed:
+            who = self._at.component
+            return NoServer(f"{who}, which called {self._at.port}.{operation.name}, is stopping")
+        return NoServer(f"{self._at.port}.{operation.name}: the component that served it exited")
+
+    def wait(self, timeout: float) -> bool:
+        """See `ports.Channel`."""
+        return self._selector.wait(timeout)
+
+    def has_subscribers(self) -> bool:
+        """See `ports.Channel`."""
+        return self.wait(0.0)
+
+    def close(self) -> None:
+        """Release the connection."""
+        with self._lock:
+            if self._client:
+                self._client.close()
+            self._client = self._server = None

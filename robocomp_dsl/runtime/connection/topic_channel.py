@@ -1,0 +1,178 @@
+"""The publishing side of a topic, over one or several transports.
+
+In: a port, and its publisher on each middleware. Out: functions that publish. Subscribers are
+attached when the port registry changes, by the thread that publishes.
+"""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from typing import Any
+
+from robocomp_dsl.runtime.component.interface import Operation
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.peer_selection import matches
+from robocomp_dsl.runtime.connection.ports import ComponentContext, OperationCallable
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities
+from robocomp_dsl.runtime.middleware.transport import Publisher
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+from robocomp_dsl.runtime.presence.presence import PublicationNumbers
+from robocomp_dsl.runtime.presence.sequence_format import SEQUENCE_FORMAT
+
+
+@dataclass(slots=True)
+class PublishedPort:
+    """The port on one middleware; `numbers` is None if its publications carry none."""
+
+    middleware: str
+    capabilities: Capabilities
+    publisher: Publisher
+    numbers: PublicationNumbers | None = None
+
+
+class TopicChannel:
+    """Publishes to all subscribers."""
+
+    def __init__(
+        self,
+        context: ComponentContext,
+        registry: PortRegistry,
+        at: Endpoint,
+        ports: list[PublishedPort],
+    ) -> None:
+        self.timeout = 0.0
+        self._context = context
+        self._registry = registry
+        self._at = at
+        self._ports = ports
+        self._attaching = [p for p in ports if p.capabilities.attaches_subscribers]
+        self._attached: dict[tuple[str, PortRecord], PublishedPort] = {}
+        self._version = -1
+        self._lock = threading.Lock()
+
+    def bind(self, operation: Operation) -> OperationCallable:
+        """See `ports.Channel`."""
+        functions = [self._bind_port(port, operation) for port in self._ports]
+        publish = functions[0] if len(functions) == 1 else _publish_on_all(functions)
+        if not self._attaching:
+            return publish
+
+        def attach_and_publish(*arguments: Any) -> None:
+            if self._version != self._registry.version:
+                self._attach()
+            publish(*arguments)
+
+        return attach_and_publish
+
+    def _bind_port(self, port: PublishedPort, operation: Operation) -> OperationCallable:
+        counts = self._context.statistics.of(self._at.port, operation.name)
+        encode, send = port.publisher.bind(operation, counts)
+        if port.numbers is None:
+
+            def publish_plain(*arguments: Any) -> None:
+                send(encode(arguments), b"")
+                counts.calls += 1
+
+            return publish_plain
+        publisher_id, sequence = port.numbers.id, port.numbers.counter(operation.name)
+        pack = SEQUENCE_FORMAT.pack
+
+        def publish(*arguments: Any) -> None:
+            data = encode(arguments)
+            send(data, pack(publisher_id, next(sequence)))
+            counts.calls += 1
+
+        return publish
+
+    def _attach(self) -> None:
+        """Attach the subscribers that have appeared, and detach those that are gone."""
+        with self._lock:
+            version = self._registry.version
+            current = self._subscribers_to_attach()
+            for key, port in list(self._attached.items()):
+                if key not in current:
+                    del self._attached[key]
+                    port.publisher.detach(key[1])
+            for key, port in current.items():
+                if key not in self._attached:
+                    self._attached[key] = port
+                    port.publisher.attach(key[1])
+            self._version = version
+
+    def _subscribers_to_attach(self) -> dict[tuple[str, PortRecord], PublishedPort]:
+        """Each subscriber once: on the first middleware of this port that it has."""
+        found = self._registry.find("subscriber", self._at.interface.name)
+        current: dict[tuple[str, PortRecord], PublishedPort] = {}
+        reached = {
+            record.name
+            for record in found
+            for port in self._ports
+            if record.middleware == port.middleware and port not in self._attaching
+        }
+        for port in self._attaching:
+            for record in found:
+                if (
+                    record.middleware == port.middleware
+                    and record.name not in reached
+                    and self._is_subscriber(record)
+                ):
+                    current[port.middleware, record] = port
+            reached |= {record.name for _, record in current}
+        return current
+
+    def _is_subscriber(self, record: PortRecord) -> bool:
+        """Whether a port on the same middleware subscribes to this one."""
+        at = Endpoint(self._at.interface, record.component, record.port, record.peers)
+        return (
+            any(port.middleware == record.middleware for port in self._ports)
+            and record.hash == self._at.interface.hash.hex()
+            and matches(at, self._at.component, self._at.port)
+        )
+
+    def _is_other_subscriber(self, record: PortRecord) -> bool:
+        return record.component != self._at.component and self._is_subscriber(record)
+
+    def wait(self, timeout: float) -> bool:
+        """See `ports.Channel`."""
+        if self._at.external:
+            return True
+        paused = self._context.callback_group.pause()
+        try:
+            name = self._at.interface.name
+            return bool(self._registry.wait("subscriber", name, self._is_other_subscriber, timeout))
+        finally:
+            if paused:
+                self._context.callback_group.resume(paused)
+
+    def has_subscribers(self) -> bool:
+        """See `ports.Channel`; subscribers that are no components count, too."""
+        if self._attaching and self._version != self._registry.version:
+            self._attach()
+        if self._attached:
+            return True
+        for port in self._ports:
+            known = port.publisher.has_subscribers()
+            if known or (known is None and self._knows_subscriber()):
+                return True
+        return False
+
+    def _knows_subscriber(self) -> bool:
+        found = self._registry.find("subscriber", self._at.interface.name)
+        return any(self._is_subscriber(record) for record in found)
+
+    def close(self) -> None:
+        """End the port on all middlewares."""
+        for port in self._ports:
+            port.publisher.close()
+            if port.numbers:
+                port.numbers.close()
+
+
+def _publish_on_all(functions: list[OperationCallable]) -> OperationCallable:
+    def publish(*arguments: Any) -> None:
+        for function in functions:
+            function(*arguments)
+
+    return publish

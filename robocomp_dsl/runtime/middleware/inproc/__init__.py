@@ -1,0 +1,1 @@
+"""inproc: components of one process call each other directly."""

@@ -1,0 +1,14 @@
+"""inproc: direct calls between components of one process."""
+
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
+
+MIDDLEWARE = MiddlewareDescription(
+    name="inproc",
+    summary="direct calls between components of one process, for tests",
+    capabilities=Capabilities(
+        between_processes=False,
+        attaches_subscribers=True,
+        reports_source=True,
+    ),
+    opener="robocomp_dsl.runtime.middleware.inproc.transport:open_transport",
+)

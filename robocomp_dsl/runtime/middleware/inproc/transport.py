@@ -1,0 +1,201 @@
+"""inproc transport: components of one process call each other directly.
+
+A query runs in the thread of the caller, in the callback group of the server; a command or a
+publication is queued and handled by a thread of the receiver. Values are passed by reference, not
+copied: receivers must not modify them.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from itertools import count
+from typing import Any
+
+from robocomp_dsl.runtime.component.interface import Operation, Pattern
+from robocomp_dsl.runtime.component.statistics import OperationCounts
+from robocomp_dsl.runtime.component.user_errors import message_of
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
+from robocomp_dsl.runtime.connection.message_queue import MessageQueue
+from robocomp_dsl.runtime.errors import DeclaredError, RemoteError, Timeout
+from robocomp_dsl.runtime.middleware.transport import (
+    BoundOperation,
+    ServerLost,
+    TransportContext,
+)
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+
+_numbers = count()
+_ports: dict[str, InprocPort] = {}
+
+
+def open_transport(_context: TransportContext) -> InprocTransport:
+    """The in-process transport of one component."""
+    return InprocTransport()
+
+
+class InprocPort:
+    """A served or subscribed port, found by its address. `alive` is false after it was closed."""
+
+    def __init__(self, port: IncomingPort) -> None:
+        self.address = f"{os.getpid()}-{next(_numbers)}"
+        self.port = port
+        self.queue = MessageQueue(port)
+        self.alive = True
+        _ports[self.address] = self
+
+    def close(self) -> None:
+        """See `PortServer`."""
+        self.alive = False
+        _ports.pop(self.address, None)
+        self.queue.close()
+
+
+class InprocTransport:
+    """All connections of one component within the process."""
+
+    def serve(self, port: IncomingPort) -> InprocPort:
+        """See `Transport`."""
+        return InprocPort(port)
+
+    def subscribe(self, port: IncomingPort) -> InprocPort:
+        """See `Transport`."""
+        return InprocPort(port)
+
+    def connect(self, at: Endpoint, server: PortRecord, timeout: float) -> InprocServiceClient:
+        """See `Transport`."""
+        served = _ports.get(server.address)
+        if served is None:  # it has been closed since
+            raise ServerLost(server.name)
+        return InprocServiceClient(at, served, timeout)
+
+    def advertise(self, at: Endpoint) -> InprocPublisher:
+        """See `Transport`."""
+        return InprocPublisher(at)
+
+    def close(self) -> None:
+        """See `Transport`."""
+
+
+class InprocServiceClient:
+    """Calls a served port of this process."""
+
+    def __init__(self, at: Endpoint, server: InprocPort, timeout: float) -> None:
+        self._at = at
+        self._server = server
+        self._timeout = timeout
+
+    def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:  # noqa: ARG002
+        """See `ServiceClient`."""
+        served = self._server.port.operations[operation.name]
+        if operation.pattern is Pattern.COMMAND:
+            return BoundOperation(_unchanged, self._command(served))
+        return BoundOperation(_unchanged, self._query(operation, served))
+
+    def _command(self, served: IncomingOperation) -> Callable[[tuple[Any, ...]], None]:
+        server = self._server
+        put, handle = server.queue.put, served.handle
+
+        def command(arguments: tuple[Any, ...]) -> None:
+            if not server.alive:
+                raise ServerLost
+            put(served, handle, arguments)
+
+        return command
+
+    def _query(
+        self, operation: Operation, served: IncomingOperation
+    ) -> Callable[[tuple[Any, ...]], Any]:
+        server, name = self._server, self._server.port.at.name
+        handle = served.handle_within(self._acquire)
+
+        def query(arguments: tuple[Any, ...]) -> Any:
+            if not server.alive:
+                raise ServerLost
+            try:
+                return handle(arguments)
+            except Timeout:
+                raise
+            except BaseException as error:
+                served.report(error)
+                if declared := _as_declared(error, served.operation, operation.throws):
+                    raise declared  # noqa: B904 - nearly always the same exception
+                what = f"{type(error).__name__}: {message_of(error)}"
+                raise RemoteError(f"{name}.{operation.name} failed: {what}") from error
+
+        return query
+
+    def _acquire(self) -> None:
+        """Take a slot of the server's callback group, waiting at most for the timeout."""
+        if not self._server.port.callback_group.acquire(True, self._timeout):
+            name = self._server.port.at.name
+            raise Timeout(f"{name} was busy for {self._timeout:g} s")
+
+    def set_timeout(self, seconds: float) -> None:
+        """See `ServiceClient`."""
+        self._timeout = seconds
+
+    def cancel(self) -> None:
+        """Nothing to do: a call runs in the thread of the caller."""
+
+    def close(self) -> None:
+        """Nothing to release."""
+
+
+class InprocPublisher:
+    """Publishes into the queue of each subscriber."""
+
+    def __init__(self, at: Endpoint) -> None:
+        self.address = f"{os.getpid()}-{next(_numbers)}"
+        self._source = at.name
+        self._subscribers: dict[PortRecord, InprocPort] = {}
+
+    def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:  # noqa: ARG002
+        """See `Publisher`."""
+        name = operation.name
+
+        def send(arguments: tuple[Any, ...], _number: bytes) -> None:
+            for subscriber in tuple(self._subscribers.values()):
+                served = subscriber.port.operations.get(name)
+                if served:
+                    subscriber.queue.put(served, served.handle, arguments)
+
+        return BoundOperation(_unchanged, send)
+
+    def attach(self, subscriber: PortRecord) -> None:
+        """See `Publisher`."""
+        if port := _ports.get(subscriber.address):
+            self._subscribers[subscriber] = port
+
+    def detach(self, subscriber: PortRecord) -> None:
+        """See `Publisher`."""
+        self._subscribers.pop(subscriber, None)
+
+    def has_subscribers(self) -> bool:
+        """See `Publisher`."""
+        return bool(self._subscribers)
+
+    def close(self) -> None:
+        """See `Publisher`."""
+        self._subscribers.clear()
+
+
+def _unchanged(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    return arguments
+
+
+def _as_declared(
+    error: BaseException, operation: Operation, throws: tuple[type[DeclaredError], ...]
+) -> DeclaredError | None:
+    """The exception as the caller declares it: two generated packages have classes of their own.
+
+    None if the `operation` of the server does not declare it.
+    """
+    if not isinstance(error, DeclaredError):
+        return None
+    if isinstance(error, throws):
+        return error
+    if type(error) not in operation.throws:
+        return None
+    return throws[operation.throws.index(type(error))](*error._astuple())

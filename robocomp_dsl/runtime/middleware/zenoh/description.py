@@ -1,0 +1,16 @@
+"""zenoh: the house transport, between processes of one machine."""
+
+from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
+
+MIDDLEWARE = MiddlewareDescription(
+    name="zenoh",
+    summary="the default: components in any processes of one machine",
+    capabilities=Capabilities(
+        sequence_numbers=True,
+        reports_source=True,
+        qos=frozenset({"reliable", "priority"}),
+    ),
+    opener="robocomp_dsl.runtime.middleware.zenoh.transport:open_transport",
+    requires=("zenoh",),
+    install="run: pip install eclipse-zenoh",
+)

@@ -1,0 +1,56 @@
+"""Protocol of a presence: makes the ports of a component known, and knows those of others."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+
+
+class PublicationNumbers(Protocol):
+    """Numbers the publications of one port. `id` is the random id of the publisher."""
+
+    id: int
+
+    def counter(self, operation: str) -> Any:
+        """An iterator over the numbers of an operation; `next` of it is safe in any thread."""
+
+    def close(self) -> None:
+        """Take back the announcement."""
+
+
+class Presence(Protocol):
+    """The presence of one component, or of a client, in one domain.
+
+    `house` is the middleware that shares its connection: the interface `Component`, clocks and
+    lock-step use it.
+    """
+
+    house: str
+    registry: PortRegistry
+
+    def declare(self, record: PortRecord) -> None:
+        """Make a port known; after it was opened, so that it can be used when it is seen."""
+
+    def withdraw(self, record: PortRecord) -> None:
+        """Make a port unknown."""
+
+    def find_servers(self, interface: str, timeout: float) -> list[str]:
+        """The components that serve `interface`, sorted; waits up to `timeout` s for the first."""
+
+    def publish_state(self, state: str) -> None:
+        """Publish the lifecycle state to monitors of the domain; "" before the end."""
+
+    def number_publications(self, at: Endpoint) -> PublicationNumbers:
+        """Announce a publisher whose messages carry numbers."""
+
+    def publishers(self) -> Any:
+        """The `PublisherRegistry` of the domain; None if this presence counts no publications."""
+
+    def interrupt(self) -> None:
+        """Wake all waiting threads; ports count as lost from now on."""
+
+    def close(self) -> None:
+        """Leave the domain."""

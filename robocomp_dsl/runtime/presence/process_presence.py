@@ -1,0 +1,106 @@
+"""Presence within this process: for components that only connect to each other.
+
+In: a domain. Out: a `Presence` that other processes do not see; nothing is opened.
+"""
+
+from __future__ import annotations
+
+import threading
+from itertools import count
+
+from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.presence.port_record import PortRecord
+from robocomp_dsl.runtime.presence.port_registry import PortRegistry
+
+
+class _Domain:
+    """The ports of one domain in this process, and the registries that follow them."""
+
+    def __init__(self) -> None:
+        self.lock = threading.RLock()
+        self.records: dict[str, PortRecord] = {}
+        self.registries: list[PortRegistry] = []
+
+
+_domains: dict[str, _Domain] = {}
+_domains_lock = threading.Lock()
+_keys = count()
+
+
+class ProcessPresence:
+    """A `Presence` within the process."""
+
+    house = "inproc"
+
+    def __init__(self, domain: str) -> None:
+        self.registry = PortRegistry()
+        self._name = domain
+        self._own: dict[PortRecord, str] = {}
+        with _domains_lock:
+            self._domain = _domains.setdefault(domain, _Domain())
+            with self._domain.lock:
+                self._domain.registries.append(self.registry)
+                for key, record in self._domain.records.items():
+                    self.registry.add(key, record)
+
+    def declare(self, record: PortRecord) -> None:
+        """See `Presence`."""
+        key = str(next(_keys))
+        with self._domain.lock:
+            self._own[record] = key
+            self._domain.records[key] = record
+            for registry in self._domain.registries:
+                registry.add(key, record)
+
+    def withdraw(self, record: PortRecord) -> None:
+        """See `Presence`."""
+        with self._domain.lock:
+            key = self._own.pop(record, None)
+            if key is None:
+                return
+            del self._domain.records[key]
+            registries = list(self._domain.registries)
+        for registry in registries:
+            registry.remove(key)
+
+    def find_servers(self, interface: str, timeout: float) -> list[str]:
+        """See `Presence`."""
+        found = self.registry.wait("server", interface, lambda _record: True, timeout)
+        return sorted({record.component for record in found})
+
+    def publish_state(self, state: str) -> None:
+        """No effect: other processes cannot monitor this one."""
+
+    def number_publications(self, at: Endpoint) -> ProcessNumbers:  # noqa: ARG002 - see Presence
+        """See `Presence`."""
+        return ProcessNumbers()
+
+    def publishers(self) -> None:
+        """See `Presence`: losses are counted by the queues of this process."""
+
+    def interrupt(self) -> None:
+        """See `Presence`."""
+        self.registry.interrupt()
+
+    def close(self) -> None:
+        """See `Presence`."""
+        for record in list(self._own):
+            self.withdraw(record)
+        with _domains_lock, self._domain.lock:
+            if self.registry in self._domain.registries:
+                self._domain.registries.remove(self.registry)
+            if not self._domain.registries:
+                _domains.pop(self._name, None)
+
+
+class ProcessNumbers:
+    """Numbers of publications that nobody asks for."""
+
+    id = 0
+
+    def counter(self, operation: str) -> count[int]:  # noqa: ARG002 - see PublicationNumbers
+        """See `PublicationNumbers`."""
+        return count()
+
+    def close(self) -> None:
+        """Nothing was announced."""
