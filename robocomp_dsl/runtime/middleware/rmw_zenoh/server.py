@@ -14,7 +14,7 @@ from typing import Any
 import zenoh
 
 from robocomp_dsl.runtime.codec.failures import encode_failure
-from robocomp_dsl.runtime.connection.served_port import ServedOperation, ServedPort
+from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_channel
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
 from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import TopicReceiver
@@ -29,7 +29,7 @@ DEPTH = 256
 class RmwZenohServer:
     """One served port; `address` is its ROS name."""
 
-    def __init__(self, session: RosSession, port: ServedPort, name: str) -> None:
+    def __init__(self, session: RosSession, port: IncomingPort, name: str) -> None:
         self.address = name
         self._session = session
         self._declared: list[Any] = []
@@ -39,7 +39,7 @@ class RmwZenohServer:
             else:
                 self._serve(port, served)
 
-    def _serve(self, port: ServedPort, served: ServedOperation) -> None:
+    def _serve(self, port: IncomingPort, served: IncomingOperation) -> None:
         channel = service_channel(self.address, port.interface, served.operation)
         key = channel.key(self._session.domain_id)
         queue: Any = zenoh.handlers.FifoChannel(port.at.qos.depth or DEPTH)
@@ -56,7 +56,7 @@ class RmwZenohServer:
             entry.undeclare()
 
 
-def _answer(served: ServedOperation, key: str) -> Callable[[zenoh.Query], None]:
+def _answer(served: IncomingOperation, key: str) -> Callable[[zenoh.Query], None]:
     operation, counts, handle = served.operation, served.counts, served.handle
     decode, encode = padded(operation.decode_request), operation.encode_reply
 

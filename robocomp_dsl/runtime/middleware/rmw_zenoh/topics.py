@@ -16,7 +16,7 @@ import zenoh
 import zenoh.ext
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
-from robocomp_dsl.runtime.connection.served_port import ServedOperation, ServedPort
+from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
 from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_channel
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
@@ -74,7 +74,7 @@ class TopicReceiver:
     """Receives one topic for one operation; `name` is that of the port."""
 
     def __init__(
-        self, session: RosSession, port: ServedPort, served: ServedOperation, name: str
+        self, session: RosSession, port: IncomingPort, served: IncomingOperation, name: str
     ) -> None:
         qos = port.at.qos
         self.channel = topic_channel(name, port.interface, served.operation)
@@ -111,7 +111,7 @@ class TopicReceiver:
             self._queue.close()
 
 
-def _sample_handler(served: ServedOperation) -> Callable[[zenoh.Sample], None]:
+def _sample_handler(served: IncomingOperation) -> Callable[[zenoh.Sample], None]:
     counts, handle = served.counts, served.handle
     decode = padded(served.operation.decode_request)
     latest: dict[bytes, int] = {}
@@ -143,7 +143,7 @@ def _lost(received: bytes, latest: dict[bytes, int]) -> int:
 class RmwZenohSubscription:
     """A subscribed port; `address` are the topics that it receives."""
 
-    def __init__(self, session: RosSession, port: ServedPort, topics: tuple[str, ...]) -> None:
+    def __init__(self, session: RosSession, port: IncomingPort, topics: tuple[str, ...]) -> None:
         self.address = topics_address(topics)
         self._receivers = [
             TopicReceiver(session, port, served, topic)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.served_port import ServedPort
+from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.middleware.rmw_zenoh.client import RmwZenohClient
 from robocomp_dsl.runtime.middleware.rmw_zenoh.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_channel
@@ -31,7 +31,7 @@ class RmwZenohTransport:
         self._context = context
         self._session = RosSession(context.component, context.settings)
 
-    def serve(self, port: ServedPort) -> RmwZenohServer:
+    def serve(self, port: IncomingPort) -> RmwZenohServer:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=False)
         return RmwZenohServer(self._session, port, port_name(port.at, self._context.addresses))
@@ -53,7 +53,7 @@ class RmwZenohTransport:
         name = port_name(at, self._context.addresses)
         return RosPublisher(at, name, MIDDLEWARE.name, open_topic)
 
-    def subscribe(self, port: ServedPort) -> RmwZenohSubscription:
+    def subscribe(self, port: IncomingPort) -> RmwZenohSubscription:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=True)
         topics = subscribed_topics(port.at, self._context.addresses, MIDDLEWARE.name)

@@ -10,8 +10,8 @@ from typing import Any
 
 from rclpy.serialization import deserialize_message, serialize_message
 
+from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
-from robocomp_dsl.runtime.connection.served_port import ServedOperation, ServedPort
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
 from robocomp_dsl.runtime.middleware.ros2.node import RosNode
 from robocomp_dsl.runtime.middleware.ros2.ros_types import service_class
@@ -24,7 +24,7 @@ from robocomp_dsl.runtime.middleware.ros_common.payload import padded
 class Ros2Server:
     """One served port; `address` is its ROS name."""
 
-    def __init__(self, ros: RosNode, graph: GraphCheck, port: ServedPort, name: str) -> None:
+    def __init__(self, ros: RosNode, graph: GraphCheck, port: IncomingPort, name: str) -> None:
         self.address = name
         self._queue = MessageQueue(port)
         self._endpoints: list[_ServiceEndpoint | TopicReceiver] = []
@@ -53,8 +53,8 @@ class _ServiceEndpoint:
     def __init__(
         self,
         ros: RosNode,
-        port: ServedPort,
-        served: ServedOperation,
+        port: IncomingPort,
+        served: IncomingOperation,
         name: str,
         queue: MessageQueue,
     ) -> None:

@@ -13,8 +13,8 @@ from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallba
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
+from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
-from robocomp_dsl.runtime.connection.served_port import ServedOperation, ServedPort
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
 from robocomp_dsl.runtime.middleware.ros2.node import RosNode
 from robocomp_dsl.runtime.middleware.ros2.qos import publisher_profile, subscription_profile
@@ -63,8 +63,8 @@ class TopicReceiver:
         self,
         ros: RosNode,
         graph: GraphCheck,
-        port: ServedPort,
-        served: ServedOperation,
+        port: IncomingPort,
+        served: IncomingOperation,
         name: str,
         queue: MessageQueue,
     ) -> None:
@@ -111,7 +111,7 @@ class Ros2Subscription:
     """A subscribed port; `address` are the topics that it receives."""
 
     def __init__(
-        self, ros: RosNode, graph: GraphCheck, port: ServedPort, topics: tuple[str, ...]
+        self, ros: RosNode, graph: GraphCheck, port: IncomingPort, topics: tuple[str, ...]
     ) -> None:
         self.address = topics_address(topics)
         self._queue = MessageQueue(port)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from robocomp_dsl.runtime.component.interface import Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.connection.served_port import ServedPort
+from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.middleware.ros2.client import Ros2Client
 from robocomp_dsl.runtime.middleware.ros2.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
@@ -32,7 +32,7 @@ class Ros2Transport:
         self._ros = RosNode(context.component, context.settings)
         self._graph = GraphCheck(self._ros)
 
-    def serve(self, port: ServedPort) -> Ros2Server:
+    def serve(self, port: IncomingPort) -> Ros2Server:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=False)
         name = port_name(port.at, self._context.addresses)
@@ -54,7 +54,7 @@ class Ros2Transport:
         name = port_name(at, self._context.addresses)
         return RosPublisher(at, name, MIDDLEWARE.name, open_topic)
 
-    def subscribe(self, port: ServedPort) -> Ros2Subscription:
+    def subscribe(self, port: IncomingPort) -> Ros2Subscription:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=True)
         topics = subscribed_topics(port.at, self._context.addresses, MIDDLEWARE.name)
