@@ -159,7 +159,7 @@ def test_forged_attachments_change_no_losses(network: Network, forgery: str) -> 
         news.announced("p", number)
         wait_until(lambda n=number: gate.has(("p", n)), "the message has arrived")
         if number % 10 == 5:
-            attachment = FORGERIES[forgery](channel._counter.id, number)
+            attachment = FORGERIES[forgery](channel._ports[0].numbers.id, number)
             before = len(gate.numbers)
             publisher.put(payload, attachment=attachment)
             wait_until(lambda b=before: len(gate.numbers) > b, "the forged message has arrived")

@@ -158,7 +158,7 @@ def _run(
     log_days: float,
 ) -> Outcome:
     from robocomp_dsl.cli.rcdeploy.terminal import Terminal  # noqa: PLC0415 - not for --help
-    from robocomp_dsl.deploy.supervisor.zenoh_monitor import ZenohMonitor  # noqa: PLC0415
+    from robocomp_dsl.deploy.supervisor.domain_monitor import DomainMonitor  # noqa: PLC0415
     from robocomp_dsl.runtime.errors import MiddlewareError  # noqa: PLC0415
 
     try:
@@ -166,7 +166,7 @@ def _run(
     except (NameTaken, UnsafeFolder, OSError) as error:
         return Outcome(EXIT_FINDINGS, str(error))
     try:
-        watch = ZenohMonitor(plan.domain)
+        watch = DomainMonitor(plan.domain)
     except MiddlewareError as error:
         reservation.release()
         return Outcome(EXIT_FINDINGS, str(error))

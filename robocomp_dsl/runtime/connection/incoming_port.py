@@ -10,6 +10,7 @@ from __future__ import annotations
 import logging
 from collections import deque
 from collections.abc import Callable, Mapping
+from functools import partial
 from threading import get_ident
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -21,7 +22,7 @@ from robocomp_dsl.runtime.component.statistics import TIMING_INTERVAL, Operation
 from robocomp_dsl.runtime.component.user_errors import log_failure
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.ports import OperationCallable
-from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage
+from robocomp_dsl.runtime.errors import EncodeError, MalformedMessage, Timeout
 
 if TYPE_CHECKING:
     from robocomp_dsl.runtime.connection.losses import LossCounter
@@ -65,15 +66,17 @@ class IncomingOperation:
         self.numbers: deque[bytes] = losses.pending if losses else deque(maxlen=1)
         self.counts: OperationCounts = port.statistics.of(port.at.port, operation.name)
         self._handler = handler
-        self.handle: Handle = self.handle_within(port.callback_group.acquire)
+        self.handle: Handle = self.handle_within(None)
 
-    def handle_within(self, acquire: Callable[[], object]) -> Handle:
+    def handle_within(self, timeout: float | None) -> Handle:
         """A function that calls the handler, and counts and times the call.
 
-        `acquire` takes a slot of the callback group. Code that runs for every message uses local
-        names and is inlined: its thread has just been woken, and its caches are cold.
+        It raises `Timeout` if the callback group has no slot within `timeout` s. Code that runs for
+        every message uses local names and is inlined: its thread has just been woken, and its
+        caches are cold.
         """
         counts, group, handler = self.counts, self._port.callback_group, self._handler
+        acquire = group.acquire if timeout is None else partial(group.acquire, True, timeout)
         release, holders = group.release, group.holders
         process = self.losses.process if self.losses else None
         numbers = self.numbers
@@ -81,7 +84,8 @@ class IncomingOperation:
         def handle(arguments: tuple[Any, ...]) -> Any:
             counts.calls += 1
             if counts.calls % TIMING_INTERVAL:
-                acquire()
+                if not acquire():
+                    raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
                 holders[get_ident()] = perf_counter_ns()
                 try:
                     return handler(*arguments)
@@ -89,7 +93,8 @@ class IncomingOperation:
                     holders.pop(get_ident(), None)
                     release()
             start = perf_counter_ns()
-            acquire()
+            if not acquire():
+                raise Timeout(f"{self._port.at.name} was busy for {timeout} s")
             holders[get_ident()] = perf_counter_ns()
             try:
                 return handler(*arguments)

@@ -71,7 +71,8 @@ class ServiceChannel:
 
     def _query(self, operation: Operation, counts: OperationCounts) -> OperationCallable:
         group, registry = self._context.callback_group, self._registry
-        pause, resume, holders = group.pause, group.resume, group.holders
+        acquire, release = group.acquire, group.release
+        holders, handoffs = group.holders, group.handoffs
         version = -1
         encode: Any = None
         send: Any = None
@@ -80,14 +81,21 @@ class ServiceChannel:
             nonlocal version, encode, send
             counts.calls += 1
             start = 0 if counts.calls % TIMING_INTERVAL else perf_counter_ns()
-            paused = 0
+            began = 0
+            me = get_ident()
             try:
                 if version != registry.version:
                     seen = registry.version
                     encode, send = self._bind(operation, counts)
                     version = seen  # set last: without a server, the next call searches again
-                data = encode(arguments)
-                paused = pause() if get_ident() in holders else 0
+                data = encode(arguments) if encode else arguments
+                # As `group.pause` and `resume`, which would take as long as the rest.
+                began = holders.pop(me, 0)
+                if began:
+                    release()
+                    handoff = handoffs.get(me)
+                    if handoff:
+                        handoff()
                 try:
                     result = send(data)
                 except ServerLost:
@@ -96,8 +104,9 @@ class ServiceChannel:
                 counts.failures += 1
                 raise
             finally:
-                if paused:
-                    resume(paused)
+                if began:
+                    acquire()
+                    holders[me] = began
             if start:
                 counts.durations.add(perf_counter_ns() - start)
             return result
@@ -118,7 +127,7 @@ class ServiceChannel:
                     seen = registry.version
                     encode, send = self._bind(operation, counts)
                     version = seen
-                send(encode(arguments))
+                send(encode(arguments) if encode else arguments)
             except ServerLost:
                 counts.failures += 1
                 raise self._server_lost(operation) from None
@@ -161,7 +170,7 @@ class ServiceChannel:
         if operation.idempotent and not self._registry.closed:
             bound = self._bind(operation, counts, self._timeout)
             try:
-                return bound.send(bound.encode(arguments))
+                return bound.send(bound.encode(arguments) if bound.encode else arguments)
             except ServerLost:
                 self._forget_external()
         raise self._server_lost(operation)

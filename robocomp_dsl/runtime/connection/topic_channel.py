@@ -69,6 +69,7 @@ class TopicChannel:
     def _bind_port(self, port: PublishedPort, operation: Operation) -> OperationCallable:
         counts = self._context.statistics.of(self._at.port, operation.name)
         encode, send = port.publisher.bind(operation, counts)
+        encode = encode or _unchanged
         if port.numbers is None:
 
             def publish_plain(*arguments: Any) -> None:
@@ -168,6 +169,10 @@ class TopicChannel:
             port.publisher.close()
             if port.numbers:
                 port.numbers.close()
+
+
+def _unchanged(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    return arguments
 
 
 def _publish_on_all(functions: list[OperationCallable]) -> OperationCallable:

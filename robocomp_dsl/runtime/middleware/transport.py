@@ -55,12 +55,13 @@ class BoundOperation(NamedTuple):
     """An operation of one connection, ready to be called.
 
     `encode` converts the tuple of arguments, while the caller holds its callback group; it raises
-    `EncodeError`. `send` sends a payload without it. Of a query, `send(payload)` returns the result
-    of the operation; of a command it returns None; of a publication it is `send(payload, number)`,
-    where `number` are the 16 bytes of `SEQUENCE_FORMAT`, or empty without `sequence_numbers`.
+    `EncodeError`. None: the tuple itself is the payload. `send` sends a payload without the
+    callback group. Of a query, `send(payload)` returns the result of the operation; of a command it
+    returns None; of a publication it is `send(payload, number)`, where `number` are the 16 bytes of
+    `SEQUENCE_FORMAT`, or empty without `sequence_numbers`.
     """
 
-    encode: Callable[[tuple[Any, ...]], Payload]
+    encode: Callable[[tuple[Any, ...]], Payload] | None
     send: Callable[..., Any]
 
 

@@ -26,6 +26,11 @@ class StateMonitor:
         self._states: dict[tuple[str, int], str] = {}
         self._on_state_changed: StateCallback | None = None
 
+    @property
+    def session(self) -> zenoh.Session:
+        """The session of the monitor."""
+        return self._opened.session
+
     def start(self, on_state_changed: StateCallback) -> None:
         """Start monitoring. Reports the components that are already alive first."""
         self._on_state_changed = on_state_changed

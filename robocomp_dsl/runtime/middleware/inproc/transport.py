@@ -90,8 +90,8 @@ class InprocServiceClient:
         """See `ServiceClient`."""
         served = self._server.port.operations[operation.name]
         if operation.pattern is Pattern.COMMAND:
-            return BoundOperation(_unchanged, self._command(served))
-        return BoundOperation(_unchanged, self._query(operation, served))
+            return BoundOperation(None, self._command(served))
+        return BoundOperation(None, self._query(operation, served))
 
     def _command(self, served: IncomingOperation) -> Callable[[tuple[Any, ...]], None]:
         server = self._server
@@ -108,7 +108,7 @@ class InprocServiceClient:
         self, operation: Operation, served: IncomingOperation
     ) -> Callable[[tuple[Any, ...]], Any]:
         server, name = self._server, self._server.port.at.name
-        handle = served.handle_within(self._acquire)
+        handle = served.handle_within(self._timeout)
 
         def query(arguments: tuple[Any, ...]) -> Any:
             if not server.alive:
@@ -125,12 +125,6 @@ class InprocServiceClient:
                 raise RemoteError(f"{name}.{operation.name} failed: {what}") from error
 
         return query
-
-    def _acquire(self) -> None:
-        """Take a slot of the server's callback group, waiting at most for the timeout."""
-        if not self._server.port.callback_group.acquire(True, self._timeout):
-            name = self._server.port.at.name
-            raise Timeout(f"{name} was busy for {self._timeout:g} s")
 
     def set_timeout(self, seconds: float) -> None:
         """See `ServiceClient`."""
@@ -161,7 +155,7 @@ class InprocPublisher:
                 if served:
                     subscriber.queue.put(served, served.handle, arguments)
 
-        return BoundOperation(_unchanged, send)
+        return BoundOperation(None, send)
 
     def attach(self, subscriber: PortRecord) -> None:
         """See `Publisher`."""
@@ -179,10 +173,6 @@ class InprocPublisher:
     def close(self) -> None:
         """See `Publisher`."""
         self._subscribers.clear()
-
-
-def _unchanged(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    return arguments
 
 
 def _as_declared(
