@@ -21,12 +21,19 @@ from robocomp_dsl.runtime.data.schema import (
     DOUBLE,
     FLOAT,
     INT,
+    INT8,
     LONG,
+    OCTET,
     SHORT,
     STRING,
+    UINT16,
+    UINT32,
+    UINT64,
     Array,
     Dictionary,
     Enum,
+    Length,
+    MaxLength,
     Primitive,
     Sequence,
     Type,
@@ -53,12 +60,23 @@ Long: TypeAlias = Annotated[int, LONG]
 Float: TypeAlias = Annotated[float, FLOAT]
 Double: TypeAlias = Annotated[float, DOUBLE]
 String: TypeAlias = Annotated[str, STRING]
+# Only imported ROS types have these.
+Int8: TypeAlias = Annotated[int, INT8]
+Octet: TypeAlias = Annotated[int, OCTET]
+UInt16: TypeAlias = Annotated[int, UINT16]
+UInt32: TypeAlias = Annotated[int, UINT32]
+UInt64: TypeAlias = Annotated[int, UINT64]
 
 BoolArray: TypeAlias = Annotated[NDArray[np.bool_], Array(BOOL)]
 UInt8Array: TypeAlias = Annotated[NDArray[np.uint8], Array(BYTE)]
 Int16Array: TypeAlias = Annotated[NDArray[np.int16], Array(SHORT)]
 Int32Array: TypeAlias = Annotated[NDArray[np.int32], Array(INT)]
 Int64Array: TypeAlias = Annotated[NDArray[np.int64], Array(LONG)]
+Int8Array: TypeAlias = Annotated[NDArray[np.int8], Array(INT8)]
+OctetArray: TypeAlias = Annotated[NDArray[np.uint8], Array(OCTET)]
+UInt16Array: TypeAlias = Annotated[NDArray[np.uint16], Array(UINT16)]
+UInt32Array: TypeAlias = Annotated[NDArray[np.uint32], Array(UINT32)]
+UInt64Array: TypeAlias = Annotated[NDArray[np.uint64], Array(UINT64)]
 Float32Array: TypeAlias = Annotated[NDArray[np.float32], Array(FLOAT)]
 Float64Array: TypeAlias = Annotated[NDArray[np.float64], Array(DOUBLE)]
 
@@ -67,6 +85,11 @@ UInt8Column: TypeAlias = Column[np.uint8]
 Int16Column: TypeAlias = Column[np.int16]
 Int32Column: TypeAlias = Column[np.int32]
 Int64Column: TypeAlias = Column[np.int64]
+Int8Column: TypeAlias = Column[np.int8]
+OctetColumn: TypeAlias = Column[np.uint8]
+UInt16Column: TypeAlias = Column[np.uint16]
+UInt32Column: TypeAlias = Column[np.uint32]
+UInt64Column: TypeAlias = Column[np.uint64]
 Float32Column: TypeAlias = Column[np.float32]
 Float64Column: TypeAlias = Column[np.float64]
 
@@ -76,9 +99,14 @@ __all__ = [
     "DOUBLE",
     "FLOAT",
     "INT",
+    "INT8",
     "LONG",
+    "OCTET",
     "SHORT",
     "STRING",
+    "UINT16",
+    "UINT32",
+    "UINT64",
     "AmbiguousServer",
     "Array",
     "Bool",
@@ -103,14 +131,22 @@ __all__ = [
     "Int32Column",
     "Int64Array",
     "Int64Column",
+    "Int8",
+    "Int8Array",
+    "Int8Column",
     "Interface",
     "InterfaceMismatch",
+    "Length",
     "Long",
     "MalformedMessage",
+    "MaxLength",
     "MiddlewareError",
     "NestedColumn",
     "NoServer",
     "NotImplementedOperation",
+    "Octet",
+    "OctetArray",
+    "OctetColumn",
     "Operation",
     "Pattern",
     "Primitive",
@@ -123,6 +159,15 @@ __all__ = [
     "StructArray",
     "Timeout",
     "Type",
+    "UInt16",
+    "UInt16Array",
+    "UInt16Column",
+    "UInt32",
+    "UInt32Array",
+    "UInt32Column",
+    "UInt64",
+    "UInt64Array",
+    "UInt64Column",
     "UInt8Array",
     "UInt8Column",
     "default",

@@ -22,7 +22,7 @@ class NodeType(rt.Enum):
     DisplayII = 12
 
 
-class AttributeType(rt.Struct):
+class AttributeType(rt.Struct, type_id="RoboCompInnerModelManager::AttributeType"):
     """RoboCompInnerModelManager::AttributeType."""
 
     type: rt.String = ""
@@ -32,7 +32,7 @@ class AttributeType(rt.Struct):
 AttributeMap = dict[rt.String, AttributeType]
 
 
-class NodeInformation(rt.Struct):
+class NodeInformation(rt.Struct, type_id="RoboCompInnerModelManager::NodeInformation"):
     """One node; the root has an empty `parentId`."""
 
     id: rt.String = ""
@@ -59,7 +59,9 @@ class ErrorType(rt.Enum):
     Collision = 9
 
 
-class InnerModelManagerError(rt.DeclaredError):
+class InnerModelManagerError(
+    rt.DeclaredError, type_id="RoboCompInnerModelManager::InnerModelManagerError"
+):
     """The request is rejected and the scene unchanged; `err` and `text` give the
     reason.
     """
@@ -68,7 +70,7 @@ class InnerModelManagerError(rt.DeclaredError):
     text: rt.String = ""
 
 
-class Colored3DPoint(rt.Struct):
+class Colored3DPoint(rt.Struct, type_id="RoboCompInnerModelManager::Colored3DPoint"):
     """RoboCompInnerModelManager::Colored3DPoint."""
 
     x: rt.Float = 0.0  # [mm]
@@ -91,7 +93,7 @@ class PointCloudVector(rt.StructArray[Colored3DPoint]):
     b = rt.UInt8Column()
 
 
-class Plane3D(rt.Struct):
+class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
     """A box that is thin along its normal: centre, normal, size. The texture is a file
     or a colour.
     """
@@ -108,7 +110,7 @@ class Plane3D(rt.Struct):
     texture: rt.String = ""
 
 
-class coord3D(rt.Struct):
+class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
     """RoboCompInnerModelManager::coord3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -116,7 +118,7 @@ class coord3D(rt.Struct):
     z: rt.Float = 0.0  # [mm]
 
 
-class Pose3D(rt.Struct):
+class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
     """RoboCompInnerModelManager::Pose3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -127,7 +129,7 @@ class Pose3D(rt.Struct):
     rz: rt.Float = 0.0  # [rad]
 
 
-class jointType(rt.Struct):
+class jointType(rt.Struct, type_id="RoboCompInnerModelManager::jointType"):
     """A hinge about `axis` with its limits. A `port` other than 0 also serves it as a
     JointMotor.
     """
@@ -146,7 +148,7 @@ class jointType(rt.Struct):
     port: rt.Int = 0
 
 
-class meshType(rt.Struct):
+class meshType(rt.Struct, type_id="RoboCompInnerModelManager::meshType"):
     """A mesh from a file; `render` 0 is solid, 1 wireframe."""
 
     pose: Pose3D = rt.default()
@@ -160,7 +162,7 @@ class meshType(rt.Struct):
 FloatSeq = rt.Float32Array
 
 
-class Matrix(rt.Struct):
+class Matrix(rt.Struct, type_id="RoboCompInnerModelManager::Matrix"):
     """A matrix, row by row."""
 
     cols: rt.Int = 0
@@ -168,13 +170,13 @@ class Matrix(rt.Struct):
     data: FloatSeq = rt.default()
 
 
-class Refused(rt.DeclaredError):
+class Refused(rt.DeclaredError, type_id="RoboCompSimulation::Refused"):
     """The request cannot be executed; nothing has changed."""
 
     what: rt.String = ""
 
 
-class State(rt.Struct):
+class State(rt.Struct, type_id="RoboCompSimulation::State"):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
@@ -193,7 +195,7 @@ Names = list[rt.String]
 Values = rt.Float64Array
 
 
-class Pose(rt.Struct):
+class Pose(rt.Struct, type_id="RoboCompSimulation::Pose"):
     """RoboCompSimulation::Pose."""
 
     x: rt.Double = 0.0  # [mm]
@@ -219,7 +221,7 @@ class Poses(rt.StructArray[Pose]):
 Bytes = rt.UInt8Array
 
 
-class Model(rt.Struct):
+class Model(rt.Struct, type_id="RoboCompSimulation::Model"):
     """The complete world in MuJoCo's format (MJB), for viewers."""
 
     version: rt.String = ""  # MuJoCo version; other versions cannot read the file.
@@ -227,7 +229,7 @@ class Model(rt.Struct):
     data: Bytes = rt.default()
 
 
-class Sight(rt.Struct):
+class Sight(rt.Struct, type_id="RoboCompSimulation::Sight"):
     """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]

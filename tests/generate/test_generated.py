@@ -158,6 +158,7 @@ from PACKAGE.interfaces import *
 p = RoboCompA_Pose(1, self_=2, class_=3, private_=4, secret__=5, rt_=6)
 assert p._names_[3:7] == ("self_", "class_", "private_", "secret__")
 assert (p.id, p.self_, p.private_) == (1, 2, 4)
+assert (p._type_id_, RoboCompA_Failed._type_id_) == ("RoboCompA::Pose", "RoboCompA::Failed")
 assert [name for name, _ in p._fields_][3:7] == ["self", "class", "_private", "__secret"]
 many = list_([p])
 assert many.private_.tolist() == [4]

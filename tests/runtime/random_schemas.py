@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,8 @@ from hypothesis import strategies as st
 
 from robocomp_dsl.runtime import types as rt
 
-NUMBERS = (rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.FLOAT, rt.DOUBLE)
+ROS_NUMBERS = (rt.INT8, rt.OCTET, rt.UINT16, rt.UINT32, rt.UINT64)
+NUMBERS = (rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.FLOAT, rt.DOUBLE, *ROS_NUMBERS)
 FIXED = (*NUMBERS, rt.BOOL)
 PRIMITIVES = (*FIXED, rt.STRING)
 
@@ -43,19 +45,31 @@ fixed_structs = st.recursive(
     lambda inner: st.lists(fixed_leaves | inner, min_size=1, max_size=4).map(struct_of),
     max_leaves=4,
 )
-_flat = st.sampled_from(PRIMITIVES) | enums | st.sampled_from(FIXED).map(rt.Array)
+limits = (
+    st.just({})
+    | st.integers(1, 5).map(lambda size: {"size": size})
+    | st.integers(1, 5).map(lambda bound: {"bound": bound})
+)
+few = st.sampled_from([{}, {"size": 1}, {"size": 2}, {"bound": 2}])
+bounded_strings = st.integers(1, 9).map(lambda bound: replace(rt.STRING, bound=bound))
+_flat = (
+    st.sampled_from(PRIMITIVES)
+    | bounded_strings
+    | enums
+    | st.builds(lambda element, limit: rt.Array(element, **limit), st.sampled_from(FIXED), limits)
+)
 
 
-def _sequence(element: Any) -> Any:
-    is_number = isinstance(element, rt.Primitive) and element is not rt.STRING
-    return rt.Array(element) if is_number else rt.Sequence(element)
+def _sequence(element: Any, limit: dict[str, int]) -> Any:
+    is_number = isinstance(element, rt.Primitive) and not element.is_text
+    return (rt.Array if is_number else rt.Sequence)(element, **limit)
 
 
 def _composed(inner: st.SearchStrategy[Any]) -> st.SearchStrategy[Any]:
     keys = st.sampled_from((rt.BYTE, rt.SHORT, rt.INT, rt.LONG, rt.STRING, rt.BOOL)) | enums
     return (
         st.lists(inner, max_size=5).map(struct_of)
-        | inner.map(_sequence)
+        | st.builds(_sequence, inner, few)
         | fixed_structs.map(array_of)
         | st.builds(rt.Dictionary, keys | fixed_structs, inner)
     )
@@ -69,7 +83,16 @@ _BOUNDS = {
     rt.SHORT: (-(2**15), 2**15 - 1),
     rt.INT: (-(2**31), 2**31 - 1),
     rt.LONG: (-(2**63), 2**63 - 1),
+    rt.INT8: (-(2**7), 2**7 - 1),
+    rt.OCTET: (0, 2**8 - 1),
+    rt.UINT16: (0, 2**16 - 1),
+    rt.UINT32: (0, 2**32 - 1),
+    rt.UINT64: (0, 2**64 - 1),
 }
+
+
+def _lengths(type_: rt.Array | rt.Sequence, most: int) -> dict[str, int]:
+    return {"min_size": type_.size, "max_size": type_.size or min(type_.bound or most, most)}
 
 
 def values(type_: Any, *, nan: bool = True) -> st.SearchStrategy[Any]:
@@ -77,10 +100,10 @@ def values(type_: Any, *, nan: bool = True) -> st.SearchStrategy[Any]:
     if isinstance(type_, rt.Primitive):
         return _primitives(type_, nan)
     if isinstance(type_, rt.Array):
-        items = st.lists(_primitives(type_.element, nan), max_size=4)
+        items = st.lists(_primitives(type_.element, nan), **_lengths(type_, 4))
         return items.map(lambda v: np.array(v, type_.element.dtype))
     if isinstance(type_, rt.Sequence):
-        return st.lists(values(type_.element, nan=nan), max_size=3)
+        return st.lists(values(type_.element, nan=nan), **_lengths(type_, 3))
     if isinstance(type_, rt.Dictionary):
         keys = values(type_.key, nan=False)
         return st.dictionaries(keys, values(type_.value, nan=nan), max_size=3)
@@ -95,8 +118,9 @@ def values(type_: Any, *, nan: bool = True) -> st.SearchStrategy[Any]:
 def _primitives(type_: rt.Primitive, nan: bool) -> st.SearchStrategy[Any]:
     if type_ is rt.BOOL:
         return st.booleans()
-    if type_ is rt.STRING:
-        return st.text(max_size=9)
+    if type_.is_text:
+        texts = st.text(max_size=type_.bound or 9)
+        return texts.filter(lambda text: not type_.bound or len(text.encode()) <= type_.bound)
     if type_ in _BOUNDS:
         return st.integers(*_BOUNDS[type_])
     # NaN has payloads that a change of width may not keep; one is enough.

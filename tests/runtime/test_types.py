@@ -54,6 +54,17 @@ def test_struct_and_exception_are_copied_and_pickled(value: Any) -> None:
         assert type(again) is type(value)
 
 
+def test_struct_knows_its_name_in_the_idsl_file() -> None:
+    class Beam(rt.Struct, type_id="RoboCompLaser::Beam"):
+        angle: rt.Float = 0.0
+
+    class UsersBeam(Beam):
+        pass
+
+    assert (Beam._type_id_, UsersBeam._type_id_) == ("RoboCompLaser::Beam",) * 2
+    assert Pose._type_id_ == ""  # written by hand
+
+
 def test_declared_exception_message_shows_fields() -> None:
     with pytest.raises(HardwareFailed) as caught:
         raise HardwareFailed(what="motor 3")

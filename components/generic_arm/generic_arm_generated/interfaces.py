@@ -4,19 +4,19 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class Refused(rt.DeclaredError):
+class Refused(rt.DeclaredError, type_id="RoboCompControlBoard::Refused"):
     """The board rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
 
-class UnknownJoint(rt.DeclaredError):
+class UnknownJoint(rt.DeclaredError, type_id="RoboCompControlBoard::UnknownJoint"):
     """No joint has this name."""
 
     what: rt.String = ""
 
 
-class WrongMode(rt.DeclaredError):
+class WrongMode(rt.DeclaredError, type_id="RoboCompControlBoard::WrongMode"):
     """The joint is in a control mode that does not accept this command."""
 
     what: rt.String = ""
@@ -58,7 +58,7 @@ Interactions = list[InteractionMode]
 Codes = rt.Int32Array
 
 
-class BoardState(rt.Struct):
+class BoardState(rt.Struct, type_id="RoboCompControlBoard::BoardState"):
     """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
@@ -79,7 +79,7 @@ class BoardState(rt.Struct):
     faults: Codes = rt.default()
 
 
-class Targets(rt.Struct):
+class Targets(rt.Struct, type_id="RoboCompControlBoard::Targets"):
     """The last accepted references, in the order of the requested joints."""
 
     position: Values = rt.default()  # Goals of motions, or direct positions.
@@ -89,7 +89,7 @@ class Targets(rt.Struct):
     current: Values = rt.default()
 
 
-class JointInfo(rt.Struct):
+class JointInfo(rt.Struct, type_id="RoboCompControlBoard::JointInfo"):
     """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
@@ -122,7 +122,7 @@ class Loop(rt.Enum):
     CurrentLoop = 3
 
 
-class Pid(rt.Struct):
+class Pid(rt.Struct, type_id="RoboCompControlBoard::Pid"):
     """Output per error (rad, rad/s, N m, A), per its integral and derivative; the total
     is limited to maxOutput. `feedforward` multiplies the torque or current
     reference; in other PIDs the reference velocity.
@@ -137,7 +137,7 @@ class Pid(rt.Struct):
     feedforward: rt.Double = 0.0
 
 
-class Impedance(rt.Struct):
+class Impedance(rt.Struct, type_id="RoboCompControlBoard::Impedance"):
     """RoboCompControlBoard::Impedance."""
 
     stiffness: rt.Double = 0.0  # [Nm/rad]
@@ -145,7 +145,7 @@ class Impedance(rt.Struct):
     offset: rt.Double = 0.0  # [Nm]
 
 
-class JointFault(rt.Struct):
+class JointFault(rt.Struct, type_id="RoboCompControlBoard::JointFault"):
     """The last fault of a joint. Codes: 0 none, 1 current, 2 temperature, 3 encoder, 4
     tracking, 5 calibration, 6 hardware, 7 reference time-out (streamed references
     stopped; the joint holds its position, compliant, until its mode is set), 8
@@ -156,13 +156,13 @@ class JointFault(rt.Struct):
     what: rt.String = ""
 
 
-class NotPossible(rt.DeclaredError):
+class NotPossible(rt.DeclaredError, type_id="RoboCompGenericArm::NotPossible"):
     """The command cannot be executed; the arm continues its previous motion."""
 
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError):
+class Unreachable(rt.DeclaredError, type_id="RoboCompGenericArm::Unreachable"):
     """No joint angles within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -176,7 +176,7 @@ Angles = rt.Float64Array
 RoboCompGenericArm_Flags = rt.BoolArray
 
 
-class ArmState(rt.Struct):
+class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState"):
     """RoboCompGenericArm::ArmState."""
 
     time: rt.Double = 0.0  # [s]
@@ -186,7 +186,7 @@ class ArmState(rt.Struct):
     moving: rt.Bool = False
 
 
-class ArmLimits(rt.Struct):
+class ArmLimits(rt.Struct, type_id="RoboCompGenericArm::ArmLimits"):
     """RoboCompGenericArm::ArmLimits."""
 
     low: Angles = rt.default()
@@ -197,7 +197,7 @@ class ArmLimits(rt.Struct):
     available: RoboCompGenericArm_Flags = rt.default()
 
 
-class Row(rt.Struct):
+class Row(rt.Struct, type_id="RoboCompGenericArm::Row"):
     """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
     the generic angle.
     """
@@ -220,7 +220,7 @@ class Rows(rt.StructArray[Row]):
     joint = rt.Int32Column()
 
 
-class Chain(rt.Struct):
+class Chain(rt.Struct, type_id="RoboCompGenericArm::Chain"):
     """`base` and `tool` are 4x4 matrices, row by row, in m."""
 
     rows: Rows = rt.default()
@@ -228,7 +228,7 @@ class Chain(rt.Struct):
     tool: Angles = rt.default()
 
 
-class Pose(rt.Struct):
+class Pose(rt.Struct, type_id="RoboCompGenericArm::Pose"):
     """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
@@ -245,7 +245,7 @@ class Pose(rt.Struct):
     r22: rt.Double = 0.0
 
 
-class Outcome(rt.Struct):
+class Outcome(rt.Struct, type_id="RoboCompGenericArm::Outcome"):
     """The parts of a command that were clipped to a limit or dropped because the robot
     lacks the joint.
     """

@@ -9,31 +9,39 @@ Clock.idsl.
 from robocomp_dsl.runtime import types as rt
 
 
-class RoboCompJointMotor_HardwareFailedException(rt.DeclaredError):
+class RoboCompJointMotor_HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompJointMotor::HardwareFailedException"
+):
     """The motor or its bus cannot execute the request."""
 
     what: rt.String = ""
 
 
-class OutOfRangeException(rt.DeclaredError):
+class OutOfRangeException(
+    rt.DeclaredError, type_id="RoboCompJointMotor::OutOfRangeException"
+):
     """The goal is outside the limits of the motor."""
 
     what: rt.String = ""
 
 
-class UnknownMotorException(rt.DeclaredError):
+class UnknownMotorException(
+    rt.DeclaredError, type_id="RoboCompJointMotor::UnknownMotorException"
+):
     """No motor has this name."""
 
     what: rt.String = ""
 
 
-class CollisionException(rt.DeclaredError):
+class CollisionException(
+    rt.DeclaredError, type_id="RoboCompJointMotor::CollisionException"
+):
     """The motion would end in a collision."""
 
     what: rt.String = ""
 
 
-class MotorState(rt.Struct):
+class MotorState(rt.Struct, type_id="RoboCompJointMotor::MotorState"):
     """The current state of a motor."""
 
     pos: rt.Float = 0.0  # [rad]
@@ -49,7 +57,7 @@ class MotorState(rt.Struct):
 MotorStateMap = dict[rt.String, MotorState]
 
 
-class MotorParams(rt.Struct):
+class MotorParams(rt.Struct, type_id="RoboCompJointMotor::MotorParams"):
     """Configuration and limits of a motor. `maxDegrees` and `invertedSign` exist for
     compatibility only.
     """
@@ -70,7 +78,7 @@ class MotorParams(rt.Struct):
 MotorParamsList = list[MotorParams]
 
 
-class BusParams(rt.Struct):
+class BusParams(rt.Struct, type_id="RoboCompJointMotor::BusParams"):
     """The bus that the motors share."""
 
     handler: rt.String = ""
@@ -80,7 +88,7 @@ class BusParams(rt.Struct):
     basicPeriod: rt.Int = 0  # [ms]
 
 
-class MotorGoalPosition(rt.Struct):
+class MotorGoalPosition(rt.Struct, type_id="RoboCompJointMotor::MotorGoalPosition"):
     """A goal position; a `maxSpeed` of 0 leaves the speed to the motor."""
 
     name: rt.String = ""
@@ -91,7 +99,7 @@ class MotorGoalPosition(rt.Struct):
 MotorGoalPositionList = list[MotorGoalPosition]
 
 
-class MotorGoalVelocity(rt.Struct):
+class MotorGoalVelocity(rt.Struct, type_id="RoboCompJointMotor::MotorGoalVelocity"):
     """A goal velocity."""
 
     name: rt.String = ""
@@ -103,19 +111,21 @@ MotorGoalVelocityList = list[MotorGoalVelocity]
 MotorList = list[rt.String]
 
 
-class RoboCompControlBoard_Refused(rt.DeclaredError):
+class RoboCompControlBoard_Refused(
+    rt.DeclaredError, type_id="RoboCompControlBoard::Refused"
+):
     """The board rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
 
-class UnknownJoint(rt.DeclaredError):
+class UnknownJoint(rt.DeclaredError, type_id="RoboCompControlBoard::UnknownJoint"):
     """No joint has this name."""
 
     what: rt.String = ""
 
 
-class WrongMode(rt.DeclaredError):
+class WrongMode(rt.DeclaredError, type_id="RoboCompControlBoard::WrongMode"):
     """The joint is in a control mode that does not accept this command."""
 
     what: rt.String = ""
@@ -157,7 +167,7 @@ Interactions = list[InteractionMode]
 Codes = rt.Int32Array
 
 
-class BoardState(rt.Struct):
+class BoardState(rt.Struct, type_id="RoboCompControlBoard::BoardState"):
     """All measurements of one instant, in the order of the joints."""
 
     time: rt.Double = 0.0  # [s]
@@ -178,7 +188,7 @@ class BoardState(rt.Struct):
     faults: Codes = rt.default()
 
 
-class Targets(rt.Struct):
+class Targets(rt.Struct, type_id="RoboCompControlBoard::Targets"):
     """The last accepted references, in the order of the requested joints."""
 
     # Goals of motions, or direct positions.
@@ -189,7 +199,7 @@ class Targets(rt.Struct):
     current: RoboCompControlBoard_Values = rt.default()
 
 
-class JointInfo(rt.Struct):
+class JointInfo(rt.Struct, type_id="RoboCompControlBoard::JointInfo"):
     """Properties of a joint, with its current limits."""
 
     name: rt.String = ""
@@ -222,7 +232,7 @@ class Loop(rt.Enum):
     CurrentLoop = 3
 
 
-class Pid(rt.Struct):
+class Pid(rt.Struct, type_id="RoboCompControlBoard::Pid"):
     """Output per error (rad, rad/s, N m, A), per its integral and derivative; the total
     is limited to maxOutput. `feedforward` multiplies the torque or current
     reference; in other PIDs the reference velocity.
@@ -237,7 +247,7 @@ class Pid(rt.Struct):
     feedforward: rt.Double = 0.0
 
 
-class Impedance(rt.Struct):
+class Impedance(rt.Struct, type_id="RoboCompControlBoard::Impedance"):
     """RoboCompControlBoard::Impedance."""
 
     stiffness: rt.Double = 0.0  # [Nm/rad]
@@ -245,7 +255,7 @@ class Impedance(rt.Struct):
     offset: rt.Double = 0.0  # [Nm]
 
 
-class JointFault(rt.Struct):
+class JointFault(rt.Struct, type_id="RoboCompControlBoard::JointFault"):
     """The last fault of a joint. Codes: 0 none, 1 current, 2 temperature, 3 encoder, 4
     tracking, 5 calibration, 6 hardware, 7 reference time-out (streamed references
     stopped; the joint holds its position, compliant, until its mode is set), 8
@@ -256,7 +266,7 @@ class JointFault(rt.Struct):
     what: rt.String = ""
 
 
-class Acceleration(rt.Struct):
+class Acceleration(rt.Struct, type_id="RoboCompIMU::Acceleration"):
     """RoboCompIMU::Acceleration."""
 
     XAcc: rt.Float = 0.0  # [m/s^2]
@@ -264,7 +274,7 @@ class Acceleration(rt.Struct):
     ZAcc: rt.Float = 0.0  # [m/s^2]
 
 
-class Gyroscope(rt.Struct):
+class Gyroscope(rt.Struct, type_id="RoboCompIMU::Gyroscope"):
     """RoboCompIMU::Gyroscope."""
 
     XGyr: rt.Float = 0.0  # [rad/s]
@@ -272,7 +282,7 @@ class Gyroscope(rt.Struct):
     ZGyr: rt.Float = 0.0  # [rad/s]
 
 
-class Magnetic(rt.Struct):
+class Magnetic(rt.Struct, type_id="RoboCompIMU::Magnetic"):
     """RoboCompIMU::Magnetic."""
 
     XMag: rt.Float = 0.0
@@ -280,7 +290,7 @@ class Magnetic(rt.Struct):
     ZMag: rt.Float = 0.0
 
 
-class Orientation(rt.Struct):
+class Orientation(rt.Struct, type_id="RoboCompIMU::Orientation"):
     """RoboCompIMU::Orientation."""
 
     Roll: rt.Float = 0.0  # [rad]
@@ -288,7 +298,7 @@ class Orientation(rt.Struct):
     Yaw: rt.Float = 0.0  # [rad]
 
 
-class DataImu(rt.Struct):
+class DataImu(rt.Struct, type_id="RoboCompIMU::DataImu"):
     """All measurements of one instant."""
 
     acc: Acceleration = rt.default()
@@ -298,13 +308,15 @@ class DataImu(rt.Struct):
     temperature: rt.Float = 0.0  # [degC]
 
 
-class CartesianRefused(rt.DeclaredError):
+class CartesianRefused(
+    rt.DeclaredError, type_id="RoboCompCartesianController::CartesianRefused"
+):
     """The controller rejects the command; nothing has changed."""
 
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError):
+class Unreachable(rt.DeclaredError, type_id="RoboCompCartesianController::Unreachable"):
     """No joint positions within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -330,7 +342,7 @@ class MotionState(rt.Enum):
     Interrupted = 3
 
 
-class HandPlace(rt.Struct):
+class HandPlace(rt.Struct, type_id="RoboCompCartesianController::HandPlace"):
     """RoboCompCartesianController::HandPlace."""
 
     x: rt.Double = 0.0  # [m]
@@ -338,7 +350,7 @@ class HandPlace(rt.Struct):
     z: rt.Double = 0.0  # [m]
 
 
-class HandPose(rt.Struct):
+class HandPose(rt.Struct, type_id="RoboCompCartesianController::HandPose"):
     """RoboCompCartesianController::HandPose."""
 
     place: HandPlace = rt.default()
@@ -348,7 +360,7 @@ class HandPose(rt.Struct):
     angle: rt.Double = 0.0  # [rad]
 
 
-class HandSolution(rt.Struct):
+class HandSolution(rt.Struct, type_id="RoboCompCartesianController::HandSolution"):
     """A reachable pose of the end effector, and its joint positions in the order of
     getJoints.
     """
@@ -357,7 +369,7 @@ class HandSolution(rt.Struct):
     joints: JointAngles = rt.default()
 
 
-class HandState(rt.Struct):
+class HandState(rt.Struct, type_id="RoboCompCartesianController::HandState"):
     """RoboCompCartesianController::HandState."""
 
     time: rt.Double = 0.0  # [s]
@@ -365,7 +377,9 @@ class HandState(rt.Struct):
     motion: MotionState = MotionState.Idle
 
 
-class RoboCompSkin_HardwareFailedException(rt.DeclaredError):
+class RoboCompSkin_HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompSkin::HardwareFailedException"
+):
     """The skin or its electronics cannot execute the request."""
 
     what: rt.String = ""
@@ -377,7 +391,7 @@ ByteSeq = rt.UInt8Array
 RoboCompSkin_Names = list[rt.String]
 
 
-class Limb(rt.Struct):
+class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
     """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
     row by row.
     """
@@ -401,7 +415,7 @@ class Limb(rt.Struct):
 Limbs = list[Limb]
 
 
-class Patch(rt.Struct):
+class Patch(rt.Struct, type_id="RoboCompSkin::Patch"):
     """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
@@ -415,7 +429,7 @@ class Patch(rt.Struct):
 Patches = list[Patch]
 
 
-class Geometry(rt.Struct):
+class Geometry(rt.Struct, type_id="RoboCompSkin::Geometry"):
     """Positions of the taxels. When it changes, `version` increases; every frame
     carries the version it belongs to.
     """
@@ -434,7 +448,7 @@ class Geometry(rt.Struct):
     limbs: Limbs = rt.default()
 
 
-class Frame(rt.Struct):
+class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
     """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
     is configured to send them.
     """
@@ -452,7 +466,7 @@ class Frame(rt.Struct):
     offSkin: rt.Float = 0.0
 
 
-class Contact(rt.Struct):
+class Contact(rt.Struct, type_id="RoboCompSkin::Contact"):
     """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
@@ -491,7 +505,7 @@ class Contacts(rt.StructArray[Contact]):
     area = rt.Float32Column()
 
 
-class ContactList(rt.Struct):
+class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList"):
     """RoboCompSkin::ContactList."""
 
     sequence: rt.Long = 0
@@ -518,7 +532,7 @@ class NodeType(rt.Enum):
     DisplayII = 12
 
 
-class AttributeType(rt.Struct):
+class AttributeType(rt.Struct, type_id="RoboCompInnerModelManager::AttributeType"):
     """RoboCompInnerModelManager::AttributeType."""
 
     type: rt.String = ""
@@ -528,7 +542,7 @@ class AttributeType(rt.Struct):
 AttributeMap = dict[rt.String, AttributeType]
 
 
-class NodeInformation(rt.Struct):
+class NodeInformation(rt.Struct, type_id="RoboCompInnerModelManager::NodeInformation"):
     """One node; the root has an empty `parentId`."""
 
     id: rt.String = ""
@@ -555,7 +569,9 @@ class ErrorType(rt.Enum):
     Collision = 9
 
 
-class InnerModelManagerError(rt.DeclaredError):
+class InnerModelManagerError(
+    rt.DeclaredError, type_id="RoboCompInnerModelManager::InnerModelManagerError"
+):
     """The request is rejected and the scene unchanged; `err` and `text` give the
     reason.
     """
@@ -564,7 +580,7 @@ class InnerModelManagerError(rt.DeclaredError):
     text: rt.String = ""
 
 
-class Colored3DPoint(rt.Struct):
+class Colored3DPoint(rt.Struct, type_id="RoboCompInnerModelManager::Colored3DPoint"):
     """RoboCompInnerModelManager::Colored3DPoint."""
 
     x: rt.Float = 0.0  # [mm]
@@ -587,7 +603,7 @@ class PointCloudVector(rt.StructArray[Colored3DPoint]):
     b = rt.UInt8Column()
 
 
-class Plane3D(rt.Struct):
+class Plane3D(rt.Struct, type_id="RoboCompInnerModelManager::Plane3D"):
     """A box that is thin along its normal: centre, normal, size. The texture is a file
     or a colour.
     """
@@ -604,7 +620,7 @@ class Plane3D(rt.Struct):
     texture: rt.String = ""
 
 
-class coord3D(rt.Struct):
+class coord3D(rt.Struct, type_id="RoboCompInnerModelManager::coord3D"):
     """RoboCompInnerModelManager::coord3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -612,7 +628,7 @@ class coord3D(rt.Struct):
     z: rt.Float = 0.0  # [mm]
 
 
-class Pose3D(rt.Struct):
+class Pose3D(rt.Struct, type_id="RoboCompInnerModelManager::Pose3D"):
     """RoboCompInnerModelManager::Pose3D."""
 
     x: rt.Float = 0.0  # [mm]
@@ -623,7 +639,7 @@ class Pose3D(rt.Struct):
     rz: rt.Float = 0.0  # [rad]
 
 
-class jointType(rt.Struct):
+class jointType(rt.Struct, type_id="RoboCompInnerModelManager::jointType"):
     """A hinge about `axis` with its limits. A `port` other than 0 also serves it as a
     JointMotor.
     """
@@ -642,7 +658,7 @@ class jointType(rt.Struct):
     port: rt.Int = 0
 
 
-class meshType(rt.Struct):
+class meshType(rt.Struct, type_id="RoboCompInnerModelManager::meshType"):
     """A mesh from a file; `render` 0 is solid, 1 wireframe."""
 
     pose: Pose3D = rt.default()
@@ -656,7 +672,7 @@ class meshType(rt.Struct):
 RoboCompInnerModelManager_FloatSeq = rt.Float32Array
 
 
-class Matrix(rt.Struct):
+class Matrix(rt.Struct, type_id="RoboCompInnerModelManager::Matrix"):
     """A matrix, row by row."""
 
     cols: rt.Int = 0
@@ -664,13 +680,15 @@ class Matrix(rt.Struct):
     data: RoboCompInnerModelManager_FloatSeq = rt.default()
 
 
-class RoboCompSimulation_Refused(rt.DeclaredError):
+class RoboCompSimulation_Refused(
+    rt.DeclaredError, type_id="RoboCompSimulation::Refused"
+):
     """The request cannot be executed; nothing has changed."""
 
     what: rt.String = ""
 
 
-class State(rt.Struct):
+class State(rt.Struct, type_id="RoboCompSimulation::State"):
     """RoboCompSimulation::State."""
 
     time: rt.Double = 0.0  # [s] Simulated time since the start.
@@ -689,7 +707,7 @@ RoboCompSimulation_Names = list[rt.String]
 RoboCompSimulation_Values = rt.Float64Array
 
 
-class Pose(rt.Struct):
+class Pose(rt.Struct, type_id="RoboCompSimulation::Pose"):
     """RoboCompSimulation::Pose."""
 
     x: rt.Double = 0.0  # [mm]
@@ -715,7 +733,7 @@ class Poses(rt.StructArray[Pose]):
 Bytes = rt.UInt8Array
 
 
-class Model(rt.Struct):
+class Model(rt.Struct, type_id="RoboCompSimulation::Model"):
     """The complete world in MuJoCo's format (MJB), for viewers."""
 
     version: rt.String = ""  # MuJoCo version; other versions cannot read the file.
@@ -723,7 +741,7 @@ class Model(rt.Struct):
     data: Bytes = rt.default()
 
 
-class Sight(rt.Struct):
+class Sight(rt.Struct, type_id="RoboCompSimulation::Sight"):
     """The visible state at one instant, in MuJoCo's conventions: m, z up."""
 
     time: rt.Double = 0.0  # [s]
@@ -738,7 +756,7 @@ class Sight(rt.Struct):
     contacts: RoboCompSimulation_Values = rt.default()
 
 
-class Tick(rt.Struct):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.

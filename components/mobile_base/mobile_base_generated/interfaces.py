@@ -8,7 +8,7 @@ Laser.idsl.
 from robocomp_dsl.runtime import types as rt
 
 
-class Tick(rt.Struct):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
@@ -19,13 +19,15 @@ class Tick(rt.Struct):
     paused: rt.Bool = False  # Simulated time is paused.
 
 
-class HardwareFailedException(rt.DeclaredError):
+class HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompGenericBase::HardwareFailedException"
+):
     """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct):
+class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -42,7 +44,7 @@ class TBaseState(rt.Struct):
     isMoving: rt.Bool = False
 
 
-class TMechParams(rt.Struct):
+class TMechParams(rt.Struct, type_id="RoboCompDifferentialRobot::TMechParams"):
     """Dimensions and speed limits of the base."""
 
     wheelRadius: rt.Int = 0  # [mm]
@@ -59,7 +61,7 @@ class TMechParams(rt.Struct):
 shortVector = rt.Int32Array
 
 
-class LaserConfData(rt.Struct):
+class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
     """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
@@ -79,7 +81,7 @@ class LaserConfData(rt.Struct):
     angleIni: rt.Float = 0.0  # [deg]
 
 
-class TData(rt.Struct):
+class TData(rt.Struct, type_id="RoboCompLaser::TData"):
     """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]

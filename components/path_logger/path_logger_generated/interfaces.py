@@ -7,13 +7,15 @@ From GenericBase.idsl, DifferentialRobotPub.idsl, PathLog.idsl.
 from robocomp_dsl.runtime import types as rt
 
 
-class HardwareFailedException(rt.DeclaredError):
+class HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompGenericBase::HardwareFailedException"
+):
     """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct):
+class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -30,7 +32,7 @@ class TBaseState(rt.Struct):
     isMoving: rt.Bool = False
 
 
-class PathSummary(rt.Struct):
+class PathSummary(rt.Struct, type_id="RoboCompPathLog::PathSummary"):
     """`runs` counts the restarts of the base; `time` is that of the last received
     state.
     """

@@ -4,13 +4,15 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class RoboCompGenericArm_NotPossible(rt.DeclaredError):
+class RoboCompGenericArm_NotPossible(
+    rt.DeclaredError, type_id="RoboCompGenericArm::NotPossible"
+):
     """The command cannot be executed; the arm continues its previous motion."""
 
     what: rt.String = ""
 
 
-class Unreachable(rt.DeclaredError):
+class Unreachable(rt.DeclaredError, type_id="RoboCompGenericArm::Unreachable"):
     """No joint angles within the limits reach the goal; the fields have the error of
     the best solution.
     """
@@ -24,7 +26,7 @@ RoboCompGenericArm_Angles = rt.Float64Array
 Flags = rt.BoolArray
 
 
-class ArmState(rt.Struct):
+class ArmState(rt.Struct, type_id="RoboCompGenericArm::ArmState"):
     """RoboCompGenericArm::ArmState."""
 
     time: rt.Double = 0.0  # [s]
@@ -34,7 +36,7 @@ class ArmState(rt.Struct):
     moving: rt.Bool = False
 
 
-class ArmLimits(rt.Struct):
+class ArmLimits(rt.Struct, type_id="RoboCompGenericArm::ArmLimits"):
     """RoboCompGenericArm::ArmLimits."""
 
     low: RoboCompGenericArm_Angles = rt.default()
@@ -44,7 +46,7 @@ class ArmLimits(rt.Struct):
     available: Flags = rt.default()  # Whether the robot has this joint.
 
 
-class Row(rt.Struct):
+class Row(rt.Struct, type_id="RoboCompGenericArm::Row"):
     """One row of Denavit-Hartenberg parameters: Rz(q + offset) Tz(d) Tx(a) Rx(alpha), q
     the generic angle.
     """
@@ -67,7 +69,7 @@ class Rows(rt.StructArray[Row]):
     joint = rt.Int32Column()
 
 
-class Chain(rt.Struct):
+class Chain(rt.Struct, type_id="RoboCompGenericArm::Chain"):
     """`base` and `tool` are 4x4 matrices, row by row, in m."""
 
     rows: Rows = rt.default()
@@ -75,7 +77,7 @@ class Chain(rt.Struct):
     tool: RoboCompGenericArm_Angles = rt.default()
 
 
-class Pose(rt.Struct):
+class Pose(rt.Struct, type_id="RoboCompGenericArm::Pose"):
     """Position and rotation of the end effector in the frame of the chain's base."""
 
     x: rt.Double = 0.0  # [m]
@@ -92,7 +94,7 @@ class Pose(rt.Struct):
     r22: rt.Double = 0.0
 
 
-class Outcome(rt.Struct):
+class Outcome(rt.Struct, type_id="RoboCompGenericArm::Outcome"):
     """The parts of a command that were clipped to a limit or dropped because the robot
     lacks the joint.
     """
@@ -101,7 +103,9 @@ class Outcome(rt.Struct):
     dropped: Flags = rt.default()
 
 
-class RoboCompReflex_NotPossible(rt.DeclaredError):
+class RoboCompReflex_NotPossible(
+    rt.DeclaredError, type_id="RoboCompReflex::NotPossible"
+):
     """The field or setting does not exist or is invalid; nothing has changed."""
 
     what: rt.String = ""
@@ -120,7 +124,7 @@ class ReflexState(rt.Enum):
 RoboCompReflex_Angles = rt.Float64Array
 
 
-class Field(rt.Struct):
+class Field(rt.Struct, type_id="RoboCompReflex::Field"):
     """A round field on a limb's skin: centre in the limb's frame, and the motion at
     full stimulus in rad.
     """
@@ -137,7 +141,7 @@ class Field(rt.Struct):
 Fields = list[Field]
 
 
-class Event(rt.Struct):
+class Event(rt.Struct, type_id="RoboCompReflex::Event"):
     """The response of one field to a touch."""
 
     time: rt.Double = 0.0  # [s]
@@ -152,7 +156,7 @@ class Event(rt.Struct):
     motion: RoboCompReflex_Angles = rt.default()  # Joint displacements, in rad.
 
 
-class Statistics(rt.Struct):
+class Statistics(rt.Struct, type_id="RoboCompReflex::Statistics"):
     """Counters since the start."""
 
     state: ReflexState = ReflexState.Watching
@@ -164,7 +168,9 @@ class Statistics(rt.Struct):
     framesOtherGeometry: rt.Long = 0
 
 
-class HardwareFailedException(rt.DeclaredError):
+class HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompSkin::HardwareFailedException"
+):
     """The skin or its electronics cannot execute the request."""
 
     what: rt.String = ""
@@ -176,7 +182,7 @@ ByteSeq = rt.UInt8Array
 Names = list[rt.String]
 
 
-class Limb(rt.Struct):
+class Limb(rt.Struct, type_id="RoboCompSkin::Limb"):
     """Pose of a limb's frame on the body of that name; `r00` to `r22` are the rotation,
     row by row.
     """
@@ -200,7 +206,7 @@ class Limb(rt.Struct):
 Limbs = list[Limb]
 
 
-class Patch(rt.Struct):
+class Patch(rt.Struct, type_id="RoboCompSkin::Patch"):
     """Taxels with electronics of one kind. Force in N is `gain` times the raw counts
     between the bounds.
     """
@@ -214,7 +220,7 @@ class Patch(rt.Struct):
 Patches = list[Patch]
 
 
-class Geometry(rt.Struct):
+class Geometry(rt.Struct, type_id="RoboCompSkin::Geometry"):
     """Positions of the taxels. When it changes, `version` increases; every frame
     carries the version it belongs to.
     """
@@ -233,7 +239,7 @@ class Geometry(rt.Struct):
     limbs: Limbs = rt.default()
 
 
-class Frame(rt.Struct):
+class Frame(rt.Struct, type_id="RoboCompSkin::Frame"):
     """Readings of all taxels. `shearX` to `shearZ` and `raw` are empty unless the skin
     is configured to send them.
     """
@@ -251,7 +257,7 @@ class Frame(rt.Struct):
     offSkin: rt.Float = 0.0
 
 
-class Contact(rt.Struct):
+class Contact(rt.Struct, type_id="RoboCompSkin::Contact"):
     """One touch: neighbouring active taxels."""
 
     limb: rt.Int = 0  # Index in the geometry's `limbs`.
@@ -290,7 +296,7 @@ class Contacts(rt.StructArray[Contact]):
     area = rt.Float32Column()
 
 
-class ContactList(rt.Struct):
+class ContactList(rt.Struct, type_id="RoboCompSkin::ContactList"):
     """RoboCompSkin::ContactList."""
 
     sequence: rt.Long = 0

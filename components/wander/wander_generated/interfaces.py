@@ -7,13 +7,15 @@ From GenericBase.idsl, DifferentialRobot.idsl, Laser.idsl.
 from robocomp_dsl.runtime import types as rt
 
 
-class HardwareFailedException(rt.DeclaredError):
+class HardwareFailedException(
+    rt.DeclaredError, type_id="RoboCompGenericBase::HardwareFailedException"
+):
     """The base cannot execute the request; `what` gives the reason."""
 
     what: rt.String = ""
 
 
-class TBaseState(rt.Struct):
+class TBaseState(rt.Struct, type_id="RoboCompGenericBase::TBaseState"):
     """Odometry of the base. The corrected pose is compensated for known drift; in a
     simulator it is the true pose.
     """
@@ -30,7 +32,7 @@ class TBaseState(rt.Struct):
     isMoving: rt.Bool = False
 
 
-class TMechParams(rt.Struct):
+class TMechParams(rt.Struct, type_id="RoboCompDifferentialRobot::TMechParams"):
     """Dimensions and speed limits of the base."""
 
     wheelRadius: rt.Int = 0  # [mm]
@@ -47,7 +49,7 @@ class TMechParams(rt.Struct):
 shortVector = rt.Int32Array
 
 
-class LaserConfData(rt.Struct):
+class LaserConfData(rt.Struct, type_id="RoboCompLaser::LaserConfData"):
     """Configuration of the laser. A `staticConf` of 0 means that it may change while
     running.
     """
@@ -67,7 +69,7 @@ class LaserConfData(rt.Struct):
     angleIni: rt.Float = 0.0  # [deg]
 
 
-class TData(rt.Struct):
+class TData(rt.Struct, type_id="RoboCompLaser::TData"):
     """One ray. A ray without a hit has the maximum range."""
 
     angle: rt.Float = 0.0  # [rad]

@@ -55,8 +55,9 @@ class ColumnCode(ValueRecord):
 class TypeCode(ValueRecord):
     """One type. `kind`: struct, enum, array, alias; fields that a kind lacks are empty.
 
-    `base` is the base class of a struct, the element of an array, the target of an alias. `rename`
-    is empty if all attributes have their wire names. `is_hidden`: a field has the type's name.
+    `base` is the base class of a struct, the element of an array, the target of an alias. `type_id`
+    is the name of a struct in its IDSL file. `rename` is empty if all attributes have their wire
+    names. `is_hidden`: a field has the type's name.
     """
 
     kind: str
@@ -65,6 +66,7 @@ class TypeCode(ValueRecord):
     doc: str = ""
     comments: tuple[str, ...] = ()
     is_hidden: bool = False
+    type_id: str = ""
     rename: str = ""
     fields: tuple[FieldCode, ...] = ()
     values: tuple[EnumeratorCode, ...] = ()
@@ -116,6 +118,7 @@ def _struct(
         "rt.Struct" if isinstance(struct, Struct) else "rt.DeclaredError",
         literals.docstring(struct.doc, INNER, f"{struct.qualified}."),
         is_hidden=is_hidden,
+        type_id=literals.quoted(struct.qualified),
         rename=f"{{{', '.join(renamed)}}}" if renamed else "",
         fields=tuple(_field(attribute, field, struct, types) for attribute, field in pairs),
     )

@@ -17,7 +17,7 @@ class LifeState(rt.Enum):
 Names = list[rt.String]
 
 
-class PortInfo(rt.Struct):
+class PortInfo(rt.Struct, type_id="RoboCompComponent::PortInfo"):
     """One port: an interface that the component serves, calls, publishes or subscribes
     to.
     """
@@ -33,7 +33,7 @@ class PortInfo(rt.Struct):
 Ports = list[PortInfo]
 
 
-class ComponentInfo(rt.Struct):
+class ComponentInfo(rt.Struct, type_id="RoboCompComponent::ComponentInfo"):
     """RoboCompComponent::ComponentInfo."""
 
     name: rt.String = ""  # The name of this instance.
@@ -51,7 +51,7 @@ class ComponentInfo(rt.Struct):
     states: Names = rt.default()
 
 
-class ParameterInfo(rt.Struct):
+class ParameterInfo(rt.Struct, type_id="RoboCompComponent::ParameterInfo"):
     """RoboCompComponent::ParameterInfo."""
 
     name: rt.String = ""  # Path of the parameter, as in `motors[2].min`.
@@ -69,7 +69,7 @@ class ParameterInfo(rt.Struct):
 ParameterList = list[ParameterInfo]
 
 
-class OperationStatistics(rt.Struct):
+class OperationStatistics(rt.Struct, type_id="RoboCompComponent::OperationStatistics"):
     """Statistics of one operation of one port. Percentiles are over the latest 512
     calls.
     """
@@ -92,7 +92,7 @@ class OperationStatistics(rt.Struct):
 OperationList = list[OperationStatistics]
 
 
-class Statistics(rt.Struct):
+class Statistics(rt.Struct, type_id="RoboCompComponent::Statistics"):
     """RoboCompComponent::Statistics."""
 
     period: rt.Double = 0.0  # [ms] The configured period; 0: event-driven.
@@ -110,7 +110,7 @@ class Statistics(rt.Struct):
 Values = dict[rt.String, rt.String]
 
 
-class Refusal(rt.DeclaredError):
+class Refusal(rt.DeclaredError, type_id="RoboCompComponent::Refusal"):
     """The request is rejected; nothing has changed."""
 
     reason: rt.String = ""

@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class FieldInfo(rt.Struct):
+class FieldInfo(rt.Struct, type_id="RoboCompComponentSchema::FieldInfo"):
     """A field of a struct or an exception, or a parameter of an operation."""
 
     name: rt.String = ""
@@ -20,7 +20,7 @@ class FieldInfo(rt.Struct):
 Fields = list[FieldInfo]
 
 
-class EnumeratorInfo(rt.Struct):
+class EnumeratorInfo(rt.Struct, type_id="RoboCompComponentSchema::EnumeratorInfo"):
     """RoboCompComponentSchema::EnumeratorInfo."""
 
     name: rt.String = ""
@@ -31,7 +31,7 @@ class EnumeratorInfo(rt.Struct):
 Enumerators = list[EnumeratorInfo]
 
 
-class TypeInfo(rt.Struct):
+class TypeInfo(rt.Struct, type_id="RoboCompComponentSchema::TypeInfo"):
     """A named type. Its fields refer only to types before it."""
 
     name: rt.String = ""  # `Module::Name`.
@@ -45,7 +45,7 @@ Types = list[TypeInfo]
 TypeNames = list[rt.String]
 
 
-class OperationInfo(rt.Struct):
+class OperationInfo(rt.Struct, type_id="RoboCompComponentSchema::OperationInfo"):
     """RoboCompComponentSchema::OperationInfo."""
 
     name: rt.String = ""
@@ -61,7 +61,7 @@ class OperationInfo(rt.Struct):
 Operations = list[OperationInfo]
 
 
-class InterfaceInfo(rt.Struct):
+class InterfaceInfo(rt.Struct, type_id="RoboCompComponentSchema::InterfaceInfo"):
     """RoboCompComponentSchema::InterfaceInfo."""
 
     name: rt.String = ""  # `Module::Name`.
@@ -73,7 +73,7 @@ class InterfaceInfo(rt.Struct):
 Interfaces = list[InterfaceInfo]
 
 
-class Schema(rt.Struct):
+class Schema(rt.Struct, type_id="RoboCompComponentSchema::Schema"):
     """RoboCompComponentSchema::Schema."""
 
     types: Types = rt.default()

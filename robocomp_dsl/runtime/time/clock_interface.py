@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class Tick(rt.Struct):
+class Tick(rt.Struct, type_id="RoboCompClock::Tick"):
     """RoboCompClock::Tick."""
 
     time: rt.Long = 0  # [ns] Simulated time: 0 at the start and after a reset.
@@ -18,7 +18,7 @@ class Tick(rt.Struct):
 Peers = list[rt.String]
 
 
-class Hearer(rt.Struct):
+class Hearer(rt.Struct, type_id="RoboCompLockStep::Hearer"):
     """A port that subscribes to a topic."""
 
     component: rt.String = ""
@@ -31,7 +31,7 @@ class Hearer(rt.Struct):
 Hearers = list[Hearer]
 
 
-class Due(rt.Struct):
+class Due(rt.Struct, type_id="RoboCompLockStep::Due"):
     """RoboCompLockStep::Due."""
 
     time: rt.Long = 0  # [ns] Time of the next scheduled work; -1: none is known.

@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class A(rt.Struct):
+class A(rt.Struct, type_id="RoboCompHostile::A"):
     """ends with a quote\""""
 
     s: rt.String = '""" {{ x }} \\ \' \n'  # """import os"""
@@ -17,7 +17,7 @@ class E(rt.Enum):
     One = 0
 
 
-class X(rt.DeclaredError):
+class X(rt.DeclaredError, type_id="RoboCompHostile::X"):
     """line one
     \"\"\"
         indented \\

@@ -19,6 +19,7 @@ class lambda_(rt.Enum):
 
 class RoboCompA_Pose(
     rt.Struct,
+    type_id="RoboCompA::Pose",
     rename={
         "self_": "self",
         "class_": "class",
@@ -64,7 +65,7 @@ dict_ = rt.Int32Array
 Component_ = list[rt.String]
 
 
-class GenericWorker_(rt.Struct):
+class GenericWorker_(rt.Struct, type_id="RoboCompA::GenericWorker"):
     """RoboCompA::GenericWorker."""
 
     pose: RoboCompA_Pose = rt.default()
@@ -75,7 +76,7 @@ class GenericWorker_(rt.Struct):
 LaserProxy = dict[rt.String, GenericWorker_]
 
 
-class Wheel(rt.Struct):
+class Wheel(rt.Struct, type_id="RoboCompA::Wheel"):
     """RoboCompA::Wheel."""
 
     r: rt.Int = 0
@@ -84,7 +85,7 @@ class Wheel(rt.Struct):
 _Wheel = Wheel  # a field has the name of the type
 
 
-class request(rt.Struct):
+class request(rt.Struct, type_id="RoboCompA::request"):
     """RoboCompA::request."""
 
     Wheel: _Wheel = rt.default()
@@ -92,25 +93,29 @@ class request(rt.Struct):
     np: rt.Int = 0
 
 
-class RoboCompA_Failed(rt.DeclaredError, rename={"args_": "args"}):
+class RoboCompA_Failed(
+    rt.DeclaredError, type_id="RoboCompA::Failed", rename={"args_": "args"}
+):
     """RoboCompA::Failed."""
 
     args_: rt.String = ""
 
 
-class Exception_(rt.DeclaredError, rename={"add_note_": "add_note"}):
+class Exception_(
+    rt.DeclaredError, type_id="RoboCompA::Exception", rename={"add_note_": "add_note"}
+):
     """RoboCompA::Exception."""
 
     add_note_: rt.String = ""
 
 
-class RoboCompB_Pose(rt.Struct):
+class RoboCompB_Pose(rt.Struct, type_id="RoboCompB::Pose"):
     """RoboCompB::Pose."""
 
     x: rt.Double = 0.0
 
 
-class RoboCompB_Failed(rt.DeclaredError):
+class RoboCompB_Failed(rt.DeclaredError, type_id="RoboCompB::Failed"):
     """RoboCompB::Failed."""
 
     why: rt.String = ""

@@ -4,26 +4,26 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class DatasayReq(rt.Struct):
+class DatasayReq(rt.Struct, type_id="RoboCompSpeech::DatasayReq"):
     """What to say."""
 
     text: rt.String = "Hello"
     override: rt.Bool = False  # Whether to stop what is being said now.
 
 
-class DatasayResp(rt.Struct):
+class DatasayResp(rt.Struct, type_id="RoboCompSpeech::DatasayResp"):
     """RoboCompSpeech::DatasayResp."""
 
     queued: rt.Int = 0  # [sentences]
 
 
-class NoVoice(rt.DeclaredError):
+class NoVoice(rt.DeclaredError, type_id="RoboCompSpeech::NoVoice"):
     """RoboCompSpeech::NoVoice."""
 
     voice: rt.String = ""
 
 
-class Ray(rt.Struct):
+class Ray(rt.Struct, type_id="RoboCompRange::Ray"):
     """One ray."""
 
     angle: rt.Float = 0.0  # [rad]

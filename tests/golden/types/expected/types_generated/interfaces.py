@@ -4,7 +4,7 @@
 from robocomp_dsl.runtime import types as rt
 
 
-class Point(rt.Struct):
+class Point(rt.Struct, type_id="RoboCompOther::Point"):
     """RoboCompOther::Point."""
 
     x: rt.Double = 0.0  # [m]
@@ -19,14 +19,14 @@ class Points(rt.StructArray[Point]):
     y = rt.Float64Column()
 
 
-class Cell(rt.Struct):
+class Cell(rt.Struct, type_id="RoboCompOther::Cell"):
     """RoboCompOther::Cell."""
 
     row: rt.Int = 0
     name: rt.String = ""
 
 
-class Late(rt.DeclaredError):
+class Late(rt.DeclaredError, type_id="RoboCompOther::Late"):
     """RoboCompOther::Late."""
 
     by: rt.Int = 0  # [ms]
@@ -47,7 +47,7 @@ class Plain(rt.Enum):
     B = 1
 
 
-class Numbers(rt.Struct):
+class Numbers(rt.Struct, type_id="RoboCompTypes::Numbers"):
     """RoboCompTypes::Numbers."""
 
     flag: rt.Bool = True
@@ -76,7 +76,7 @@ class NumbersSeq(rt.StructArray[Numbers]):
     other = rt.Int32Column()
 
 
-class Nested(rt.Struct):
+class Nested(rt.Struct, type_id="RoboCompTypes::Nested"):
     """RoboCompTypes::Nested."""
 
     inner: Numbers = rt.default()
@@ -108,11 +108,11 @@ ByPoint = dict[Cell, Plain]
 Dictionaries = list[ByName]
 
 
-class Empty(rt.Struct):
+class Empty(rt.Struct, type_id="RoboCompTypes::Empty"):
     """RoboCompTypes::Empty."""
 
 
-class Everything(rt.Struct):
+class Everything(rt.Struct, type_id="RoboCompTypes::Everything"):
     """RoboCompTypes::Everything."""
 
     text: rt.String = "a \"quoted\" text, a 'quote', a \\ and a tab\t"
@@ -141,7 +141,7 @@ class Everything(rt.Struct):
 EverythingSeq = list[Everything]
 
 
-class Broken(rt.DeclaredError):
+class Broken(rt.DeclaredError, type_id="RoboCompTypes::Broken"):
     """RoboCompTypes::Broken."""
 
     gear: Gear = Gear.Low
