@@ -107,9 +107,7 @@ class _Reader:
             return type_.size
         count = self.count(path, size)
         if type_.bound and count > type_.bound:
-            raise MalformedMessage(
-                f"{count} elements, more than {type_.bound}", path, self.at - 4
-            )
+            raise MalformedMessage(f"{count} elements, more than {type_.bound}", path, self.at - 4)
         return count
 
     def value(self, type_: Type, path: str) -> Any:

@@ -95,18 +95,13 @@ def _field(type_: Type) -> Any:
         case Primitive():
             if type_.code:
                 return _PRIMITIVES[type_.name]
-            bound = getattr(type_, "bound", 0)
-            return bounded_str[bound] if bound else str
+            return bounded_str[type_.bound] if type_.bound else str
         case Array() | Sequence():
-            return _elements(_field(type_.element), type_)
+            element = _field(type_.element)
+            if type_.size:
+                return array[element, type_.size]
+            return sequence[element, type_.bound] if type_.bound else sequence[element]
     cls: Any = type_
     if issubclass(cls, StructArrayBase):
-        return _elements(_struct(cls._element_), cls)
+        return sequence[_struct(cls._element_)]
     return _struct(cls)
-
-
-def _elements(element: Any, type_: Any) -> Any:
-    if size := getattr(type_, "size", 0):
-        return array[element, size]
-    bound = getattr(type_, "bound", 0)
-    return sequence[element, bound] if bound else sequence[element]

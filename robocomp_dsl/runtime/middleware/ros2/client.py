@@ -112,7 +112,7 @@ class Ros2Client:
         raise ServerLost(self._name)
 
     def _no_service(self, name: str, type_id: str) -> Exception:
-        if text := self._graph.mismatch(name, type_id):
+        if text := self._graph.service_mismatch(name, type_id):
             return InterfaceMismatch(f"{self._at.port}: {text}")
         return NoServer(
             f"{self._at.port}: no ROS service {name} ({type_id}) in domain {self._ros.domain_id}"

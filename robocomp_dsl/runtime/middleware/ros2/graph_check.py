@@ -6,8 +6,11 @@ Out: one warning for each node and topic.
 
 from __future__ import annotations
 
+import contextlib
 import logging
 from typing import Any
+
+from rclpy.node import NodeNameNonExistentError
 
 from robocomp_dsl.runtime.middleware.ros2.node import RosNode
 
@@ -50,11 +53,17 @@ class GraphCheck:
             *node.get_subscriptions_info_by_topic(topic),
         ]
 
-    def mismatch(self, service: str, type_id: str) -> str:
-        """Which other type a service of this name has; "" if it has none or the right one."""
-        for name, types in self._node.get_service_names_and_types():
-            if name == service and type_id not in types:
-                return f"{service} has the type {', '.join(types)} in ROS, here it is {type_id}"
+    def service_mismatch(self, service: str, type_id: str) -> str:
+        """Which node serves `service` with another type; "" if none does."""
+        for name, namespace in self._node.get_node_names_and_namespaces():
+            with contextlib.suppress(NodeNameNonExistentError):  # it has just ended
+                services = self._node.get_service_names_and_types_by_node(name, namespace)
+                for other, types in services:
+                    if other == service and type_id not in types:
+                        return (
+                            f"the ROS node {namespace.rstrip('/')}/{name} serves {service} with the"
+                            f" type {', '.join(types)}, this component calls {type_id}"
+                        )
         return ""
 
 

@@ -92,20 +92,15 @@ def _text(type_: Type) -> str:
     """The type as `get_fields_and_field_types` has it: `sequence<double>`, `std_msgs/Header`."""
     match type_:
         case Primitive():
-            bound = getattr(type_, "bound", 0)
-            name = type_.name.partition("<")[0]
-            return f"{_NAMES.get(name, name)}{f'<{bound}>' if bound else ''}"
+            bound = f"<{type_.bound}>" if type_.bound else ""
+            return f"{_NAMES.get(type_.name, type_.name)}{bound}"
         case Array() | Sequence():
-            return _sequence(_text(type_.element), type_)
+            element = _text(type_.element)
+            if type_.size:
+                return f"{element}[{type_.size}]"
+            return f"sequence<{element}{f', {type_.bound}' if type_.bound else ''}>"
     cls: Any = type_
     if issubclass(cls, StructArrayBase):
-        return _sequence(_text(cls._element_), cls)
+        return f"sequence<{_text(cls._element_)}>"
     package, _, name = ros_type_id(cls).split("/")
     return f"{package}/{name}"
-
-
-def _sequence(element: str, type_: Any) -> str:
-    if size := getattr(type_, "size", 0):
-        return f"{element}[{size}]"
-    bound = getattr(type_, "bound", 0)
-    return f"sequence<{element}{f', {bound}' if bound else ''}>"

@@ -21,16 +21,22 @@ from robocomp_dsl.runtime.data.schema import (
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import RosService, RosTopic
 
 _TYPE_IDS = {
+    "int8": 2,
     "byte": 3,
     "short": 4,
+    "uint16": 5,
     "int": 6,
+    "uint32": 7,
     "long": 8,
+    "uint64": 9,
     "float": 10,
     "double": 11,
     "bool": 15,
+    "octet": 16,
     "string": 17,
 }
-_NESTED, _UINT8, _FIXED, _BOUNDED, _UNBOUNDED = 1, 3, 48, 96, 144
+_NESTED, _UINT8, _BOUNDED_STRING = 1, 3, 21
+_FIXED, _BOUNDED, _UNBOUNDED = 48, 96, 144
 
 
 def topic_hash(topic: RosTopic) -> str:
@@ -95,11 +101,13 @@ def _type(name: str, fields: list[tuple[str, dict[str, Any]]]) -> dict[str, Any]
     }
 
 
-def _type_of(type_id: int, nested: str = "", capacity: int = 0) -> dict[str, Any]:
+def _type_of(
+    type_id: int, nested: str = "", capacity: int = 0, string_capacity: int = 0
+) -> dict[str, Any]:
     return {
         "type_id": type_id,
         "capacity": capacity,
-        "string_capacity": 0,
+        "string_capacity": string_capacity,
         "nested_type_name": nested,
     }
 
@@ -107,10 +115,14 @@ def _type_of(type_id: int, nested: str = "", capacity: int = 0) -> dict[str, Any
 def _field(type_: Type) -> dict[str, Any]:
     match type_:
         case Primitive():
+            if type_.bound:
+                return _type_of(_BOUNDED_STRING, string_capacity=type_.bound)
             return _type_of(_TYPE_IDS[type_.name])
         case Array() | Sequence():
             element = _field(type_.element)
-            return element | {"type_id": element["type_id"] + _UNBOUNDED}
+            kind = _FIXED if type_.size else _BOUNDED if type_.bound else _UNBOUNDED
+            capacity = type_.size or type_.bound
+            return element | {"type_id": element["type_id"] + kind, "capacity": capacity}
     cls: Any = type_
     if issubclass(cls, StructArrayBase):
         return _type_of(_NESTED + _UNBOUNDED, cls._element_._type_id_)
