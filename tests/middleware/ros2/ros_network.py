@@ -38,6 +38,7 @@ def open_router() -> tuple[zenoh.Session, str]:
         "mode": "router",
         "listen/endpoints": [address],
         "scouting/multicast/enabled": False,
+        "scouting/delay": 0,
     }.items():
         config.insert_json5(key, json.dumps(value))
     return zenoh.open(config), address

@@ -122,7 +122,7 @@ def test_service_call_ends_when_the_component_stops(service_network: RosNetwork)
 def test_service_that_nobody_offers_is_named(service_network: RosNetwork) -> None:
     user = service_network.component("user")
     call = user.caller(SWITCH, "set", "Switch", "/nobody", timeout=0.5)
-    with pytest.raises(NoServer, match="/nobody .std_srvs/srv/SetBool"):
+    with pytest.raises(NoServer, match=r"/nobody .std_srvs/srv/SetBool"):
         call(SetBoolRequest(True))
 
 
@@ -139,5 +139,5 @@ def test_service_of_several_inputs_is_refused_with_its_reason(service_network: R
     add = rt.Interface(
         "Robot::Adder", rt.Operation("add", inputs={"a": rt.Int, "b": rt.Int}, returns=rt.Int)
     )
-    with pytest.raises(MiddlewareError, match="Adder: ROS 2 cannot express.*add: it has 2 inputs"):
+    with pytest.raises(MiddlewareError, match=r"Adder: ROS 2 cannot express.*add: it has 2 inputs"):
         service_network.component("adder").serve(add, {"add": lambda a, b: a + b}, "Adder")

@@ -1,0 +1,84 @@
+"""A ROS 2 node on rclpy, which knows nothing of this project; see `peer_process`."""
+
+import json
+import sys
+import threading
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import SetBool
+
+TIMEOUT_S = 60.0
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Peer:
+    def __init__(self, domain_id: int) -> None:
+        rclpy.init(args=[], domain_id=domain_id)
+        self.node = rclpy.create_node("peer")
+        self.received = {}
+        self.publishers = {}
+        out = self.node.create_publisher(String, "/peer/out", 10)
+        self.node.create_subscription(String, "/peer/in", out.publish, 10)
+        scans = self.node.create_publisher(LaserScan, "/peer/scan_out", 10)
+        self.node.create_subscription(LaserScan, "/peer/scan_in", scans.publish, 10)
+        self.map = self.node.create_publisher(String, "/peer/map", LATCHED)
+        self.map.publish(String(data="latched by rclpy"))
+        self.node.create_service(SetBool, "/peer/set", self.set)
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.node)
+        threading.Thread(target=self.executor.spin, daemon=True).start()
+
+    def set(self, request, response):
+        response.success, response.message = request.data, "rclpy"
+        return response
+
+    def call(self, name):
+        client = self.node.create_client(SetBool, name)
+        assert client.wait_for_service(TIMEOUT_S)
+        done = threading.Event()
+        future = client.call_async(SetBool.Request(data=True))
+        future.add_done_callback(lambda _: done.set())
+        assert done.wait(TIMEOUT_S)
+        return [future.result().success, future.result().message]
+
+    def subscribe(self, topic):
+        messages = self.received[topic] = []
+        self.node.create_subscription(String, topic, lambda m: messages.append(m.data), LATCHED)
+
+    def publisher(self, topic):
+        if topic not in self.publishers:
+            self.publishers[topic] = self.node.create_publisher(String, topic, 10)
+        return self.publishers[topic]
+
+    def raw(self, topic, data):
+        self.publisher(topic).publish(bytes.fromhex(data))
+
+    def publish(self, topic, *words):
+        self.publisher(topic).publish(String(data=" ".join(words)))
+
+    def subscribers(self, topic):
+        return self.publisher(topic).get_subscription_count()
+
+
+def main() -> None:
+    peer = Peer(int(sys.argv[1]))
+    commands = {
+        "call": peer.call,
+        "subscribe": peer.subscribe,
+        "received": lambda topic: peer.received[topic],
+        "raw": peer.raw,
+        "publish": peer.publish,
+        "subscribers": peer.subscribers,
+    }
+    print(json.dumps("ready"), flush=True)
+    for line in sys.stdin:
+        name, *arguments = line.split()
+        print(json.dumps(commands[name](*arguments)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
