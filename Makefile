@@ -14,7 +14,7 @@ unexport PYTHONDONTWRITEBYTECODE
 # Processes started by tests use the commands of this checkout.
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: campaign test-wheel test-tools fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
+.PHONY: campaign test-wheel test-tools test-peers fuzz highlight demo demo-wander test test-slow lint format bench golden clean test-editors vsix docs
 
 demo: $(READY)
 	$(BIN)/python components/touch_demo/demo.py $(ARGS)
@@ -53,6 +53,11 @@ test-tools: $(READY)
 
 test-editors: test-tools
 	$(BIN)/python -m pytest -q -m editors tests/editors
+
+# Tests with programs of other projects as peers: ROS 2, DDS.
+test-peers: $(READY)
+	tests/middleware/ros2/install-peers.sh $(PYTHON) build/peers-venv
+	build/peers-venv/bin/python -m pytest -q -m peers tests/middleware/ros2
 
 vsix:
 	cd editors/vscode && npm ci --no-audit --no-fund && npm run --silent package

@@ -1,10 +1,10 @@
 """A ROS 2 node on rclpy, which knows nothing of this project; see `peer_process`."""
 
-import json
 import sys
 import threading
 
 import rclpy
+from peer_program import run
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
@@ -19,7 +19,7 @@ class Peer:
     def __init__(self, domain_id: int) -> None:
         rclpy.init(args=[], domain_id=domain_id)
         self.node = rclpy.create_node("peer")
-        self.received = {}
+        self.messages = {}
         self.publishers = {}
         out = self.node.create_publisher(String, "/peer/out", 10)
         self.node.create_subscription(String, "/peer/in", out.publish, 10)
@@ -45,8 +45,11 @@ class Peer:
         assert done.wait(TIMEOUT_S)
         return [future.result().success, future.result().message]
 
+    def received(self, topic):
+        return self.messages[topic]
+
     def subscribe(self, topic):
-        messages = self.received[topic] = []
+        messages = self.messages[topic] = []
         self.node.create_subscription(String, topic, lambda m: messages.append(m.data), LATCHED)
 
     def publisher(self, topic):
@@ -64,21 +67,5 @@ class Peer:
         return self.publisher(topic).get_subscription_count()
 
 
-def main() -> None:
-    peer = Peer(int(sys.argv[1]))
-    commands = {
-        "call": peer.call,
-        "subscribe": peer.subscribe,
-        "received": lambda topic: peer.received[topic],
-        "raw": peer.raw,
-        "publish": peer.publish,
-        "subscribers": peer.subscribers,
-    }
-    print(json.dumps("ready"), flush=True)
-    for line in sys.stdin:
-        name, *arguments = line.split()
-        print(json.dumps(commands[name](*arguments)), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    run(Peer(int(sys.argv[1])))

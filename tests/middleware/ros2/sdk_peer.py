@@ -1,9 +1,9 @@
 """A peer on zenoh-ros2-sdk, another implementation of rmw_zenoh; see `peer_process`."""
 
-import json
 import logging
 import sys
 
+from peer_program import run
 from zenoh_ros2_sdk import (
     ROS2Publisher,
     ROS2ServiceClient,
@@ -24,7 +24,7 @@ LATCHED = QosProfile(durability=QosDurability.TRANSIENT_LOCAL, history_depth=1)
 class Peer:
     def __init__(self, domain_id: int, port: int) -> None:
         self.at = {"domain_id": domain_id, "router_port": port}
-        self.received = {}
+        self.messages = {}
         self.publishers = {}
         out = self.publisher("/peer/out")
         self.echo = ROS2Subscriber(
@@ -42,8 +42,11 @@ class Peer:
         response = client.call(data=True)
         return response and [bool(response.success), response.message]
 
+    def received(self, topic):
+        return self.messages[topic]
+
     def subscribe(self, topic):
-        messages = self.received[topic] = []
+        messages = self.messages[topic] = []
         self.clients.append(
             ROS2Subscriber(
                 topic, callback=lambda m: messages.append(m.data), qos=LATCHED, **STRING, **self.at
@@ -65,22 +68,6 @@ class Peer:
         return int(self.publisher(topic).pub.matching_status.matching)
 
 
-def main() -> None:
-    logging.disable(logging.WARNING)
-    peer = Peer(int(sys.argv[1]), int(sys.argv[2]))
-    commands = {
-        "call": peer.call,
-        "subscribe": peer.subscribe,
-        "received": lambda topic: peer.received[topic],
-        "raw": peer.raw,
-        "publish": peer.publish,
-        "subscribers": peer.subscribers,
-    }
-    print(json.dumps("ready"), flush=True)
-    for line in sys.stdin:
-        name, *arguments = line.split()
-        print(json.dumps(commands[name](*arguments)), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    logging.disable(logging.WARNING)
+    run(Peer(int(sys.argv[1]), int(sys.argv[2])))

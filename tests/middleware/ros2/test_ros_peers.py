@@ -29,6 +29,7 @@ from tests.support.waiting import wait_until
 
 pytestmark = pytest.mark.peers
 PEERS = {"rmw_zenoh": "sdk", "ros2": "rclpy", "dds": "rclpy"}
+MODULES = {"sdk": "zenoh_ros2_sdk", "rclpy": "rclpy"}
 MUTATIONS = 300
 
 
@@ -38,9 +39,11 @@ def peer(request: pytest.FixtureRequest) -> Iterator[PeerProcess]:
     network: RosNetwork = request.getfixturevalue(
         "ros_network" if "ros_network" in request.fixturenames else "service_network"
     )
+    program = PEERS[network.kind]
+    pytest.importorskip(MODULES[program], reason="`make test-peers` runs it in build/peers-venv")
     port = network.router_address.rpartition(":")[2]
     arguments = [str(network.domain_id), *([port] if port else [])]
-    process = PeerProcess(f"{PEERS[network.kind]}_peer", *arguments)
+    process = PeerProcess(f"{program}_peer", *arguments)
     yield process
     process.close()
 

@@ -37,14 +37,14 @@ def test_service_of_a_component_is_called(service_network: RosNetwork) -> None:
 def test_service_port_with_several_operations_has_a_name_for_each(
     service_network: RosNetwork,
 ) -> None:
-    said: list[str] = []
+    texts: list[str] = []
     base = service_network.component("base", Base="/robot")
     base.serve(
         BASE,
         {
             "enable": _set,
             "stop": lambda _: TriggerResponse(True, "stopped"),
-            "say": lambda text: said.append(text.data),
+            "say": lambda text: texts.append(text.data),
         },
         "Base",
     )
@@ -52,7 +52,7 @@ def test_service_port_with_several_operations_has_a_name_for_each(
     assert user.caller(BASE, "enable", "Base", "/robot")(SetBoolRequest(True)).success
     assert user.caller(BASE, "stop", "Base")(TriggerRequest()) == TriggerResponse(True, "stopped")
     user.caller(BASE, "say", "Base")(String("hello"))
-    wait_until(lambda: said == ["hello"])
+    wait_until(lambda: texts == ["hello"])
 
 
 def test_service_handlers_of_two_components_call_each_other(service_network: RosNetwork) -> None:

@@ -69,7 +69,7 @@ def _open_topic(participant: Participant, name: str, operation: Operation, port:
     return Topic(participant.dds, f"rt{name}", message_type(type_))
 
 
-class TopicWriter:
+class DdsWriter:
     """Publishes on one topic; `name` is that of the port."""
 
     def __init__(
@@ -105,7 +105,7 @@ class TopicWriter:
         self._writer = None  # deleted with its last reference
 
 
-class TopicReceiver:
+class DdsReceiver:
     """Receives one topic for one operation; `name` is that of the port."""
 
     def __init__(
@@ -161,7 +161,7 @@ class DdsSubscription:
     ) -> None:
         self.address = topics_address(topics)
         self._receivers = [
-            TopicReceiver(participant, port, served, topic)
+            DdsReceiver(participant, port, served, topic)
             for topic in topics
             for served in port.operations.values()
         ]

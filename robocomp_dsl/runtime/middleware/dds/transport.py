@@ -11,7 +11,7 @@ from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.dds.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.dds.participant import Participant
-from robocomp_dsl.runtime.middleware.dds.topics import DdsSubscription, TopicWriter
+from robocomp_dsl.runtime.middleware.dds.topics import DdsSubscription, DdsWriter
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import require_ros_types
 from robocomp_dsl.runtime.middleware.ros_common.names import port_name
 from robocomp_dsl.runtime.middleware.ros_common.publisher import RosPublisher
@@ -44,9 +44,9 @@ class DdsTransport:
         """See `transport.Transport`."""
         require_ros_types(at.interface, at.port, published=True)
 
-        def open_topic(name: str, operation: Operation) -> TopicWriter:
+        def open_topic(name: str, operation: Operation) -> DdsWriter:
             counts = OperationCounts(at.port, operation.name)
-            return TopicWriter(self._participant, at, name, operation, counts)
+            return DdsWriter(self._participant, at, name, operation, counts)
 
         name = port_name(at, self._context.addresses)
         return RosPublisher(at, name, MIDDLEWARE.name, open_topic)

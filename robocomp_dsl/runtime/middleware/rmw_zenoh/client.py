@@ -18,10 +18,10 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer
 from robocomp_dsl.runtime.middleware.rmw_zenoh.graph import mismatch
-from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_channel, topic_channel
+from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_info, topic_info
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
-from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import TopicSender
-from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import Channel, attachment
+from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import RmwZenohWriter
+from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import TopicInfo, attachment
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
 from robocomp_dsl.runtime.middleware.ros_common.payload import padded
 from robocomp_dsl.runtime.middleware.transport import BoundOperation, ServerLost
@@ -45,37 +45,37 @@ class RmwZenohClient:
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.ServiceClient`."""
         if is_topic(operation, published=False):
-            channel = topic_channel(self._name, self._at.interface, operation)
-            sender = TopicSender(self._session, channel, self._at.qos, self._at.port)
-            self._declared.append(sender)
-            return self._command(sender, operation, counts)
+            info = topic_info(self._name, self._at.interface, operation)
+            writer = RmwZenohWriter(self._session, info, self._at.qos, self._at.port)
+            self._declared.append(writer)
+            return self._command(writer, operation, counts)
         return self._query(operation, counts)
 
     def _command(
-        self, sender: TopicSender, operation: Operation, counts: OperationCounts
+        self, writer: RmwZenohWriter, operation: Operation, counts: OperationCounts
     ) -> BoundOperation:
         def command(data: bytes) -> None:
-            self._require("MS", sender.channel)
-            sender.send(data)
+            self._require("MS", writer.info)
+            writer.send(data)
             counts.bytes_out += len(data)
 
         return BoundOperation(operation.encode_request, command)
 
     def _query(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
-        channel = service_channel(self._name, self._at.interface, operation)
+        info = service_info(self._name, self._at.interface, operation)
         querier: Any = self._session.zenoh.declare_querier(
-            channel.key(self._session.domain_id),
+            info.key(self._session.domain_id),
             target=zenoh.QueryTarget.ALL_COMPLETE,
             consolidation=zenoh.ConsolidationMode.NONE,
             timeout=self._timeout,
         )
-        token, gid = self._session.announce("SC", channel, self._at.qos)
+        token, gid = self._session.announce("SC", info, self._at.qos)
         self._declared += [token, querier]
         get, ended, timeout = querier.get, self._ended, self._timeout
         decode, numbers = padded(operation.decode_reply), count(1)
 
         def query(data: bytes) -> Any:
-            self._require("SS", channel)
+            self._require("SS", info)
             counts.bytes_out += len(data)
             try:
                 reply = get(
@@ -95,25 +95,25 @@ class RmwZenohClient:
 
         return BoundOperation(operation.encode_request, query)
 
-    def _require(self, kind: str, channel: Channel) -> None:
+    def _require(self, kind: str, info: TopicInfo) -> None:
         """Wait for the other side. Raises `ServerLost`, `NoServer` or `InterfaceMismatch`."""
         graph = self._session.graph
-        if graph.find(kind, channel):
+        if graph.find(kind, info):
             return
 
         def is_known() -> bool:
-            return bool(self._is_ended or graph.find(kind, channel))
+            return bool(self._is_ended or graph.find(kind, info))
 
         graph.wait(is_known, min(DISCOVERY_TIMEOUT_S, self._timeout))
         if self._is_ended:
             raise ServerLost(self._name)
-        if graph.find(kind, channel):
+        if graph.find(kind, info):
             return
-        if other := graph.find_other(kind, channel):
-            raise InterfaceMismatch(f"{self._at.port}: {mismatch(other, channel)}")
+        if other := graph.find_other(kind, info):
+            raise InterfaceMismatch(f"{self._at.port}: {mismatch(other, info)}")
         what = "service" if kind == "SS" else "subscriber of the topic"
         raise NoServer(
-            f"{self._at.port}: no ROS {what} {channel.name} ({channel.type_id}) in domain"
+            f"{self._at.port}: no ROS {what} {info.name} ({info.type_id}) in domain"
             f" {self._session.domain_id} of {self._session.connect}"
         )
 

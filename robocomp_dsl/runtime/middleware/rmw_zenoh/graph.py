@@ -15,8 +15,8 @@ import zenoh
 
 from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import (
     TOKENS,
-    Channel,
     RemoteEndpoint,
+    TopicInfo,
     parse_endpoint,
 )
 
@@ -29,7 +29,7 @@ class RosGraph:
     def __init__(self, session: zenoh.Session, domain_id: int) -> None:
         self._changed = threading.Condition()
         self._endpoints: dict[str, RemoteEndpoint] = {}
-        self._watched: dict[str, tuple[Channel, str]] = {}
+        self._watched: dict[str, tuple[TopicInfo, str]] = {}
         self._reported: set[tuple[str, str]] = set()
         self._subscriber: Any = session.liveliness().declare_subscriber(
             f"{TOKENS}/{domain_id}/**", self._on_token, history=True
@@ -46,40 +46,40 @@ class RosGraph:
             else:
                 self._endpoints.pop(token, None)
             self._changed.notify_all()
-            watched = self._watched.get(endpoint.channel.name)
+            watched = self._watched.get(endpoint.info.name)
         if watched and sample.kind == zenoh.SampleKind.PUT:
             self._report(endpoint, *watched)
 
-    def watch(self, channel: Channel, port: str) -> None:
-        """Warn of endpoints with the name of `channel` that have another type."""
+    def watch(self, info: TopicInfo, port: str) -> None:
+        """Warn of endpoints with the name of `info` that have another type."""
         with self._changed:
-            self._watched[channel.name] = channel, port
+            self._watched[info.name] = info, port
             endpoints = list(self._endpoints.values())
         for endpoint in endpoints:
-            self._report(endpoint, channel, port)
+            self._report(endpoint, info, port)
 
-    def _report(self, endpoint: RemoteEndpoint, channel: Channel, port: str) -> None:
-        if endpoint.channel.name != channel.name or endpoint.channel == channel:
+    def _report(self, endpoint: RemoteEndpoint, info: TopicInfo, port: str) -> None:
+        if endpoint.info.name != info.name or endpoint.info == info:
             return
-        if (endpoint.node, channel.name) not in self._reported:
-            self._reported.add((endpoint.node, channel.name))
-            log.warning("%s: %s", port, mismatch(endpoint, channel))
+        if (endpoint.node, info.name) not in self._reported:
+            self._reported.add((endpoint.node, info.name))
+            log.warning("%s: %s", port, mismatch(endpoint, info))
 
-    def find(self, kind: str, channel: Channel) -> list[RemoteEndpoint]:
-        """The endpoints of this kind with the name, type and hash of `channel`."""
+    def find(self, kind: str, info: TopicInfo) -> list[RemoteEndpoint]:
+        """The endpoints of this kind with the name, type and hash of `info`."""
         with self._changed:
             return [
                 endpoint
                 for endpoint in self._endpoints.values()
-                if endpoint.kind == kind and endpoint.channel == channel
+                if endpoint.kind == kind and endpoint.info == info
             ]
 
-    def find_other(self, kind: str, channel: Channel) -> RemoteEndpoint | None:
+    def find_other(self, kind: str, info: TopicInfo) -> RemoteEndpoint | None:
         """An endpoint of this kind and name that has another type or hash."""
         with self._changed:
             for endpoint in self._endpoints.values():
-                same_name = endpoint.channel.name == channel.name
-                if endpoint.kind == kind and same_name and endpoint.channel != channel:
+                same_name = endpoint.info.name == info.name
+                if endpoint.kind == kind and same_name and endpoint.info != info:
                     return endpoint
         return None
 
@@ -99,15 +99,15 @@ class RosGraph:
         self._subscriber.undeclare()
 
 
-def mismatch(endpoint: RemoteEndpoint, channel: Channel) -> str:
+def mismatch(endpoint: RemoteEndpoint, info: TopicInfo) -> str:
     """The text for an endpoint whose type differs."""
-    theirs = endpoint.channel
-    if theirs.type_id != channel.type_id:
+    theirs = endpoint.info
+    if theirs.type_id != info.type_id:
         return (
-            f"the ROS node {endpoint.node} uses {channel.name} with the type {theirs.type_id},"
-            f" this component with {channel.type_id}"
+            f"the ROS node {endpoint.node} uses {info.name} with the type {theirs.type_id},"
+            f" this component with {info.type_id}"
         )
     return (
-        f"the ROS node {endpoint.node} uses another definition of {channel.type_id} for"
-        f" {channel.name}: its hash is {theirs.hash[:20]}…, here it is {channel.hash[:20]}…"
+        f"the ROS node {endpoint.node} uses another definition of {info.type_id} for"
+        f" {info.name}: its hash is {theirs.hash[:20]}…, here it is {info.hash[:20]}…"
     )

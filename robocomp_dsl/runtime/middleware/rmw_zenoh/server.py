@@ -15,9 +15,9 @@ import zenoh
 
 from robocomp_dsl.runtime.codec.failures import encode_failure
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
-from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_channel
+from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_info
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
-from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import TopicReceiver
+from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import RmwZenohReceiver
 from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import attachment, parse_attachment
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic
 from robocomp_dsl.runtime.middleware.ros_common.payload import padded
@@ -35,19 +35,19 @@ class RmwZenohServer:
         self._declared: list[Any] = []
         for served in port.operations.values():
             if is_topic(served.operation, published=False):
-                self._declared.append(TopicReceiver(session, port, served, name))
+                self._declared.append(RmwZenohReceiver(session, port, served, name))
             else:
                 self._serve(port, served)
 
     def _serve(self, port: IncomingPort, served: IncomingOperation) -> None:
-        channel = service_channel(self.address, port.interface, served.operation)
-        key = channel.key(self._session.domain_id)
+        info = service_info(self.address, port.interface, served.operation)
+        key = info.key(self._session.domain_id)
         queue: Any = zenoh.handlers.FifoChannel(port.at.qos.depth or DEPTH)
         # Clients of ROS query complete queryables only.
         queryable: Any = self._session.zenoh.declare_queryable(key, queue, complete=True)
-        token, _ = self._session.announce("SS", channel, port.at.qos)
+        token, _ = self._session.announce("SS", info, port.at.qos)
         self._declared += [token, queryable]
-        self._session.graph.watch(channel, port.at.port)
+        self._session.graph.watch(info, port.at.port)
         port.receive(queryable.handler.recv, _answer(served, key), zenoh.ZError)
 
     def close(self) -> None:

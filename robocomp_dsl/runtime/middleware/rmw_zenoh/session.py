@@ -20,9 +20,9 @@ from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.errors import MiddlewareError
 from robocomp_dsl.runtime.middleware.rmw_zenoh.graph import RosGraph
 from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import (
-    Channel,
     EndpointKind,
-    RosNode,
+    NodeInfo,
+    TopicInfo,
     gid_of,
     qos_text,
 )
@@ -47,7 +47,7 @@ class RosSession:
         try:
             self._report_router()
             self._ids = itertools.count(1)
-            self.node = RosNode(self.domain_id, str(self.zenoh.info.zid()), 0, namespace, name)
+            self.node = NodeInfo(self.domain_id, str(self.zenoh.info.zid()), 0, namespace, name)
             self._tokens: list[Any] = [self._declare(self.node.token())]
             self.graph = RosGraph(self.zenoh, self.domain_id)
         except BaseException:
@@ -66,9 +66,9 @@ class RosSession:
     def _declare(self, token: str) -> Any:
         return self.zenoh.liveliness().declare_token(token)
 
-    def announce(self, kind: EndpointKind, channel: Channel, qos: Qos) -> tuple[Any, bytes]:
+    def announce(self, kind: EndpointKind, info: TopicInfo, qos: Qos) -> tuple[Any, bytes]:
         """Show an endpoint to ROS; returns its token, to undeclare it, and its identity."""
-        text = self.node.endpoint_token(next(self._ids), kind, channel, qos_text(qos))
+        text = self.node.endpoint_token(next(self._ids), kind, info, qos_text(qos))
         return self._declare(text), gid_of(text)
 
     def close(self) -> None:

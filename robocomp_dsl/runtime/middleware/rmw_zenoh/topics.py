@@ -18,11 +18,11 @@ import zenoh.ext
 from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.errors import MalformedMessage
-from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_channel
+from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_info
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
 from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import (
     DEFAULT_DEPTH,
-    Channel,
+    TopicInfo,
     attachment,
     parse_attachment,
 )
@@ -31,12 +31,12 @@ from robocomp_dsl.runtime.middleware.ros_common.topics import topics_address
 from robocomp_dsl.runtime.middleware.zenoh.reliable_queue import HOLD_S, ReliableQueue
 
 
-class TopicSender:
+class RmwZenohWriter:
     """Publishes on one topic."""
 
-    def __init__(self, session: RosSession, channel: Channel, qos: Qos, port: str) -> None:
-        self.channel = channel
-        key = channel.key(session.domain_id)
+    def __init__(self, session: RosSession, info: TopicInfo, qos: Qos, port: str) -> None:
+        self.info = info
+        key = info.key(session.domain_id)
         control = zenoh.CongestionControl
         congestion = control.BLOCK if qos.keep_all and qos.reliable is not False else control.DROP
         self._publisher: Any
@@ -50,14 +50,14 @@ class TopicSender:
             )
         else:
             self._publisher = session.zenoh.declare_publisher(key, congestion_control=congestion)
-        self._token, self._gid = session.announce("MP", channel, qos)
+        self._token, self._gid = session.announce("MP", info, qos)
         self._numbers = count(1)
         self._graph = session.graph
-        self._graph.watch(channel, port)
+        self._graph.watch(info, port)
 
     def has_subscribers(self) -> bool:
         """Whether another endpoint subscribes to the topic."""
-        return bool(self._graph.find("MS", self.channel))
+        return bool(self._graph.find("MS", self.info))
 
     def send(self, data: bytes) -> None:
         """Publish one message."""
@@ -70,14 +70,14 @@ class TopicSender:
         self._publisher.undeclare()
 
 
-class TopicReceiver:
+class RmwZenohReceiver:
     """Receives one topic for one operation; `name` is that of the port."""
 
     def __init__(
         self, session: RosSession, port: IncomingPort, served: IncomingOperation, name: str
     ) -> None:
         qos = port.at.qos
-        self.channel = topic_channel(name, port.interface, served.operation)
+        self.info = topic_info(name, port.interface, served.operation)
         handle = _sample_handler(served)
         self._queue: ReliableQueue | None = None
         handler: Any = zenoh.handlers.RingChannel(qos.depth or DEFAULT_DEPTH)
@@ -85,15 +85,15 @@ class TopicReceiver:
             self._queue = ReliableQueue(qos.depth or DEFAULT_DEPTH, HOLD_S)
             handler = zenoh.handlers.Callback(self._queue.put, indirect=False)
         self._subscriber = self._declare(session, qos, handler)
-        self._token, _ = session.announce("MS", self.channel, qos)
-        session.graph.watch(self.channel, port.at.port)
+        self._token, _ = session.announce("MS", self.info, qos)
+        session.graph.watch(self.info, port.at.port)
         if self._queue:
             port.receive(self._queue.take, handle)
         else:
             port.receive(self._subscriber.handler.recv, handle, zenoh.ZError)
 
     def _declare(self, session: RosSession, qos: Qos, handler: Any) -> Any:
-        key = self.channel.key(session.domain_id)
+        key = self.info.key(session.domain_id)
         if not qos.latched:
             return session.zenoh.declare_subscriber(key, handler)
         history = zenoh.ext.HistoryConfig(
@@ -146,7 +146,7 @@ class RmwZenohSubscription:
     def __init__(self, session: RosSession, port: IncomingPort, topics: tuple[str, ...]) -> None:
         self.address = topics_address(topics)
         self._receivers = [
-            TopicReceiver(session, port, served, topic)
+            RmwZenohReceiver(session, port, served, topic)
             for topic in topics
             for served in port.operations.values()
         ]

@@ -7,10 +7,10 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.middleware.rmw_zenoh.client import RmwZenohClient
 from robocomp_dsl.runtime.middleware.rmw_zenoh.description import MIDDLEWARE
-from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_channel
+from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import topic_info
 from robocomp_dsl.runtime.middleware.rmw_zenoh.server import RmwZenohServer
 from robocomp_dsl.runtime.middleware.rmw_zenoh.session import RosSession
-from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import RmwZenohSubscription, TopicSender
+from robocomp_dsl.runtime.middleware.rmw_zenoh.topics import RmwZenohSubscription, RmwZenohWriter
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import require_ros_types
 from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name, port_name
 from robocomp_dsl.runtime.middleware.ros_common.publisher import RosPublisher
@@ -46,9 +46,9 @@ class RmwZenohTransport:
         """See `transport.Transport`."""
         require_ros_types(at.interface, at.port, published=True)
 
-        def open_topic(name: str, operation: Operation) -> TopicSender:
-            channel = topic_channel(name, at.interface, operation)
-            return TopicSender(self._session, channel, at.qos, at.port)
+        def open_topic(name: str, operation: Operation) -> RmwZenohWriter:
+            info = topic_info(name, at.interface, operation)
+            return RmwZenohWriter(self._session, info, at.qos, at.port)
 
         name = port_name(at, self._context.addresses)
         return RosPublisher(at, name, MIDDLEWARE.name, open_topic)

@@ -37,7 +37,7 @@ def ros_type(dds_name: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Channel:
+class TopicInfo:
     """A topic or service: its name, as in `/scan`, its type and the hash of the type."""
 
     name: str
@@ -50,7 +50,7 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True)
-class RosNode:
+class NodeInfo:
     """A node of ROS; `zid` is the identity of its zenoh session."""
 
     domain_id: int
@@ -63,10 +63,10 @@ class RosNode:
         """Its liveliness token."""
         return self._token(self.id, "NN")
 
-    def endpoint_token(self, id_: int, kind: EndpointKind, channel: Channel, qos: str) -> str:
+    def endpoint_token(self, id_: int, kind: EndpointKind, info: TopicInfo, qos: str) -> str:
         """The liveliness token of a publisher, subscription, server or client."""
-        of_type = f"{dds_type(channel.type_id)}/{channel.hash}"
-        return f"{self._token(id_, kind)}/{_mangled(channel.name)}/{of_type}/{qos}"
+        of_type = f"{dds_type(info.type_id)}/{info.hash}"
+        return f"{self._token(id_, kind)}/{_mangled(info.name)}/{of_type}/{qos}"
 
     def _token(self, id_: int, kind: str) -> str:
         namespace = "%" if self.namespace == "/" else _mangled(self.namespace)
@@ -80,7 +80,7 @@ class RemoteEndpoint:
 
     kind: str
     node: str
-    channel: Channel
+    info: TopicInfo
 
 
 def parse_endpoint(token: str) -> RemoteEndpoint | None:
@@ -90,7 +90,7 @@ def parse_endpoint(token: str) -> RemoteEndpoint | None:
         return None
     kind, _, namespace, node, name, type_, hash_ = parts[5:12]
     full = f"{'' if namespace == '%' else _unmangled(namespace)}/{node}"
-    return RemoteEndpoint(kind, full, Channel(_unmangled(name), ros_type(type_), hash_))
+    return RemoteEndpoint(kind, full, TopicInfo(_unmangled(name), ros_type(type_), hash_))
 
 
 def _mangled(name: str) -> str:

@@ -18,9 +18,9 @@ from robocomp_dsl.runtime.component.statistics import OperationCounts
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import InterfaceMismatch, NoServer, Timeout
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
-from robocomp_dsl.runtime.middleware.ros2.node import RosNode
+from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
 from robocomp_dsl.runtime.middleware.ros2.ros_types import service_class
-from robocomp_dsl.runtime.middleware.ros2.topics import TopicWriter
+from robocomp_dsl.runtime.middleware.ros2.topics import Ros2Writer
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic, service_type
 from robocomp_dsl.runtime.middleware.ros_common.names import operation_name
 from robocomp_dsl.runtime.middleware.ros_common.payload import padded
@@ -35,7 +35,7 @@ class Ros2Client:
     """Calls the services of one port; `name` is the ROS name of the port."""
 
     def __init__(
-        self, ros: RosNode, graph: GraphCheck, at: Endpoint, name: str, timeout: float
+        self, ros: RclpyNode, graph: GraphCheck, at: Endpoint, name: str, timeout: float
     ) -> None:
         self._ros = ros
         self._graph = graph
@@ -45,7 +45,7 @@ class Ros2Client:
         self._ended = threading.Event()
         self._waiting: set[SimpleQueue[Any]] = set()
         self._clients: list[Any] = []
-        self._writers: list[TopicWriter] = []
+        self._writers: list[Ros2Writer] = []
 
     def bind(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
         """See `transport.ServiceClient`."""
@@ -54,7 +54,7 @@ class Ros2Client:
         return self._query(operation, counts)
 
     def _command(self, operation: Operation, counts: OperationCounts) -> BoundOperation:
-        writer = TopicWriter(self._ros, self._graph, self._at, self._name, operation)
+        writer = Ros2Writer(self._ros, self._graph, self._at, self._name, operation)
         self._writers.append(writer)
 
         def command(data: bytes) -> None:

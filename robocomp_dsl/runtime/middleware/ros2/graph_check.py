@@ -12,7 +12,7 @@ from typing import Any
 
 from rclpy.node import NodeNameNonExistentError
 
-from robocomp_dsl.runtime.middleware.ros2.node import RosNode
+from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
 
 PERIOD_S = 1.0
 log = logging.getLogger("robocomp")
@@ -21,7 +21,7 @@ log = logging.getLogger("robocomp")
 class GraphCheck:
     """The topics of one component."""
 
-    def __init__(self, ros: RosNode) -> None:
+    def __init__(self, ros: RclpyNode) -> None:
         self._node = ros.node
         self._topics: dict[str, tuple[str, str]] = {}
         self._reported: set[tuple[str, str]] = set()

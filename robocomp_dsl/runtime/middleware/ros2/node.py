@@ -24,7 +24,7 @@ SETTINGS = ("domain_id",)
 log = logging.getLogger("robocomp")
 
 
-class RosNode:
+class RclpyNode:
     """A node with an rclpy context and an executor of its own."""
 
     def __init__(self, component: str, settings: Mapping[str, str]) -> None:

@@ -13,9 +13,9 @@ from rclpy.serialization import deserialize_message, serialize_message
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
-from robocomp_dsl.runtime.middleware.ros2.node import RosNode
+from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
 from robocomp_dsl.runtime.middleware.ros2.ros_types import service_class
-from robocomp_dsl.runtime.middleware.ros2.topics import TopicReceiver
+from robocomp_dsl.runtime.middleware.ros2.topics import Ros2Receiver
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import is_topic, service_type
 from robocomp_dsl.runtime.middleware.ros_common.names import operation_name
 from robocomp_dsl.runtime.middleware.ros_common.payload import padded
@@ -24,13 +24,13 @@ from robocomp_dsl.runtime.middleware.ros_common.payload import padded
 class Ros2Server:
     """One served port; `address` is its ROS name."""
 
-    def __init__(self, ros: RosNode, graph: GraphCheck, port: IncomingPort, name: str) -> None:
+    def __init__(self, ros: RclpyNode, graph: GraphCheck, port: IncomingPort, name: str) -> None:
         self.address = name
         self._queue = MessageQueue(port)
-        self._endpoints: list[_ServiceEndpoint | TopicReceiver] = []
+        self._endpoints: list[_ServiceEndpoint | Ros2Receiver] = []
         for served in port.operations.values():
             if is_topic(served.operation, published=False):
-                receiver = TopicReceiver(ros, graph, port, served, name, self._queue)
+                receiver = Ros2Receiver(ros, graph, port, served, name, self._queue)
                 self._endpoints.append(receiver)
             else:
                 self._endpoints.append(_ServiceEndpoint(ros, port, served, name, self._queue))
@@ -52,7 +52,7 @@ class _ServiceEndpoint:
 
     def __init__(
         self,
-        ros: RosNode,
+        ros: RclpyNode,
         port: IncomingPort,
         served: IncomingOperation,
         name: str,

@@ -16,7 +16,7 @@ from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.connection.incoming_port import IncomingOperation, IncomingPort
 from robocomp_dsl.runtime.connection.message_queue import MessageQueue
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
-from robocomp_dsl.runtime.middleware.ros2.node import RosNode
+from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
 from robocomp_dsl.runtime.middleware.ros2.qos import publisher_profile, subscription_profile
 from robocomp_dsl.runtime.middleware.ros2.ros_types import message_class
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import topic_type
@@ -27,11 +27,11 @@ from robocomp_dsl.runtime.middleware.ros_common.topics import topics_address
 log = logging.getLogger("robocomp")
 
 
-class TopicWriter:
+class Ros2Writer:
     """Publishes on one topic."""
 
     def __init__(
-        self, ros: RosNode, graph: GraphCheck, at: Endpoint, name: str, operation: Operation
+        self, ros: RclpyNode, graph: GraphCheck, at: Endpoint, name: str, operation: Operation
     ) -> None:
         self._ros = ros
         self.topic = operation_name(name, at.interface, operation)
@@ -56,12 +56,12 @@ class TopicWriter:
         self._ros.node.destroy_publisher(self._publisher)
 
 
-class TopicReceiver:
+class Ros2Receiver:
     """Receives one topic for one operation; `name` is that of the port."""
 
     def __init__(
         self,
-        ros: RosNode,
+        ros: RclpyNode,
         graph: GraphCheck,
         port: IncomingPort,
         served: IncomingOperation,
@@ -111,12 +111,12 @@ class Ros2Subscription:
     """A subscribed port; `address` are the topics that it receives."""
 
     def __init__(
-        self, ros: RosNode, graph: GraphCheck, port: IncomingPort, topics: tuple[str, ...]
+        self, ros: RclpyNode, graph: GraphCheck, port: IncomingPort, topics: tuple[str, ...]
     ) -> None:
         self.address = topics_address(topics)
         self._queue = MessageQueue(port)
         self._receivers = [
-            TopicReceiver(ros, graph, port, served, topic, self._queue)
+            Ros2Receiver(ros, graph, port, served, topic, self._queue)
             for topic in topics
             for served in port.operations.values()
         ]

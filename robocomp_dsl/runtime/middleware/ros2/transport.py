@@ -8,9 +8,9 @@ from robocomp_dsl.runtime.connection.incoming_port import IncomingPort
 from robocomp_dsl.runtime.middleware.ros2.client import Ros2Client
 from robocomp_dsl.runtime.middleware.ros2.description import MIDDLEWARE
 from robocomp_dsl.runtime.middleware.ros2.graph_check import GraphCheck
-from robocomp_dsl.runtime.middleware.ros2.node import RosNode
+from robocomp_dsl.runtime.middleware.ros2.node import RclpyNode
 from robocomp_dsl.runtime.middleware.ros2.server import Ros2Server
-from robocomp_dsl.runtime.middleware.ros2.topics import Ros2Subscription, TopicWriter
+from robocomp_dsl.runtime.middleware.ros2.topics import Ros2Subscription, Ros2Writer
 from robocomp_dsl.runtime.middleware.ros_common.interface_types import require_ros_types
 from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name, port_name
 from robocomp_dsl.runtime.middleware.ros_common.publisher import RosPublisher
@@ -29,7 +29,7 @@ class Ros2Transport:
 
     def __init__(self, context: TransportContext) -> None:
         self._context = context
-        self._ros = RosNode(context.component, context.settings)
+        self._ros = RclpyNode(context.component, context.settings)
         self._graph = GraphCheck(self._ros)
 
     def serve(self, port: IncomingPort) -> Ros2Server:
@@ -48,8 +48,8 @@ class Ros2Transport:
         """See `transport.Transport`."""
         require_ros_types(at.interface, at.port, published=True)
 
-        def open_topic(name: str, operation: Operation) -> TopicWriter:
-            return TopicWriter(self._ros, self._graph, at, name, operation)
+        def open_topic(name: str, operation: Operation) -> Ros2Writer:
+            return Ros2Writer(self._ros, self._graph, at, name, operation)
 
         name = port_name(at, self._context.addresses)
         return RosPublisher(at, name, MIDDLEWARE.name, open_topic)
