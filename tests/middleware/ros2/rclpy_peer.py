@@ -12,6 +12,7 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
 TIMEOUT_S = 60.0
+RETRY_S = 5.0
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -40,9 +41,10 @@ class Peer:
         client = self.node.create_client(SetBool, name)
         assert client.wait_for_service(TIMEOUT_S)
         done = threading.Event()
-        future = client.call_async(SetBool.Request(data=True))
-        future.add_done_callback(lambda _: done.set())
-        assert done.wait(TIMEOUT_S)
+        while not done.is_set():  # the server may not have discovered the client yet
+            future = client.call_async(SetBool.Request(data=True))
+            future.add_done_callback(lambda _: done.set())
+            done.wait(RETRY_S)
         return [future.result().success, future.result().message]
 
     def received(self, topic):

@@ -18,7 +18,9 @@ from robocomp_dsl.runtime.component.statistics import Statistics
 from robocomp_dsl.runtime.connection.component_ports import open_ports
 from robocomp_dsl.runtime.connection.endpoint import Endpoint, Qos
 from robocomp_dsl.runtime.connection.ports import ComponentContext
+from robocomp_dsl.runtime.errors import Timeout
 from robocomp_dsl.runtime.presence.port_record import PortRecord
+from tests.support.waiting import wait_until
 
 _domain_ids = itertools.cycle(range(1, 100))
 
@@ -91,6 +93,17 @@ class RosComponent:
         channel = self.ports.proxy(self.endpoint(interface, port, Qos(), peers, "server"))
         channel.timeout = timeout
         return channel.bind(interface.operation(operation))
+
+    def answered(
+        self, interface: Interface, operation: str, port: str, *peers: str, request: Any
+    ) -> Any:
+        """The reply to a request.
+
+        It is repeated: a DDS server on a busy machine may reply before it has discovered the
+        client, which then gets nothing.
+        """
+        call = self.caller(interface, operation, port, *peers, timeout=5.0)
+        return wait_until(lambda: call(request), ignoring=Timeout)
 
     def publisher(
         self, interface: Interface, port: str, *peers: str, qos: Qos | None = None

@@ -59,12 +59,10 @@ def test_peer_receives_and_sends_topics(ros_network: RosNetwork, peer: PeerProce
 
 
 def test_peer_service_is_called(service_network: RosNetwork, peer: PeerProcess) -> None:
-    call = service_network.component("user").caller(
-        SWITCH, "set", "Switch", "/peer/set", timeout=60.0
-    )
-    name = PEERS[service_network.kind]
-    assert call(SetBoolRequest(True)) == SetBoolResponse(True, name)
-    assert call(SetBoolRequest(False)) == SetBoolResponse(False, name)
+    user = service_network.component("user")
+    for data in (True, False):
+        reply = user.answered(SWITCH, "set", "Switch", "/peer/set", request=SetBoolRequest(data))
+        assert reply == SetBoolResponse(data, PEERS[service_network.kind])
 
 
 def test_peer_calls_a_service_of_a_component(

@@ -7,7 +7,7 @@ import threading
 import pytest
 
 from robocomp_dsl.runtime import types as rt
-from robocomp_dsl.runtime.errors import InterfaceMismatch, MiddlewareError, NoServer
+from robocomp_dsl.runtime.errors import InterfaceMismatch, MiddlewareError, NoServer, Timeout
 from tests.middleware.network import DEADLINE
 from tests.middleware.ros2.ros_messages import (
     BASE,
@@ -29,9 +29,11 @@ def _set(request: SetBoolRequest) -> SetBoolResponse:
 
 def test_service_of_a_component_is_called(service_network: RosNetwork) -> None:
     service_network.component("lamp").serve(SWITCH, {"set": _set}, "Switch")
-    call = service_network.component("user").caller(SWITCH, "set", "Switch")
-    assert call(SetBoolRequest(True)) == SetBoolResponse(True, "ünder")
-    assert call(SetBoolRequest(False)) == SetBoolResponse(False, "")
+    user = service_network.component("user")
+    reply = user.answered(SWITCH, "set", "Switch", request=SetBoolRequest(True))
+    assert reply == SetBoolResponse(True, "ünder")
+    reply = user.answered(SWITCH, "set", "Switch", request=SetBoolRequest(False))
+    assert reply == SetBoolResponse(False, "")
 
 
 def test_service_port_with_several_operations_has_a_name_for_each(
@@ -49,26 +51,27 @@ def test_service_port_with_several_operations_has_a_name_for_each(
         "Base",
     )
     user = service_network.component("user")
-    assert user.caller(BASE, "enable", "Base", "/robot")(SetBoolRequest(True)).success
-    assert user.caller(BASE, "stop", "Base")(TriggerRequest()) == TriggerResponse(True, "stopped")
+    reply = user.answered(BASE, "enable", "Base", "/robot", request=SetBoolRequest(True))
+    assert reply.success
+    reply = user.answered(BASE, "stop", "Base", request=TriggerRequest())
+    assert reply == TriggerResponse(True, "stopped")
     user.caller(BASE, "say", "Base")(String("hello"))
     wait_until(lambda: texts == ["hello"])
 
 
 def test_service_handlers_of_two_components_call_each_other(service_network: RosNetwork) -> None:
     left, right = service_network.component("left"), service_network.component("right")
-    call_left = right.caller(SWITCH, "set", "Switch", "left", timeout=DEADLINE)
-    call_right = left.caller(SWITCH, "set", "Switch", "right", timeout=DEADLINE)
+    call_left = right.caller(SWITCH, "set", "Switch", "left", timeout=1.0)
+    call_right = left.caller(SWITCH, "set", "Switch", "right", timeout=2.0)
 
     def ask_right(request: SetBoolRequest) -> SetBoolResponse:
         return call_right(request) if request.data else SetBoolResponse(True, "left")
 
     left.serve(SWITCH, {"set": ask_right}, "Switch")
     right.serve(SWITCH, {"set": lambda _: call_left(SetBoolRequest(False))}, "Switch")
-    caller = service_network.component("user").caller(
-        SWITCH, "set", "Switch", "left", timeout=DEADLINE
-    )
-    assert caller(SetBoolRequest(True)).message == "left"
+    user = service_network.component("user")
+    reply = user.answered(SWITCH, "set", "Switch", "left", request=SetBoolRequest(True))
+    assert reply.message == "left"
 
 
 def test_service_calls_of_several_threads_get_their_own_replies(
@@ -76,19 +79,18 @@ def test_service_calls_of_several_threads_get_their_own_replies(
 ) -> None:
     service_network.component("lamp", threads=4).serve(SWITCH, {"set": _set}, "Switch")
     call = service_network.component("user", threads=4).caller(SWITCH, "set", "Switch")
-    wrong: list[object] = []
+    wait_until(lambda: call(SetBoolRequest(True)), ignoring=Timeout)
+    replies: list[bool] = []
 
     def repeat(data: bool) -> None:
-        wrong.extend(
-            reply for _ in range(50) if (reply := call(SetBoolRequest(data))).success is not data
-        )
+        replies.extend(call(SetBoolRequest(data)).success is data for _ in range(50))
 
     threads = [threading.Thread(target=repeat, args=(i % 2 == 0,)) for i in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join(DEADLINE)
-    assert not wrong
+    assert replies == [True] * 200
 
 
 def test_service_call_ends_when_the_component_stops(service_network: RosNetwork) -> None:
