@@ -43,7 +43,7 @@ BUILTINS = frozenset(_BUILTINS.split())
 """Python's own names; a list, because `dir(builtins)` differs between versions."""
 
 _MODULE = """INTERFACE SCHEMA SPEC annotations np rt main interfaces params genericworker
-specificworker Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
+specificworker Annotated Any Callable overload Literal GenericWorker SpecificWorker Component ComponentSpec
 CalledPort ServedPort Group Parameter ParameterGroup Parameters initialize compute emergency restore
 finalize"""
 MODULE = frozenset(_MODULE.split())

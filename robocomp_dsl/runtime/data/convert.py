@@ -123,7 +123,9 @@ def _int(type_: Primitive, value: Any) -> int:
     except TypeError:
         raise EncodeError(f"takes an integer ({type_.name}), not {described(value)}") from None
     bits = 8 * type_.size
-    low, high = (0, 2**bits - 1) if type_.code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    low, high = (
+        (0, 2**bits - 1) if type_.code.isupper() else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    )
     if not low <= number <= high:
         raise EncodeError(f"{number} does not fit into a {type_.name} ({low} to {high})")
     return number
