@@ -10,6 +10,7 @@ from collections.abc import Iterator
 import pytest
 import zenoh
 
+from robocomp_dsl.runtime.connection.endpoint import Qos
 from robocomp_dsl.runtime.middleware.rmw_zenoh.operations import service_info, topic_info
 from robocomp_dsl.runtime.middleware.rmw_zenoh.wire import attachment
 from tests.middleware.ros2.ros_messages import (
@@ -52,7 +53,7 @@ def test_topic_with_mutated_bytes_counts_malformed_messages(
 ) -> None:
     scans: list[LaserScan] = []
     component = zenoh_network.component("component")
-    component.subscribe(SCAN, scans.append, "In", "/scan")
+    component.subscribe(SCAN, scans.append, "In", "/scan", qos=Qos(depth=4000))
     key = topic_info("/scan", SCAN, SCAN.operations[0]).key(zenoh_network.domain_id)
     valid = SCAN.operations[0].encode_request((LaserScan(ranges=[1.0, 2.0]),))
     publisher = session.declare_publisher(key, congestion_control=zenoh.CongestionControl.BLOCK)
@@ -66,7 +67,7 @@ def test_topic_with_mutated_bytes_counts_malformed_messages(
     scans.clear()
     wait_until(lambda: (publisher.put(valid), any(s == LaserScan(ranges=[1, 2]) for s in scans))[1])
     counts = component.counts("In", "scanned")
-    assert counts.malformed > 100
+    assert counts.malformed > 500
     assert counts.failures == counts.malformed
     assert component.failures == []
 
