@@ -3,7 +3,7 @@
 The peer answers each command line with a line of JSON. All peers have: the service `/peer/set`
 (std_srvs/SetBool, replies with its own name), an echo from the topic `/peer/in` to `/peer/out`
 (std_msgs/String), and the latched topic `/peer/map`. Commands: `call NAME`, `received TOPIC`,
-`subscribe TOPIC`, `raw TOPIC HEX`, `publish TOPIC TEXT`.
+`subscribe TOPIC [latched]`, `raw TOPIC HEX`, `publish TOPIC TEXT`, `subscribers TOPIC`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,14 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import pytest
+
+from tests.middleware.ros2.ros_network import RosNetwork
+
 ROOT = Path(__file__).parents[3]
+PEERS = {"rmw_zenoh": "sdk", "ros2": "rclpy", "dds": "rclpy"}
+"""The program that each middleware can reach."""
+MODULES = {"sdk": "zenoh_ros2_sdk", "rclpy": "rclpy"}
 
 
 class PeerProcess:
@@ -48,3 +55,12 @@ class PeerProcess:
         for stream in (self._process.stdin, self._process.stdout):
             if stream:
                 stream.close()
+
+
+def start_peer(network: RosNetwork) -> PeerProcess:
+    """The peer that the middleware of `network` can reach; skips the test without it."""
+    program = PEERS[network.kind]
+    pytest.importorskip(MODULES[program], reason="`make test-peers` runs it in build/peers-venv")
+    port = network.router_address.rpartition(":")[2]
+    arguments = [str(network.domain_id), *([port] if port else [])]
+    return PeerProcess(f"{program}_peer", *arguments)

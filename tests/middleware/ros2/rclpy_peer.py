@@ -50,9 +50,10 @@ class Peer:
     def received(self, topic):
         return self.messages[topic]
 
-    def subscribe(self, topic):
+    def subscribe(self, topic, latched=""):
         messages = self.messages[topic] = []
-        self.node.create_subscription(String, topic, lambda m: messages.append(m.data), LATCHED)
+        qos = LATCHED if latched else QoSProfile(depth=10)
+        self.node.create_subscription(String, topic, lambda m: messages.append(m.data), qos)
 
     def publisher(self, topic):
         if topic not in self.publishers:

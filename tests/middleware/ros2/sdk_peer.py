@@ -45,13 +45,13 @@ class Peer:
     def received(self, topic):
         return self.messages[topic]
 
-    def subscribe(self, topic):
+    def subscribe(self, topic, latched=""):
         messages = self.messages[topic] = []
-        self.clients.append(
-            ROS2Subscriber(
-                topic, callback=lambda m: messages.append(m.data), qos=LATCHED, **STRING, **self.at
-            )
+        qos = LATCHED if latched else None
+        subscriber = ROS2Subscriber(
+            topic, callback=lambda m: messages.append(m.data), qos=qos, **STRING, **self.at
         )
+        self.clients.append(subscriber)
 
     def publisher(self, topic):
         if topic not in self.publishers:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from robocomp_dsl.runtime.connection.endpoint import Qos
-from tests.middleware.ros2.peer_process import PeerProcess
+from tests.middleware.ros2.peer_process import PEERS, PeerProcess, start_peer
 from tests.middleware.ros2.ros_messages import (
     CHAT,
     SCAN,
@@ -28,22 +28,14 @@ from tests.middleware.ros2.ros_network import RosNetwork
 from tests.support.waiting import wait_until
 
 pytestmark = pytest.mark.peers
-PEERS = {"rmw_zenoh": "sdk", "ros2": "rclpy", "dds": "rclpy"}
-MODULES = {"sdk": "zenoh_ros2_sdk", "rclpy": "rclpy"}
 MUTATIONS = 300
 
 
 @pytest.fixture
 def peer(request: pytest.FixtureRequest) -> Iterator[PeerProcess]:
     """The peer that the middleware of the test can reach."""
-    network: RosNetwork = request.getfixturevalue(
-        "ros_network" if "ros_network" in request.fixturenames else "service_network"
-    )
-    program = PEERS[network.kind]
-    pytest.importorskip(MODULES[program], reason="`make test-peers` runs it in build/peers-venv")
-    port = network.router_address.rpartition(":")[2]
-    arguments = [str(network.domain_id), *([port] if port else [])]
-    process = PeerProcess(f"{program}_peer", *arguments)
+    fixture = "ros_network" if "ros_network" in request.fixturenames else "service_network"
+    process = start_peer(request.getfixturevalue(fixture))
     yield process
     process.close()
 
@@ -81,7 +73,7 @@ def test_peer_that_comes_late_receives_a_latched_topic(
     publish, _ = component.publisher(CHAT, "Map", qos=Qos(latched=True, depth=1))
     publish(String("old"))
     publish(String("latest"))
-    peer.command("subscribe", "/robot_map")
+    peer.command("subscribe", "/robot_map", "latched")
     wait_until(lambda: peer.command("received", "/robot_map"))
     assert peer.command("received", "/robot_map") == ["latest"]
 

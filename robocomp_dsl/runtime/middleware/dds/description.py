@@ -1,7 +1,7 @@
 """What the middleware `dds` can do."""
 
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
-from robocomp_dsl.runtime.middleware.ros_common.names import VALID_NAMES
+from robocomp_dsl.runtime.middleware.ros_common.valid_names import VALID_NAMES
 
 MIDDLEWARE = MiddlewareDescription(
     name="dds",

@@ -54,7 +54,7 @@ class DdsTransport:
     def subscribe(self, port: IncomingPort) -> DdsSubscription:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=True)
-        topics = subscribed_topics(port.at, self._context.addresses, MIDDLEWARE.name)
+        topics = subscribed_topics(port.at, MIDDLEWARE.name)
         return DdsSubscription(self._participant, port, topics)
 
     def close(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from robocomp_dsl.runtime.middleware.capabilities import Capabilities, MiddlewareDescription
-from robocomp_dsl.runtime.middleware.ros_common.names import VALID_NAMES
+from robocomp_dsl.runtime.middleware.ros_common.valid_names import VALID_NAMES
 
 MIDDLEWARE = MiddlewareDescription(
     name="rmw_zenoh",

@@ -56,7 +56,7 @@ class RmwZenohTransport:
     def subscribe(self, port: IncomingPort) -> RmwZenohSubscription:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=True)
-        topics = subscribed_topics(port.at, self._context.addresses, MIDDLEWARE.name)
+        topics = subscribed_topics(port.at, MIDDLEWARE.name)
         return RmwZenohSubscription(self._session, port, topics)
 
     def close(self) -> None:

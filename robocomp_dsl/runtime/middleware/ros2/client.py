@@ -70,7 +70,7 @@ class Ros2Client:
         type_ = service_type(operation)
         class_ = service_class(type_, self._at.port)
         name = operation_name(self._name, self._at.interface, operation)
-        client = self._ros.node.create_client(class_, name)
+        client = self._ros.create("client", class_, name, port=self._at.port)
         self._clients.append(client)
         decode, timeout, waiting = padded(operation.decode_reply), self._timeout, self._waiting
 

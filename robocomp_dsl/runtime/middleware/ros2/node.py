@@ -55,6 +55,18 @@ class RclpyNode:
         self._thread = threading.Thread(target=self._spin, name=f"{component} rclpy", daemon=True)
         self._thread.start()
 
+    def create(
+        self, kind: str, type_: Any, name: str, *options: Any, port: str, **more: Any
+    ) -> Any:
+        """A `kind` of entity: publisher, subscription, service or client.
+
+        Raises `MiddlewareError` with the port, for example if ROS has the name with another type.
+        """
+        try:
+            return getattr(self.node, f"create_{kind}")(type_, name, *options, **more)
+        except Exception as error:
+            raise MiddlewareError(f"{port}: ROS cannot open the {kind} {name}: {error}") from None
+
     def _spin(self) -> None:
         while not self._is_closed:
             try:

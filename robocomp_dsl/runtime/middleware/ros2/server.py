@@ -67,7 +67,7 @@ class _ServiceEndpoint:
         class_ = service_class(service_type(operation), port.at.port)
         self._response_class = class_.Response
         full = operation_name(name, port.interface, operation)
-        self._service: Any = ros.node.create_service(class_, full, _request)
+        self._service: Any = ros.create("service", class_, full, _request, port=port.at.port)
         self._send_response = self._service.send_response
         self._service.send_response = self._enqueue
 

@@ -36,10 +36,12 @@ class Ros2Writer:
         self._ros = ros
         self.topic = operation_name(name, at.interface, operation)
         type_ = topic_type(operation)
-        self._publisher = ros.node.create_publisher(
+        self._publisher = ros.create(
+            "publisher",
             message_class(type_, at.port),
             self.topic,
             publisher_profile(at.qos),
+            port=at.port,
             event_callbacks=PublisherEventCallbacks(
                 incompatible_qos=_qos_warning(at.port, self.topic), use_default_callbacks=False
             ),
@@ -75,11 +77,13 @@ class Ros2Receiver:
         at = port.at
         topic = operation_name(name, at.interface, served.operation)
         type_ = topic_type(served.operation)
-        self._subscription = ros.node.create_subscription(
+        self._subscription = ros.create(
+            "subscription",
             message_class(type_, at.port),
             topic,
             self._receive,
             subscription_profile(at.qos),
+            port=at.port,
             event_callbacks=SubscriptionEventCallbacks(
                 incompatible_qos=_qos_warning(at.port, topic),
                 message_lost=self._count_lost,
@@ -132,11 +136,12 @@ def _qos_warning(port: str, topic: str) -> Any:
     def warn(event: Any) -> None:
         policy = getattr(event.last_policy_kind, "name", event.last_policy_kind)
         log.warning(
-            "%s: a ROS endpoint on %s has another quality of service (%s), so that nothing is"
-            " received; change it with --qos, for example reliable=false",
+            "%s: nothing is exchanged with a ROS endpoint on %s, because its %s differs;"
+            " change the quality of service of one side, here with --qos %s=…",
             port,
             topic,
             str(policy).rpartition("_")[2].lower(),
+            port,
         )
 
     return warn

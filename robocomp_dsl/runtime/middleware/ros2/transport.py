@@ -57,7 +57,7 @@ class Ros2Transport:
     def subscribe(self, port: IncomingPort) -> Ros2Subscription:
         """See `transport.Transport`."""
         require_ros_types(port.interface, port.at.port, published=True)
-        topics = subscribed_topics(port.at, self._context.addresses, MIDDLEWARE.name)
+        topics = subscribed_topics(port.at, MIDDLEWARE.name)
         return Ros2Subscription(self._ros, self._graph, port, topics)
 
     def close(self) -> None:

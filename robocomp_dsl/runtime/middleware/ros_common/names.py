@@ -13,9 +13,8 @@ from collections.abc import Mapping
 from robocomp_dsl.runtime.component.interface import Interface, Operation
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
 from robocomp_dsl.runtime.errors import MiddlewareError
+from robocomp_dsl.runtime.middleware.ros_common.valid_names import VALID_NAMES
 
-VALID_NAMES = r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*"
-"""Names of components and ports of which a ROS name can be made."""
 MAX_LENGTH = 240
 """Characters of a name: DDS allows 256, with the prefix and suffix that ROS adds."""
 _NAME = re.compile(VALID_NAMES)

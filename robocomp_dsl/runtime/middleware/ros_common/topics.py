@@ -7,20 +7,17 @@ own: they publish there, too, when they are attached.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from robocomp_dsl.runtime.component.naming import ANY
 from robocomp_dsl.runtime.connection.endpoint import Endpoint
-from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name, port_name
+from robocomp_dsl.runtime.middleware.ros_common.names import absolute_name
 
 _SEPARATOR = ","
 
 
-def subscribed_topics(
-    at: Endpoint, addresses: Mapping[str, str], middleware: str
-) -> tuple[str, ...]:
+def subscribed_topics(at: Endpoint, middleware: str) -> tuple[str, ...]:
     """The topics of a subscribed port, its own first. Raises `MiddlewareError`."""
-    names = [port_name(at, addresses)]
+    # A component may publish a port of the same name.
+    names = [absolute_name(f"{at.component}/{at.port}/in", at.port)]
     names += [
         absolute_name(record.address, at.port)
         for record in at.external
